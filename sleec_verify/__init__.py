@@ -1,0 +1,1 @@
+"""What the people around the robot use: proves things about SLEEC rules, and that code does what they say."""
