@@ -1,0 +1,76 @@
+# All that is needed is Python (3.10 to 3.13), git and make: each target sets up .venv on its own.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+# Named after the lock's content: with another lock, the environment is made anew.
+LOCKED := $(VENV)/lock-$(firstword $(shell cksum <requirements-dev.lock))
+INSTALLED := $(VENV)/installed
+# Where the index lacks a folder that pip was told of, pip says so once for each package.
+PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input
+
+.PHONY: help setup demo test lint types check-tests long bench mutants lock clean
+
+help:
+	@echo 'make demo     check the shipped rulesets and ask one question of them'
+	@echo 'make test     lint, types, and every test but the long ones'
+	@echo 'make long     the long tests'
+	@echo 'make bench    the measurements of benchmarks/'
+	@echo 'make mutants  mutation testing of the core'
+	@echo 'make lock     renew requirements-dev.lock from pyproject.toml'
+	@echo 'make clean    remove .venv and what tests leave behind'
+
+setup: $(INSTALLED)
+
+$(LOCKED):
+	@$(PYTHON) -c 'import sys; sys.exit(not (3, 10) <= sys.version_info < (3, 14))' \
+	  || { echo 'Python 3.10 to 3.13 is needed; say which with: make PYTHON=python3.12 …'; exit 1; }
+	@echo 'Setting up $(VENV) (about half a minute) …'
+	@rm -rf $(VENV)
+	@$(PYTHON) -m venv $(VENV) \
+	  || { echo 'No venv: on Debian and Ubuntu, install the package python3-venv'; exit 1; }
+	@$(PIP) install --use-pep517 -r requirements-dev.lock
+	@touch $@
+
+# In its own step, so that a change of pyproject.toml costs no new environment. "compat" is one line in a .pth
+# file; the other modes run code in every start of Python.
+$(INSTALLED): $(LOCKED) pyproject.toml
+	@$(PIP) install --no-deps --no-build-isolation --config-settings editable_mode=compat -e .
+	@touch $@
+
+demo: $(INSTALLED)
+	@PATH="$(CURDIR)/$(BIN):$$PATH" ./demo.sh
+
+test: lint types check-tests
+
+lint: $(INSTALLED)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(INSTALLED)
+	$(BIN)/mypy
+
+check-tests: $(INSTALLED)
+	$(BIN)/pytest --cov --cov-report=term
+
+long: $(INSTALLED)
+	HYPOTHESIS_PROFILE=long $(BIN)/pytest -m long --timeout=7200
+
+bench: $(INSTALLED)
+	$(BIN)/python -m benchmarks
+
+mutants: $(INSTALLED)
+	@$(PIP) install --no-build-isolation --config-settings editable_mode=compat -e '.[mutants]'
+	$(BIN)/mutmut run
+	$(BIN)/mutmut results
+
+# The oldest Python decides: what it can install, the others can too.
+lock:
+	@rm -rf $(VENV)-lock && python3.10 -m venv $(VENV)-lock
+	$(VENV)-lock/bin/pip install --quiet --disable-pip-version-check --use-pep517 '.[dev]' 'setuptools>=77'
+	$(VENV)-lock/bin/pip freeze --all --exclude pip --exclude sleec-verify \
+	  | sed -e 's/^\(exceptiongroup\|tomli\|backports.*\)==.*/&; python_version < "3.11"/' > requirements-dev.lock
+	@rm -rf $(VENV)-lock
+
+clean:
+	rm -rf $(VENV) $(VENV)-* build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis .coverage* mutants

@@ -1,0 +1,1 @@
+"""Measurements that the docs quote, each a module here with a `main`."""
