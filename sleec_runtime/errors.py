@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from sleec_runtime.conflicts import Conflict
     from sleec_runtime.model import Source, Span
 
 
@@ -53,3 +54,107 @@ class LanguageError(SleecError):
 
 class UnreadableFile(SleecError):
     """A file that cannot be read as text: missing, forbidden, not UTF-8, or holding a NUL byte."""
+
+
+# What the runtime refuses, before anything is executed ----------------------------------------------------
+
+
+class WrongType(SleecError):
+    """A value that does not fit its condition or measure; `name` is that of the condition or measure."""
+
+    def __init__(self, name: str, value: object, expected: str, hint: str | None = None) -> None:
+        super().__init__(f"{name} is {expected}, and {value!r} is not", hint)
+        self.name = name
+
+
+class UnknownName(SleecError, LookupError):
+    """A name that the ruleset does not know. `name` is the name; the hint suggests the nearest known one."""
+
+    kind = "name"
+
+    def __init__(self, name: str, known: Iterable[str], hint: str | None = None) -> None:
+        super().__init__(f"unknown {self.kind} {name!r}", hint or self._suggestion(name, sorted(known)))
+        self.name = name
+
+    def _suggestion(self, name: str, known: Sequence[str]) -> str:
+        from difflib import get_close_matches
+
+        folded = {other.casefold(): other for other in known}
+        near = get_close_matches(name.casefold(), folded, n=1)
+        if near:
+            return f"did you mean {folded[near[0]]}?"
+        if not known:
+            return f"the ruleset has no {self.kind}"
+        return f"the ruleset has {', '.join(known[:8])}{', …' if len(known) > 8 else ''}"
+
+
+class UnknownLabel(UnknownName):
+    kind = "rule"
+
+
+class UnknownLayer(UnknownName, KeyError):
+    kind = "layer"
+
+
+class UnknownTrigger(UnknownName):
+    kind = "trigger"
+
+
+class UnknownCondition(UnknownName):
+    kind = "condition or measure"
+
+
+class UnknownObligation(UnknownName):
+    kind = "obligation"
+
+
+class UnknownDomain(UnknownName):
+    kind = "domain"
+
+
+class NotBound(SleecError):
+    """Rules that have nothing to run, or not all of it: no method, or no variant for a clause that obliges something.
+    `rules` are their labels."""
+
+    def __init__(self, message: str, rules: Sequence[str], hint: str | None = None) -> None:
+        super().__init__(message, hint)
+        self.rules = tuple(rules)
+
+
+class AlreadyBound(SleecError):
+    """A second method for a rule: the method manager MM gives each rule one (paper, Section 3.2)."""
+
+
+class Unbindable(SleecError):
+    """What cannot be a rule's method: it is not marked, or something besides the rule would choose its variant."""
+
+
+class UndeterminedDecision(SleecError):
+    """Strict mode: the decision depends on conditions that nobody reported. `missing` names them."""
+
+    def __init__(self, triggers: Sequence[str], missing: Sequence[str]) -> None:
+        super().__init__(
+            f"what {' and '.join(triggers)} calls for depends on what nobody reported: {', '.join(missing)}",
+            "report these with update(), or load the ruleset without strict",
+        )
+        self.missing = tuple(missing)
+
+
+class ConflictInContext(SleecError):
+    """What is due cannot all be done in this context, so nothing is. `conflict` holds the smallest cause."""
+
+    def __init__(self, message: str, conflict: Conflict) -> None:
+        super().__init__(message, "nothing was executed; `sleec-verify check` finds every such context beforehand")
+        self.conflict = conflict
+
+
+class NeedsAwait(SleecError):
+    """A coroutine function among the variants of a trigger that was not awaited."""
+
+
+class VariantsFailed(SleecError):
+    """Several variants of one dispatch raised. `errors` pairs the label of each rule with what its variant raised."""
+
+    def __init__(self, errors: Sequence[tuple[str, Exception]]) -> None:
+        super().__init__("; ".join(f"{label}: {error!r}" for label, error in errors))
+        self.errors = tuple(errors)

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, Union
 
+from sleec_runtime.errors import WrongType
 from sleec_runtime.model import (
     And,
     Assume,
@@ -39,7 +40,7 @@ from sleec_runtime.model import (
     leaves,
     measures_of,
 )
-from sleec_runtime.values import WrongType, exact, fit
+from sleec_runtime.values import exact, fit
 
 NO_MEASURES: Mapping[str, Measure] = MappingProxyType({})
 _NOTHING_OBLIGED: Mapping[str, bool] = MappingProxyType({})

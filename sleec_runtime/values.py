@@ -8,18 +8,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sleec_runtime.errors import SleecError
+from sleec_runtime.errors import WrongType
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Measure, Rational, Value
-
-
-class WrongType(SleecError):
-    """A value that does not fit its condition or measure; `name` is that of the condition or measure."""
-
-    def __init__(self, name: str, value: object, expected: str, hint: str | None = None) -> None:
-        super().__init__(f"{name} is {expected}, and {value!r} is not", hint)
-        self.name = name
 
 
 def exact(value: object) -> Rational | None:

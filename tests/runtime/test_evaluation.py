@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from sleec_runtime.errors import WrongType
 from sleec_runtime.evaluation import (
     Decision,
     Undetermined,
@@ -38,7 +39,6 @@ from sleec_runtime.model import (
     ScaleValue,
     Truth,
 )
-from sleec_runtime.values import WrongType
 
 RISK = {"Risk": Measure("Risk", "scale", ("low", "moderate", "severe"))}
 
