@@ -1,0 +1,324 @@
+"""A place in the tokens, and what every part of the parser does there: read names, report, and find its feet again.
+
+One mistake is reported once. After a problem the rest of the clause it stands in is silent (`hurt`), and parsing goes
+on at the next keyword that surely starts something new.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable
+from typing import NoReturn
+
+from sleec_runtime.errors import Problem
+from sleec_runtime.language.scanner import KEYWORDS, PHRASE, STATEMENTS, TIMES, Tokens
+from sleec_runtime.language.suggest import near_keyword
+from sleec_runtime.model import NO_COMMENTS, Comments, Source, Span
+
+MAX_DEPTH = 100
+"""How deep parentheses and NOTs may be nested: far deeper than people read, far shallower than Python's stack."""
+
+MAX_NAME = 200
+"""The longest name, in characters. A longer one is a text in which keywords are missing."""
+
+_INNER_CAPITAL = re.compile(r"[^\W\d_][^\s]*?(?<=[^\W\d_A-Z])[A-Z]|_")
+_CAPITALISED = {word.capitalize(): word for word in ("WHEN", "IF", "THEN", "UNLESS", "AND", "OR", "NOT", "RULE")}
+_JOINERS = frozenset({"and", "or", "not"})
+
+_INSTEAD = {
+    "&": "write AND",
+    "&&": "write AND",
+    "|": "write OR",
+    "||": "write OR",
+    "!": "write NOT",
+    "{": "use round parentheses ( )",
+    "}": "use round parentheses ( )",
+    "[": "use round parentheses ( )",
+    "]": "use round parentheses ( )",
+    ";": "rules need no punctuation between them; leave it out",
+    '"': "write names and phrases without quotation marks",
+    "'": "write names and phrases without quotation marks",
+    "\u201c": "write names and phrases without quotation marks",
+    "\u201d": "write names and phrases without quotation marks",
+    "\u2018": "write names and phrases without quotation marks",
+    "\u2019": "write names and phrases without quotation marks",
+    "=>": "write >= for 'at least', or THEN before a response",
+    "=<": "write <=",
+    ":=": "write =",
+    "->": "write THEN",
+    "-->": "write THEN",
+    "\u2192": "write THEN",
+    "%": "write the number alone, and the unit in the measure's name",
+    "/": "comments start with // or #",
+}
+
+
+class Abandon(Exception):
+    """The clause at hand cannot be read further. The problem has been reported; parsing goes on elsewhere."""
+
+
+class Cursor:
+    """Where the parser stands in `tokens`, and the problems that it has met so far."""
+
+    def __init__(self, source: Source, tokens: Tokens, problems: list[Problem]) -> None:
+        self.source = source
+        self.problems = problems
+        self.text = source.text
+        self.kinds = tokens.kinds
+        self.starts = tokens.starts
+        self.ends = tokens.ends
+        self.comments = tokens.comments
+        self.at = 0
+        self.depth = 0
+        self.deepest = 0
+        self.hurt = False
+        self._phrase = (0, 0)
+
+    # Places ---------------------------------------------------------------------------------------------------
+
+    def span(self, first: int) -> Span:
+        """From token `first` to the last one read."""
+        return Span(self.starts[first], self.ends[self.at - 1])
+
+    def token_span(self, token: int) -> Span:
+        return Span(self.starts[token], self.ends[token])
+
+    def token_text(self, token: int) -> str:
+        return self.text[self.starts[token] : self.ends[token]]
+
+    def comments_of(self, token: int) -> Comments:
+        return self.comments.get(token, NO_COMMENTS)
+
+    def starts_line(self, token: int) -> bool:
+        return token == 0 or "\n" in self.text[self.ends[token - 1] : self.starts[token]]
+
+    # Problems -------------------------------------------------------------------------------------------------
+
+    def problem(self, message: str, span: Span, hint: str | None = None) -> None:
+        """Reports a problem, unless this clause already has one."""
+        if not self.hurt:
+            self.hurt = True
+            self.problems.append(Problem(message, span, hint))
+
+    def fail(self, message: str, span: Span, hint: str | None = None) -> NoReturn:
+        """Reports a problem and gives the clause up."""
+        self.problem(message, span, hint)
+        raise Abandon
+
+    def expected(self, what: str, hint: str | None = None) -> NoReturn:
+        """Gives up because the token at hand is not `what`. The cause may stand a little earlier: a keyword that the
+        phrase before it has swallowed, because it was not in capitals."""
+        self._blame_phrase()
+        at = self.at
+        kind = self.kinds[at]
+        if kind == "word":
+            meant = near_keyword(self.token_text(at).upper())
+            if meant is not None and (meant in what or self.token_text(at).isupper()):
+                self.misspelt(at, meant)
+                raise Abandon
+        if kind == "strange":
+            self.fail(f"unexpected {quoted(self.token_text(at))}; expected {what}", self.token_span(at), self._instead(at, hint))
+        if kind in TIMES:
+            self.fail(
+                f"{kind} is not supported yet: this version reads rules without times",
+                self.token_span(at),
+                "leave the time out for now",
+            )
+        if kind == "end":
+            end = self.ends[at - 1] if at else 0
+            self.fail(f"expected {what}, but the text ends here", Span(end, end), hint)
+        self.fail(f"expected {what}, but found {self.found(at)}", self.token_span(at), hint)
+
+    def found(self, token: int) -> str:
+        """The token as a message quotes it."""
+        return quoted(self.token_text(token))
+
+    def misspelt(self, token: int, keyword: str) -> None:
+        """Reports a misspelt keyword and goes on as if it were right: it never hurts the clause."""
+        written = self.token_text(token)
+        if written.upper() == keyword:
+            message = f"keywords are written in capitals: {keyword} instead of {quoted(written)}"
+            hint = "if it is meant as a word of a phrase, put it elsewhere in the line or choose another word"
+        else:
+            message = f"{quoted(written)} is no keyword; did you mean {keyword}?"
+            hint = "words in capitals are taken for keywords; if it is a word of a phrase, write it in small letters"
+        self.problems.append(Problem(message, self.token_span(token), hint))
+        self.kinds[token] = keyword
+
+    def skip(self, stops: Iterable[str]) -> None:
+        """On to the next token whose kind is among `stops`, or to the end."""
+        kinds, at = self.kinds, self.at
+        while kinds[at] not in stops and kinds[at] != "end":
+            at += 1
+        self.at = at
+
+    def deeper(self) -> None:
+        """One parenthesis or NOT further in."""
+        self.depth += 1
+        if self.depth > self.deepest:
+            self.deepest = self.depth
+            if self.depth > MAX_DEPTH:
+                self.too_deep()
+
+    def too_deep(self) -> NoReturn:
+        self.fail(
+            f"nested too deeply: more than {MAX_DEPTH} levels of parentheses or NOT",
+            self.token_span(self.at),
+            "name a part of the condition, or split the rule in two",
+        )
+
+    def missing_parenthesis(self, opened: int) -> NoReturn:
+        place = self.source.place(self.token_span(opened))
+        self.expected(f"a closing parenthesis for the one opened in line {place.line}, column {place.column}")
+
+    def end_of_statement(self, what: str) -> None:
+        """Makes sure that the next token starts something new. A full stop before it is allowed."""
+        if self.kinds[self.at] == "." and (self.kinds[self.at + 1] in STATEMENTS or self.kinds[self.at + 1] == "end"):
+            self.at += 1
+        kind = self.kinds[self.at]
+        if kind in STATEMENTS or kind == "end":
+            return
+        if kind == ")":
+            self.fail("this closing parenthesis has no opening one", self.token_span(self.at), "delete it")
+        if kind == "UNLESS":
+            self.expected(what, "UNLESS belongs to a rule")
+        if kind == ",":
+            self.expected(what, "AND joins conditions and obligations; commas stand in lists of declarations only")
+        self.expected(what)
+
+    def _instead(self, token: int, hint: str | None) -> str | None:
+        written = self.token_text(token)
+        if written in _INSTEAD:
+            return _INSTEAD[written]
+        if unicodedata.category(written) in ("Cf", "Cc", "Zs"):
+            name = unicodedata.name(written, "a control character").lower()
+            return f"it is a character that cannot be seen (U+{ord(written):04X}, {name}); delete it"
+        return hint
+
+    def _blame_phrase(self) -> None:
+        first, behind = self._phrase
+        if behind != self.at:
+            return
+        for token in range(first + 1, behind):
+            keyword = self.token_text(token).upper()
+            if keyword in KEYWORDS and self.kinds[token] == "word":
+                self.at = token
+                self.misspelt(token, keyword)
+                self.hurt = True
+                raise Abandon
+
+    # Names ----------------------------------------------------------------------------------------------------
+
+    def name(self, what: str, hint: str | None = None) -> str:
+        """Reads a name, or a phrase of plain words that stands for one.
+
+        An empty string: its first word was a misspelt keyword. It has been reported and mended; look again.
+        """
+        at = self.at
+        kinds = self.kinds
+        if kinds[at] != "word":
+            self._no_name(what, hint)
+        if kinds[at + 1] in PHRASE:
+            return self._phrase_of_words(what)
+        self.at = at + 1
+        start, end = self.starts[at], self.ends[at]
+        word = self.text[start:end]
+        if end - start > MAX_NAME:
+            self.fail(
+                f"this name has {end - start:,} characters, more than {MAX_NAME}",
+                Span(start, start + MAX_NAME),
+                "is a blank missing?",
+            )
+        if word in ("true", "false"):
+            self.fail(f"{word} is a truth value and cannot be {what}", Span(start, end), "choose another name")
+        return word if word.isascii() else unicodedata.normalize("NFC", word)
+
+    def _no_name(self, what: str, hint: str | None) -> NoReturn:
+        kind = self.kinds[self.at]
+        if kind in ("number", "digits"):
+            self.fail(
+                f"expected {what}, but found {self.found(self.at)}: a name begins with a letter",
+                self.token_span(self.at),
+                "put a word before the number, as in: at least 3 people",
+            )
+        if kind == "dotted":
+            self.fail(
+                f"expected {what}, but {self.found(self.at)} has a dot in it",
+                self.token_span(self.at),
+                "only labels of rules may have dots; a full stop is followed by a blank",
+            )
+        self.expected(what, hint)
+
+    def _phrase_of_words(self, what: str) -> str:
+        first = self.at
+        kinds = self.kinds
+        words: list[str] = []
+        camel = False
+        length = 0
+        while kinds[self.at] in PHRASE:
+            token = self.at
+            word = self.token_text(token)
+            length += len(word) + 1
+            if length > MAX_NAME:
+                self.fail(
+                    f"this phrase is longer than {MAX_NAME} characters",
+                    Span(self.starts[first], self.ends[token]),
+                    "is a keyword such as AND, THEN or UNLESS missing?",
+                )
+            keyword = self._keyword_in_phrase(token, word, first)
+            if keyword is not None:
+                self.misspelt(token, keyword)
+                break
+            camel = camel or _INNER_CAPITAL.match(word) is not None or "_" in word
+            words.append(word)
+            self.at += 1
+        if not words:
+            return ""
+        self._phrase = (first, self.at)
+        if camel and len(words) > 1:
+            self._two_names(first, words)
+        name = " ".join(words)
+        return name if name.isascii() else unicodedata.normalize("NFC", name)
+
+    def _keyword_in_phrase(self, token: int, word: str, first: int) -> str | None:
+        """The keyword that this word of a phrase was surely meant to be."""
+        if word.isupper():
+            return near_keyword(word) if len(word) > 1 else None
+        if token == first:
+            return None
+        if word in _CAPITALISED:
+            return _CAPITALISED[word]
+        small = word.casefold()
+        if small in ("then", "unless") or (small.upper() in STATEMENTS and self.starts_line(token)):
+            return small.upper()
+        if small == "in" and self._says("in which case", token):
+            for offset in (1, 2):
+                self.kinds[token + offset] = ("WHICH", "CASE")[offset - 1]
+            return "IN"
+        return None
+
+    def _says(self, words: str, token: int) -> bool:
+        return all(self.token_text(min(token + i, len(self.kinds) - 1)).casefold() == word for i, word in enumerate(words.split()))
+
+    def _two_names(self, first: int, words: list[str]) -> None:
+        for offset, word in enumerate(words):
+            if word in _JOINERS:
+                self.problem(
+                    f"keywords are written in capitals: {word.upper()} instead of `{word}`",
+                    self.token_span(first + offset),
+                    "or write the whole condition as a phrase of plain words",
+                )
+                return
+        self.problem(
+            f"two names side by side: {quoted(' '.join(words))}",
+            self.span(first),
+            "is AND, or another keyword, missing between them? A single name is written without blanks, "
+            "and a phrase in plain words",
+        )
+
+
+def quoted(text: str) -> str:
+    """`text` on one line, cut short, for a message."""
+    text = " ".join(text[:200].split())
+    return f"`{text[:37]}...`" if len(text) > 40 else f"`{text}`"
