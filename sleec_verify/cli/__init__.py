@@ -1,0 +1,72 @@
+"""The command ``sleec-verify``.
+
+Exit codes: 0 all holds; 1 findings at or above ``--fail-level``; 2 unusable input or usage; 3 some verdict is unknown.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from io import TextIOWrapper
+from typing import NoReturn
+
+INTERRUPTED = 130
+BROKEN_PIPE = 141
+
+
+def main() -> NoReturn:
+    """Run the command line and exit. No error of a user's, and no closed pipe, shows a traceback."""
+    for stream in (sys.stdout, sys.stderr):
+        # A file's name, or a terminal, may be of an encoding that cannot say what is to be written.
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+    sys.exit(run(sys.argv[1:]))
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command line with these arguments; the exit code."""
+    from click.exceptions import Abort, ClickException
+
+    from sleec_verify.cli.commands import sleec_verify
+
+    try:
+        code = sleec_verify.main(list(arguments), prog_name="sleec-verify", standalone_mode=False) or 0
+        sys.stdout.flush()
+    except ClickException as error:
+        error.show()
+        code = error.exit_code
+    except (KeyboardInterrupt, Abort):
+        code = INTERRUPTED
+    except BrokenPipeError:
+        # Whoever read this has seen enough. What is left in the buffer goes nowhere, also at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = BROKEN_PIPE
+    except Exception as error:  # noqa: BLE001
+        code = _unexpected(error, "--traceback" in arguments)
+    return int(code)
+
+
+def _unexpected(error: Exception, traceback: bool) -> int:
+    from sleec_runtime.errors import SleecError
+    from sleec_verify.cli import exits
+
+    if traceback:
+        from traceback import print_exc
+
+        print_exc()
+    elif isinstance(error, SleecError):
+        from sleec_verify.cli.output import complain
+        from sleec_verify.solver import Undecided
+
+        complain(error)
+        if isinstance(error, Undecided):
+            return exits.UNKNOWN
+    else:
+        print(
+            f"sleec-verify failed: {type(error).__name__}: {error}\n"
+            "This is a mistake in sleec-verify, not in your rules. Please report it with the ruleset and the command;\n"
+            "`sleec-verify --traceback …` shows where it happened.",
+            file=sys.stderr,
+        )
+    return exits.UNUSABLE

@@ -1,0 +1,73 @@
+"""``sleec-verify check``."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import click
+
+from sleec_verify.cli import exits, options
+from sleec_verify.cli.inputs import rulesets
+from sleec_verify.cli.output import complain, write
+from sleec_verify.finding import SEVERITIES, Severity
+from sleec_verify.report import FORMATS, renderer
+from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, tally
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Reading
+
+
+@click.command(
+    "check",
+    short_help="Are the rules free of conflict, and does each make sense?",
+    epilog="Example: sleec-verify check rulesets/ --format concise --fail-level warning",
+)
+@options.paths(several=True)
+@options.reading
+@options.domain
+@click.option(
+    "--fail-level",
+    type=click.Choice(SEVERITIES),
+    default="error",
+    show_default=True,
+    help="Exit with 1 if there is a finding as grave as this.",
+)
+@options.output_format(*FORMATS)
+def command(
+    paths: tuple[str, ...],
+    reading: Reading | None,
+    domain: str | None,
+    fail_level: Severity,
+    form: str,
+) -> int:
+    """Check rulesets: files, folders of *.sleec files, or - for standard input.
+
+    Every check is decided for all situations, not for examples. A finding comes with the smallest situation that shows
+    it. `sleec-verify rules` tells what is looked for.
+    """
+    from sleec_verify.checks import run_checks
+    from sleec_verify.cli.progress import Progress
+    from sleec_verify.report.palette import Palette
+
+    outcomes: list[Outcome] = []
+    found = rulesets(paths, reading, domain)
+    with Progress() as progress:
+        for ruleset in found:
+            if isinstance(ruleset, Unusable):
+                complain(ruleset.error)
+                outcomes.append(ruleset)
+            else:
+                outcomes.append(Checked(ruleset, run_checks(ruleset, None, domain, progress.on(ruleset.source.path))))
+    write(renderer(form)(outcomes, Palette.of(sys.stdout)))
+    return _exit_code(outcomes, fail_level)
+
+
+def _exit_code(outcomes: Sequence[Outcome], fail_level: Severity) -> int:
+    if any(isinstance(outcome, Unusable) for outcome in outcomes):
+        return exits.UNUSABLE
+    counts = tally(outcomes)
+    if any(counts[severity] for severity in SEVERITIES[: SEVERITIES.index(fail_level) + 1]):
+        return exits.FINDINGS
+    return exits.UNKNOWN if any(outcome.undecided for outcome in checked(outcomes)) else exits.HOLDS

@@ -1,0 +1,38 @@
+"""``sleec-verify compile``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from sleec_verify.cli import exits, options
+from sleec_verify.cli.inputs import one_ruleset
+from sleec_verify.cli.output import write
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Reading
+
+FORMS = ("sympy", "latex", "cnf", "dimacs", "smtlib", "json")
+
+
+@click.command(
+    "compile",
+    short_help="The rules as formulas or clauses (Equation 1).",
+    epilog="Example: sleec-verify compile rulesets/household.sleec --to dimacs > household.cnf",
+)
+@options.paths(several=False)
+@click.option("--to", "form", type=click.Choice(FORMS), required=True, help="What to write.")
+@options.domain
+@options.reading
+def command(path: str, form: str, domain: str | None, reading: Reading | None) -> int:
+    """Compile the rules in FILE (- for standard input) into classical logic.
+
+    sympy and latex are for people: the guards and implications of Equation 1. cnf, dimacs, smtlib and json are for
+    solvers: clauses, linear in the size of the rules, with a map from variables to names.
+    """
+    from sleec_verify.compilation import compile_to
+
+    text = compile_to(one_ruleset(path, reading, domain), form, domain)
+    write((text if text.endswith("\n") else text + "\n",))
+    return exits.HOLDS

@@ -1,0 +1,61 @@
+"""``sleec-verify entail``."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+import click
+
+from sleec_verify.cli import exits, options
+from sleec_verify.cli.inputs import one_ruleset
+from sleec_verify.cli.output import write
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Context, Reading, Ruleset
+    from sleec_verify.entailment import Entailment
+
+
+@click.command(
+    "entail",
+    short_help="What do the rules oblige in a situation?",
+    epilog='Example: sleec-verify entail rulesets/household.sleec --when CurtainOpenRequest --given "UserUndressed"',
+)
+@options.paths(several=False)
+@options.when
+@options.given
+@options.domain
+@options.reading
+@options.output_format("full", "concise", "json")
+def command(
+    path: str,
+    when: tuple[str, ...],
+    given: tuple[str, ...],
+    domain: str | None,
+    reading: Reading | None,
+    form: str,
+) -> int:
+    """What the rules in FILE oblige in one situation (- for standard input).
+
+    Where the rules contradict one another in it, nothing is due, the conflict is shown, and the exit code is 1.
+    """
+    from sleec_verify.report import entailment
+    from sleec_verify.report.palette import Palette
+
+    ruleset, _, answer = ask(path, when, given, domain, reading)
+    write(entailment.RENDERERS[form](ruleset, answer, Palette.of(sys.stdout)))
+    return exits.HOLDS if answer.consistent else exits.FINDINGS
+
+
+def ask(
+    path: str, when: tuple[str, ...], given: tuple[str, ...], domain: str | None, reading: Reading | None
+) -> tuple[Ruleset, Context, Entailment]:
+    """The ruleset (its rules in `domain`), the situation that the options describe, and what is due in it."""
+    from sleec_verify.entailment import entail
+    from sleec_verify.situation import parse_situation
+
+    ruleset = one_ruleset(path, reading, domain)
+    context = parse_situation(ruleset, ",".join(when), ",".join(given))
+    if domain is not None:
+        ruleset = ruleset.in_domain(domain)
+    return ruleset, context, entail(ruleset, context)

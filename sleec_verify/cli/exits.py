@@ -1,0 +1,6 @@
+"""What the exit codes mean."""
+
+HOLDS = 0
+FINDINGS = 1
+UNUSABLE = 2
+UNKNOWN = 3

@@ -1,0 +1,109 @@
+"""``sleec-verify fmt``."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import click
+
+from sleec_runtime.errors import SleecError
+from sleec_runtime.language import load, parse, print_ruleset
+from sleec_runtime.model import Ruleset
+from sleec_verify.cli import exits, options
+from sleec_verify.cli.inputs import files
+from sleec_verify.cli.output import complain, write
+from sleec_verify.report.outcome import Unusable, counted
+
+
+@click.command(
+    "fmt",
+    short_help="The rules in their usual layout.",
+    epilog="Example: sleec-verify fmt --check rulesets/",
+)
+@options.paths(several=True)
+@click.option("--write", "mode", flag_value="write", help="Change the files in place.")
+@click.option(
+    "--check", "mode", flag_value="check", help="Change nothing; exit with 1 if a file is laid out otherwise."
+)
+@click.option("--diff", "mode", flag_value="diff", help="Change nothing; show what would change, and exit as --check.")
+def command(paths: tuple[str, ...], mode: str | None) -> int:
+    """Print the rules in FILE in their usual layout: files, folders, or - for standard input.
+
+    Comments stay, and the rules say the same. No file is changed without --write.
+    """
+    found = list(files(paths))
+    if mode is None and len(found) > 1:
+        raise click.UsageError("several files: say --write, --check or --diff")
+    if mode == "write" and "-" in found:
+        raise click.UsageError("standard input cannot be changed in place")
+    code = exits.HOLDS
+    changed = 0
+    for path in found:
+        try:
+            if isinstance(path, Unusable):
+                raise path.error
+            ruleset = load(path)
+        except SleecError as error:
+            complain(error)
+            code = exits.UNUSABLE
+            continue
+        laid_out = _laid_out(ruleset)
+        if mode is None:
+            write((laid_out,))
+        elif laid_out != ruleset.source.text:
+            changed += 1
+            _show(path, ruleset, laid_out, mode)
+    if mode is not None:
+        done = "changed" if mode == "write" else "to change"
+        print(f"{counted(len(found), 'file')}, {changed or 'none'} {done}", file=sys.stderr)
+    if changed and mode != "write":
+        code = max(code, exits.FINDINGS)
+    return code
+
+
+def _safely(path: str, ruleset: Ruleset, laid_out: str) -> None:
+    """Replace the file's text, once more than the printer's tests show that the rules say the same."""
+    if parse(laid_out) != ruleset:
+        raise AssertionError(f"the layout of {path} would change what its rules say")
+    _replace(path, laid_out)
+
+
+def _laid_out(ruleset: Ruleset) -> str:
+    text = print_ruleset(ruleset)
+    return text.replace("\n", "\r\n") if "\r\n" in ruleset.source.text else text
+
+
+def _show(path: str, ruleset: Ruleset, laid_out: str, mode: str) -> None:
+    if mode == "write":
+        _safely(path, ruleset, laid_out)
+        print(f"laid out {path}", file=sys.stderr)
+    elif mode == "check":
+        write((f"{ruleset.source.path} would change\n",))
+    else:
+        from difflib import unified_diff
+
+        name = ruleset.source.path
+        before, after = (text.splitlines(keepends=True) for text in (ruleset.source.text, laid_out))
+        for line in unified_diff(before, after, name, name):
+            write((line if line.endswith("\n") else line + "\n\\ No newline at end of file\n",))
+
+
+def _replace(path: str, text: str) -> None:
+    """Put `text` in place of the file's, whole or not at all. A link stays a link, and the rights stay as they are."""
+    from shutil import copymode
+    from tempfile import NamedTemporaryFile
+
+    target = os.path.realpath(path)
+    try:
+        with NamedTemporaryFile("wb", dir=os.path.dirname(target), prefix=".", suffix=".tmp", delete=False) as file:
+            try:
+                file.write(text.encode())
+                file.close()
+                copymode(target, file.name)
+                os.replace(file.name, target)
+            except BaseException:
+                os.unlink(file.name)
+                raise
+    except OSError as error:
+        raise SleecError(f"{path} cannot be written: {error.strerror}", "nothing of it was changed") from None

@@ -1,0 +1,44 @@
+"""The options that several commands share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import click
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
+
+def paths(several: bool) -> Callable[[_Command], _Command]:
+    """The argument for texts of rules. Whether they exist is told with the other errors of the input."""
+    if several:
+        return click.argument("paths", metavar="PATH…", nargs=-1, required=True, type=click.Path())
+    return click.argument("path", metavar="FILE", type=click.Path())
+
+
+reading = click.option(
+    "--reading",
+    type=click.Choice(("cascade", "priority")),
+    help="Read chains of hedges this way, whatever the file says: cascade stops at the first false condition, "
+    "priority takes the last true one.",
+)
+domain = click.option(
+    "--domain", metavar="NAME", help="Only the rules of this domain, with those that apply everywhere."
+)
+when = click.option(
+    "--when", metavar="TRIGGERS", multiple=True, help="What occurs, separated by commas: --when Fall,Night"
+)
+given = click.option(
+    "--given",
+    metavar="FACTS",
+    multiple=True,
+    help='What is the case, separated by commas: --given "UserAsleep, not Undressed, UserAge=15". The rest is false.',
+)
+
+
+def output_format(*names: str) -> Callable[[_Command], _Command]:
+    """``--format``, of which the first name is the default."""
+    return click.option(
+        "--format", "form", type=click.Choice(names), default=names[0], show_default=True, help="How to say it."
+    )

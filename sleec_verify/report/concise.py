@@ -1,0 +1,28 @@
+"""For lists and logs: one line a finding, and one line on all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from sleec_verify.report.outcome import Outcome, checked, counted, tally
+from sleec_verify.report.words import listed
+
+if TYPE_CHECKING:
+    from sleec_verify.report.palette import Palette
+
+
+def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
+    """A line for each finding and each check without a verdict, in the order of the rulesets and their texts."""
+    for outcome in checked(outcomes):
+        source = outcome.ruleset.source
+        for finding in outcome.findings:
+            place = source.place(finding.span)
+            label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
+            yield f"{source.path}:{place.line}:{place.column}: {label} {finding.message}\n"
+        for name, why in outcome.undecided:
+            yield f"{source.path}: {palette('unknown', f'unknown[{name}]')} {why}\n"
+    counts = ", ".join(counted(number, severity) for severity, number in tally(outcomes).items())
+    readings = sorted({outcome.ruleset.reading for outcome in checked(outcomes)})
+    read_as = f" (reading {listed(readings)})" if readings else ""
+    yield f"{counted(len(outcomes), 'ruleset')}: {counts}{read_as}\n"

@@ -1,0 +1,89 @@
+"""What `entail` says: what is due in a situation, and by which clauses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from sleec_verify.report.full import finding_lines
+from sleec_verify.report.json import Json, dump, finding_json, span_json
+from sleec_verify.report.words import listed
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Ruleset
+    from sleec_verify.entailment import Entailment
+    from sleec_verify.report.palette import Palette
+
+
+def _full(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
+    source = ruleset.source
+    for finding in answer.conflicts:
+        yield from (line + "\n" for line in finding_lines(finding, source, palette))
+        yield "\n"
+    if answer.consistent:
+        yield f"{palette('strong', 'due')}: {', '.join(answer.obligations) or 'nothing'}\n"
+        if answer.prohibitions:
+            yield f"{palette('strong', 'forbidden')}: {', '.join(answer.prohibitions)}\n"
+    else:
+        yield f"{palette('error', 'The rules contradict one another here')}: nothing is listed as due.\n"
+    for because in answer.because:
+        line = source.place(because.span).line
+        says = " AND ".join(because.obligations) or "nothing"
+        yield f"  {because.layer or because.rule} ({source.path}:{line}): {says}\n"
+    yield from caveats(ruleset, answer, palette)
+    yield f"reading: {ruleset.reading}\n"
+
+
+def _concise(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
+    yield from (f"{name}\n" for name in answer.obligations)
+    yield from (f"NOT {name}\n" for name in answer.prohibitions)
+    for finding in answer.conflicts:
+        place = ruleset.source.place(finding.span)
+        label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
+        yield f"{ruleset.source.path}:{place.line}:{place.column}: {label} {finding.message}\n"
+
+
+def _json(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
+    del palette  # a program reads this
+    source = ruleset.source
+    due: list[Json] = [*answer.obligations]
+    forbidden: list[Json] = [*answer.prohibitions]
+    said: dict[str, Json] = {
+        "consistent": answer.consistent,
+        "obligations": due,
+        "prohibitions": forbidden,
+        "because": [
+            {"rule": b.rule, "clause": b.clause, "layer": b.layer, "obligations": list(b.obligations)}
+            for b in answer.because
+        ],
+    }
+    # What is out of the ordinary is said only where it is so: the object stays what the usual reader expects.
+    if answer.conflicts:
+        said["conflicts"] = [finding_json(finding, source) for finding in answer.conflicts]
+    if answer.broken_assumptions:
+        said["broken_assumptions"] = [span_json(assume.span, source) for assume in answer.broken_assumptions]
+    if answer.missing:
+        said["missing"] = list(answer.missing)
+    yield dump(said)
+
+
+def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
+    """What to know about the situation itself: that it cannot be, or is not wholly given."""
+    if answer.broken_assumptions:
+        lines = listed(str(ruleset.source.place(assume.span).line) for assume in answer.broken_assumptions)
+        yield (
+            f"{palette('warning', 'warning')}: this situation cannot be, by the ASSUME of line {lines} "
+            f"of {ruleset.source.path}; checks leave it out\n"
+        )
+    if answer.missing:
+        yield (
+            f"{palette('note', 'note')}: {listed(answer.missing)} {'is' if len(answer.missing) == 1 else 'are'} "
+            "not given: what compares with it counts as false\n"
+        )
+
+
+RENDERERS: Mapping[str, Callable[[Ruleset, Entailment, Palette], Iterator[str]]] = {
+    "full": _full,
+    "concise": _concise,
+    "json": _json,
+}

@@ -1,0 +1,128 @@
+"""What `explain` says: which clause of which rule decides in a situation, by which conditions, and what follows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from sleec_verify.report.entailment import caveats
+from sleec_verify.report.full import finding_lines
+from sleec_verify.report.outcome import counted
+from sleec_verify.report.words import listed, quoted, situation, value_text
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Context, Formula, Rule, Ruleset, Span
+    from sleec_verify.entailment import Because, Consequence, Decided, Entailment
+    from sleec_verify.report.palette import Palette
+
+
+def render(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
+    """The situation, then a paragraph for each rule that is triggered in it, and what comes of it all."""
+    source = ruleset.source
+    said = situation(sorted(context.triggers), context.conditions)
+    yield f"{said}, by the {len(ruleset.rules)} rules of {source.path} (reading {ruleset.reading}):\n\n"
+    decided = {because.rule: because for because in answer.because}
+    triggered = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
+    for rule in triggered:
+        if rule.label in decided:
+            yield from _decided(ruleset, context, decided[rule.label], palette)
+        elif rule.guard is not None:
+            yield from _guarded(ruleset, context, rule, rule.guard, palette)
+    if not triggered:
+        yield "No rule is triggered.\n\n"
+    for finding in answer.conflicts:
+        yield from (line + "\n" for line in finding_lines(finding, source, palette))
+        yield "\n"
+    if answer.consequences:
+        yield "By the constraints, and by no rule, so that nothing executes it:\n"
+        yield from (_consequence(ruleset, consequence) for consequence in answer.consequences)
+        yield "\n"
+    yield from caveats(ruleset, answer, palette)
+    yield _in_all(answer, palette) + "\n"
+
+
+def _decided(ruleset: Ruleset, context: Context, because: Because, palette: Palette) -> Iterator[str]:
+    number = because.clause
+    clause = f"its hedge {number} decides, the layer {because.layer}" if number else "its default decides"
+    yield f"{palette('strong', because.rule)} is triggered by {_trigger(ruleset, because)}, and {clause}: "
+    yield f"{_due(because.obligations)} ({_at(ruleset, because.span)}).\n"
+    for position, decision in enumerate(because.decisions):
+        yield f"    {'because' if position == 0 else 'and'} {_truth(ruleset, context, decision)}\n"
+    yield "\n"
+
+
+def _trigger(ruleset: Ruleset, because: Because) -> str:
+    return quoted(ruleset.by_label[because.rule].trigger)
+
+
+def _due(obligations: tuple[str, ...]) -> str:
+    due = [name for name in obligations if not name.startswith("NOT ")]
+    forbidden = [name[4:] for name in obligations if name.startswith("NOT ")]
+    parts = []
+    if due:
+        parts.append(f"{listed(due)} {'is' if len(due) == 1 else 'are'} due")
+    if forbidden:
+        parts.append(f"{listed(forbidden)} {'is' if len(forbidden) == 1 else 'are'} forbidden")
+    return " and ".join(parts) or "nothing is due"
+
+
+def _truth(ruleset: Ruleset, context: Context, decision: Decided) -> str:
+    which = "its guard " if decision.clause is None else ""
+    value = "true" if decision.truth else "false"
+    return (
+        f"{which}{_spelled(decision.formula)} is {value}"
+        f"{_values(ruleset, context, decision.formula)} ({_at(ruleset, decision.span)})"
+    )
+
+
+def _guarded(ruleset: Ruleset, context: Context, rule: Rule, guard: Formula, palette: Palette) -> Iterator[str]:
+    yield f"{palette('strong', rule.label)} is triggered by {quoted(rule.trigger)} and obliges nothing,\n"
+    yield f"    because its guard {_spelled(guard)} is false{_values(ruleset, context, guard)}"
+    yield f" ({_at(ruleset, guard.span)})\n\n"
+
+
+def _spelled(formula: Formula) -> str:
+    from sleec_runtime.language import print_formula
+
+    return print_formula(formula)
+
+
+def _values(ruleset: Ruleset, context: Context, formula: Formula) -> str:
+    """The parts of a formula that is no single condition, each with what it is worth here."""
+    from sleec_runtime.model import Atom, Comparison, leaves, measures_of
+
+    if isinstance(formula, Atom):
+        return ""
+    worth: dict[str, str] = {}
+    for leaf in leaves(formula):
+        if isinstance(leaf, Comparison):
+            for measure in measures_of(leaf):
+                given = context.conditions.get(measure)
+                worth[measure] = "is not given" if given is None else f"is {value_text(given)}"
+        else:
+            worth[leaf.name] = f"is {value_text(context.conditions.get(leaf.name, False))}"
+    said = [f"{quoted(name)} {what}" for name, what in worth.items()]
+    return f", as {listed(said)}" if said else ""
+
+
+def _consequence(ruleset: Ruleset, consequence: Consequence) -> str:
+    literal = consequence.literal
+    must = "must not be done" if literal.negated else "must be done"
+    origins = [f"{_text(ruleset, origin.span)} ({_at(ruleset, origin.span)})" for origin in consequence.clash.origins]
+    return f"    {literal.name} {must}: {listed(origins)}\n"
+
+
+def _text(ruleset: Ruleset, span: Span) -> str:
+    return " ".join(ruleset.source.text[span.start : span.end].split())
+
+
+def _at(ruleset: Ruleset, span: Span) -> str:
+    return f"line {ruleset.source.place(span).line}"
+
+
+def _in_all(answer: Entailment, palette: Palette) -> str:
+    if not answer.consistent:
+        conflicts = counted(len(answer.conflicts), "conflict")
+        return f"{palette('error', 'The rules contradict one another here')} ({conflicts}): nothing is listed as due."
+    forbidden = f"; forbidden: {', '.join(answer.prohibitions)}" if answer.prohibitions else ""
+    return f"{palette('strong', 'Due in all')}: {', '.join(answer.obligations) or 'nothing'}{forbidden}"

@@ -1,0 +1,90 @@
+"""For people: each finding with its place in the text, the situation that shows it, and what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from sleec_verify.finding import SEVERITIES
+from sleec_verify.report.excerpt import Mark, excerpt
+from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, counted, tally
+from sleec_verify.report.words import listed, witness_text
+
+if TYPE_CHECKING:
+    from sleec_runtime.errors import SleecError
+    from sleec_runtime.model import Source
+    from sleec_verify.finding import Finding
+    from sleec_verify.report.palette import Palette
+
+
+def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
+    """The findings of each ruleset and a line on it; at the end, if there are several, a line on all."""
+    for outcome in checked(outcomes):
+        source = outcome.ruleset.source
+        for finding in outcome.findings:
+            yield from (line + "\n" for line in finding_lines(finding, source, palette))
+            yield "\n"
+        for name, why in outcome.undecided:
+            yield f"{source.path}: {palette('unknown', f'unknown[{name}]')} {why}\n\n"
+        yield _on(outcome, palette) + "\n"
+    if len(outcomes) > 1:
+        unusable = sum(isinstance(outcome, Unusable) for outcome in outcomes)
+        yield f"{counted(len(outcomes), 'ruleset')}: {_counts(outcomes)}{f', {unusable} unusable' if unusable else ''}\n"
+
+
+def finding_lines(finding: Finding, source: Source, palette: Palette) -> Iterator[str]:
+    """One finding, without the blank line after it."""
+    place = source.place(finding.span)
+    label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
+    yield f"{source.path}:{place.line}:{place.column}: {label} {palette('strong', finding.message)}"
+    marks = [Mark(finding.span, finding.severity, main=True)]
+    marks += (Mark(span, "help", word) for span, word in finding.related)
+    yield from excerpt(source, marks, palette)
+    margin = " " * len(str(max(source.place(mark.span).end_line for mark in marks)))
+    if finding.witness is not None:
+        yield f"{margin} = {palette('strong', 'situation')}: {witness_text(finding.witness)}"
+    if finding.domains:
+        yield f"{margin} = {palette('strong', 'domain')}: {listed(finding.domains)}"
+    if finding.note is not None:
+        yield f"{margin} = {palette('strong', 'note')}: {finding.note}"
+    if finding.help is not None:
+        yield f"{margin} = {palette('help', 'help')}: {finding.help}"
+
+
+def error_lines(error: SleecError, palette: Palette) -> Iterator[str]:
+    """An error of the input, with its places in the text if it has any."""
+    from sleec_runtime.errors import LanguageError
+
+    if not isinstance(error, LanguageError):
+        yield f"{palette('error', 'error')}: {error.message}"
+        if error.hint is not None:
+            yield f"  = {palette('help', 'help')}: {error.hint}"
+        return
+    for problem in error.problems:
+        place = error.source.place(problem.span)
+        where = f"{error.source.path}:{place.line}:{place.column}"
+        yield f"{where}: {palette('error', 'error')}: {palette('strong', problem.message)}"
+        yield from excerpt(error.source, [Mark(problem.span, "error", main=True)], palette)
+        if problem.hint is not None:
+            yield f"{' ' * len(str(place.end_line))} = {palette('help', 'help')}: {problem.hint}"
+        yield ""
+
+
+def _on(outcome: Checked, palette: Palette) -> str:
+    ruleset = outcome.ruleset
+    size = f"{counted(len(ruleset.rules), 'rule')}, {counted(outcome.hedges, 'hedge')}"
+    if outcome.undecided:
+        verdict = palette("unknown", f"{_counts([outcome])}, {len(outcome.undecided)} unknown")
+    elif outcome.findings:
+        verdict = palette(_gravest(outcome), _counts([outcome]))
+    else:
+        verdict = palette("good", f"{counted(len(outcome.results), 'check')} passed")
+    return f"{ruleset.source.path}: {verdict} (reading {ruleset.reading}; {size})"
+
+
+def _gravest(outcome: Checked) -> str:
+    return min((f.severity for f in outcome.findings), key=SEVERITIES.index)
+
+
+def _counts(outcomes: Sequence[Outcome]) -> str:
+    return ", ".join(counted(number, severity) for severity, number in tally(outcomes).items())

@@ -1,0 +1,122 @@
+"""For programs: everything, as one JSON object."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Union
+
+from sleec_verify import __version__
+from sleec_verify.finding import Proved, Refuted
+from sleec_verify.report.outcome import Checked, Outcome, Unusable, tally
+
+if TYPE_CHECKING:
+    from sleec_runtime.errors import SleecError
+    from sleec_runtime.model import Source, Span, Value
+    from sleec_verify.finding import CheckResult, Finding, Witness
+    from sleec_verify.report.palette import Palette
+
+Json = Union[None, bool, int, float, str, "list[Json]", "dict[str, Json]"]
+
+
+def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
+    """The object of the design: tool, rulesets, summary."""
+    del palette  # a program reads this
+    counts = tally(outcomes)
+    yield dump(
+        {
+            "tool": {"name": "sleec-verify", "version": __version__},
+            "rulesets": [_ruleset(outcome) for outcome in outcomes],
+            "summary": {f"{severity}s": number for severity, number in counts.items()},
+        }
+    )
+
+
+def dump(value: Json) -> str:
+    """`value` as text with a line break at its end; ASCII, so that no stream can fail to write it."""
+    return json.dumps(value, indent=2) + "\n"
+
+
+def _ruleset(outcome: Outcome) -> Json:
+    if isinstance(outcome, Unusable):
+        return {"path": outcome.path, "error": error_json(outcome.error)}
+    ruleset = outcome.ruleset
+    return {
+        "path": ruleset.source.path,
+        "sha256": ruleset.source.sha256,
+        "syntax": ruleset.syntax,
+        "reading": ruleset.reading,
+        "rules": len(ruleset.rules),
+        "hedges": outcome.hedges,
+        "checks": [_check(result) for result in outcome.results],
+        "findings": [finding_json(finding, ruleset.source) for finding in outcome.findings],
+    }
+
+
+def _check(result: CheckResult) -> Json:
+    verdict = result.verdict
+    return {
+        "name": result.name,
+        "verdict": "proved"
+        if isinstance(verdict, Proved)
+        else "refuted"
+        if isinstance(verdict, Refuted)
+        else "unknown",
+        "seconds": round(result.seconds, 6),
+        "reason": result.reason if isinstance(verdict, (Proved, Refuted)) else verdict.why,
+    }
+
+
+def finding_json(finding: Finding, source: Source) -> dict[str, Json]:
+    """A finding with its places as lines and columns."""
+    return {
+        "code": finding.code,
+        "check": finding.check,
+        "severity": finding.severity,
+        "message": finding.message,
+        "rules": list(finding.rules),
+        "clauses": [{"rule": clause.rule, "clause": clause.clause} for clause in finding.clauses],
+        "obligations": list(finding.obligations),
+        "span": span_json(finding.span, source),
+        "witness": None if finding.witness is None else _witness(finding.witness),
+        "domains": list(finding.domains),
+        "related": [{"span": span_json(span, source), "message": word} for span, word in finding.related],
+        "note": finding.note,
+        "help": finding.help,
+    }
+
+
+def error_json(error: SleecError) -> Json:
+    """An error of the input: what is wrong, what to try, and each place where."""
+    from sleec_runtime.errors import LanguageError
+
+    if not isinstance(error, LanguageError):
+        return {"message": error.message, "hint": error.hint, "problems": []}
+    problems: list[Json] = [
+        {"message": problem.message, "hint": problem.hint, "span": span_json(problem.span, error.source)}
+        for problem in error.problems
+    ]
+    return {"message": error.message, "hint": error.hint, "problems": problems}
+
+
+def span_json(span: Span, source: Source) -> dict[str, Json]:
+    """Lines and columns, all from 1; the end column is one past the last character."""
+    return dict(source.place(span)._asdict())
+
+
+def _witness(witness: Witness) -> Json:
+    return {"triggers": list(witness.triggers), "conditions": values_json(witness.conditions)}
+
+
+def values_json(values: Mapping[str, Value]) -> dict[str, Json]:
+    """Values of conditions and measures; a number that JSON has no exact spelling for is a string such as ``1/3``."""
+    return {name: _value(value) for name, value in values.items()}
+
+
+def _value(value: Value) -> Json:
+    if isinstance(value, (bool, int, str)):
+        return value
+    from fractions import Fraction
+
+    near = float(value)
+    return near if Fraction(repr(near)) == value else str(value)

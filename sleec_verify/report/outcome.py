@@ -1,0 +1,66 @@
+"""What came of each text of rules that was asked about: it was checked, or it could not be read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple, Union
+
+from sleec_verify.finding import SEVERITIES, Unknown
+
+if TYPE_CHECKING:
+    from sleec_runtime.errors import SleecError
+    from sleec_runtime.model import Ruleset
+    from sleec_verify.finding import CheckResult, Finding, Severity
+
+
+class Checked(NamedTuple):
+    """A ruleset and the results of the checks, in their order."""
+
+    ruleset: Ruleset
+    results: tuple[CheckResult, ...]
+
+    @property
+    def findings(self) -> list[Finding]:
+        """All findings, in the order of the text; at one place, the gravest first."""
+        found = (finding for result in self.results for finding in result.findings)
+        return sorted(found, key=lambda f: (f.span, SEVERITIES.index(f.severity), f.code))
+
+    @property
+    def undecided(self) -> list[tuple[str, str]]:
+        """The checks without a verdict, each with the reason."""
+        return [(r.name, r.verdict.why) for r in self.results if isinstance(r.verdict, Unknown)]
+
+    @property
+    def hedges(self) -> int:
+        """How many hedge clauses the rules have."""
+        return sum(sum(1 for _ in rule.clauses()) - 1 for rule in self.ruleset.rules)
+
+
+class Unusable(NamedTuple):
+    """A text that is not a ruleset, or cannot be read."""
+
+    path: str
+    error: SleecError
+
+
+Outcome = Union[Checked, Unusable]
+
+
+def checked(outcomes: Sequence[Outcome]) -> Iterator[Checked]:
+    """The outcomes that have results."""
+    return (outcome for outcome in outcomes if isinstance(outcome, Checked))
+
+
+def tally(outcomes: Sequence[Outcome]) -> dict[Severity, int]:
+    """How many findings there are of each severity."""
+    counts: dict[Severity, int] = dict.fromkeys(SEVERITIES, 0)
+    for outcome in checked(outcomes):
+        for result in outcome.results:
+            for finding in result.findings:
+                counts[finding.severity] += 1
+    return counts
+
+
+def counted(number: int, noun: str) -> str:
+    """``1 rule``, ``2 rules``, ``no rules``."""
+    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"

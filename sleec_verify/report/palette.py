@@ -1,0 +1,37 @@
+"""Colours, where there is a terminal to show them."""
+
+from __future__ import annotations
+
+import os
+from typing import TextIO
+
+_CODES = {
+    "error": "1;31",
+    "warning": "1;33",
+    "note": "1;36",
+    "unknown": "1;35",
+    "good": "32",
+    "strong": "1",
+    "faint": "2",
+    "help": "36",
+}
+
+
+class Palette:
+    """Paints words by what they are, or leaves them plain."""
+
+    def __init__(self, coloured: bool) -> None:
+        self._coloured = coloured
+
+    @classmethod
+    def of(cls, stream: TextIO) -> Palette:
+        """Colours if `stream` is a terminal that can show them, and NO_COLOR is not set (https://no-color.org)."""
+        wanted = not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+        return cls(wanted and stream.isatty())
+
+    def __call__(self, role: str, text: str) -> str:
+        """`text` in the colour of `role`: a severity, or one of good, strong, faint, help, unknown."""
+        return f"\033[{_CODES[role]}m{text}\033[0m" if self._coloured and text else text
+
+
+PLAIN = Palette(coloured=False)

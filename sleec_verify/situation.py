@@ -1,0 +1,129 @@
+"""Situations as people type them: ``--when Fall,Night --given "UserAsleep, not Undressed, UserAge=15"``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from sleec_runtime.errors import SleecError
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Context, Measure, Ruleset, Value
+
+_NUMBER = re.compile(r"[+-]?[0-9]{1,100}(\.[0-9]{1,100})?")
+_TRUTHS = {"true": True, "false": False}
+
+
+class SituationError(SleecError):
+    """A situation that does not fit the ruleset: an unknown name, a value of another type, a contradiction."""
+
+
+def parse_situation(ruleset: Ruleset, when: str, given: str) -> Context:
+    """The context in which the triggers listed in `when` occur and what `given` lists is the case.
+
+    `when` is a list of triggers, `given` one of ``Name``, ``not Name``, ``Name=true`` and ``Measure=value``, both
+    separated by commas. Phrases are names. Numbers are exact; a constant of the ruleset may stand for its number.
+
+    Raises:
+        SituationError: the first item that does not fit, with what would.
+    """
+    from sleec_runtime.model import Context
+
+    triggers = frozenset(_trigger(ruleset, name) for name in _items(when))
+    values: dict[str, Value] = {}
+    for item in _items(given):
+        name, value = _assignment(ruleset, item)
+        if name in values and values[name] != value:
+            raise SituationError(f"two values are given for {name}", "give one")
+        values[name] = value
+    return Context(triggers, values)
+
+
+def _items(text: str) -> Iterator[str]:
+    """The items of a list. Blanks within an item count as one, as they do in the rules."""
+    return (" ".join(item.split()) for item in text.split(",") if item.strip())
+
+
+def _trigger(ruleset: Ruleset, name: str) -> str:
+    if name in ruleset.triggers:
+        return name
+    if name in ruleset.conditions or name in ruleset.measures:
+        raise SituationError(f"{name} is not a trigger", "give conditions and measures with --given")
+    raise _unknown(name, "trigger", ruleset.triggers)
+
+
+def _assignment(ruleset: Ruleset, item: str) -> tuple[str, Value]:
+    if item in ruleset.conditions:
+        return item, True
+    name, equals, written = (part.strip() for part in item.partition("="))
+    if equals:
+        if name in ruleset.measures:
+            return name, _measured(ruleset, ruleset.measures[name], written)
+        if written.lower() not in _TRUTHS and name in ruleset.conditions:
+            raise SituationError(
+                f"{name} is a condition, true or false, and {written or 'nothing'} is neither",
+                f"write {name} or not {name}",
+            )
+        return _condition(ruleset, name), _TRUTHS.get(written.lower(), True)
+    negation, blank, rest = item.partition(" ")
+    if blank and negation.lower() == "not":
+        return _condition(ruleset, rest), False
+    return _condition(ruleset, item), True
+
+
+def _condition(ruleset: Ruleset, name: str) -> str:
+    if name in ruleset.conditions:
+        return name
+    if name in ruleset.measures:
+        raise SituationError(
+            f"{name} is a measure, neither true nor false", f"give its value: {_example(ruleset, name)}"
+        )
+    if name in ruleset.triggers:
+        raise SituationError(f"{name} is a trigger", "give what occurs with --when")
+    if name in ruleset.obligations:
+        raise SituationError(f"{name} is an obligation", "a situation says what is the case, the rules what is due")
+    raise _unknown(name, "condition or measure", {*ruleset.conditions, *ruleset.measures})
+
+
+def _example(ruleset: Ruleset, name: str) -> str:
+    measure = ruleset.measures[name]
+    return f"{name}={measure.values[0] if measure.values else 15}"
+
+
+def _measured(ruleset: Ruleset, measure: Measure, written: str) -> Value:
+    if measure.kind == "scale":
+        if written in measure.values:
+            return written
+        raise SituationError(
+            f"{written or 'nothing'} is no value of {measure.name}", f"its scale is {' < '.join(measure.values)}"
+        )
+    if written in ruleset.constants:
+        return ruleset.constants[written].value
+    if not _NUMBER.fullmatch(written):
+        raise SituationError(
+            f"{written[:40] or 'nothing'} is no number, and {measure.name} is a number",
+            f"write it with digits, as in {measure.name}=15 or {measure.name}=36.6",
+        )
+    from fractions import Fraction
+
+    number = Fraction(written)
+    if number.denominator == 1:
+        return number.numerator
+    if measure.kind == "integer":
+        raise SituationError(f"{measure.name} is a whole number, and {written} is not", "round it")
+    return number
+
+
+def _unknown(name: str, what: str, known: frozenset[str] | set[str]) -> SituationError:
+    from sleec_runtime.language.suggest import nearest
+
+    near = nearest(name, sorted(known))
+    if near is not None:
+        hint = f"did you mean {near}?"
+    elif known:
+        shown = sorted(known)
+        hint = f"there are {', '.join(shown[:10])}{' and more' if len(shown) > 10 else ''}"
+    else:
+        hint = f"the ruleset has no {what}"
+    return SituationError(f"there is no {what} {name}", hint)
