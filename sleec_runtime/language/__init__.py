@@ -11,10 +11,11 @@ from pathlib import Path
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.english import parse_english
+from sleec_runtime.language.printer import print_formula, print_rule, print_ruleset
 from sleec_runtime.language.source import read_source, tidy
 from sleec_runtime.model import Ruleset, Source, Span
 
-__all__ = ["load", "parse", "read_source"]
+__all__ = ["load", "parse", "parse_source", "print_formula", "print_rule", "print_ruleset", "read_source"]
 
 _COMMENT = re.compile(r"\s*(?://|#)[^\n]*")
 _WORD = re.compile(r"\s*(\w+)")

@@ -12,7 +12,8 @@ from collections.abc import Iterable
 from typing import NoReturn
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.scanner import KEYWORDS, PHRASE, STATEMENTS, TIMES, Tokens
+from sleec_runtime.language.keywords import KEYWORDS, PHRASE, STATEMENTS, TIMES
+from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.suggest import near_keyword
 from sleec_runtime.model import NO_COMMENTS, Comments, Source, Span
 

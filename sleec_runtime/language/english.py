@@ -11,9 +11,10 @@ from typing import TypeVar
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.cursor import Abandon, quoted
+from sleec_runtime.language.keywords import DECLARATIONS, RULE_STARTS, STATEMENTS
 from sleec_runtime.language.resolve import MAX_PROBLEMS, Names
 from sleec_runtime.language.rules import RuleParser
-from sleec_runtime.language.scanner import DECLARATIONS, RULE_STARTS, STATEMENTS, scan
+from sleec_runtime.language.scanner import scan
 from sleec_runtime.language.suggest import near_keyword, nearest
 from sleec_runtime.model import (
     READINGS,
@@ -80,7 +81,8 @@ class EnglishParser(RuleParser):
                 if self.kinds[token] == keyword:
                     self.at = token
                     self.domains = domains
-                    self._found[index] = self._read(self._assume if keyword == "ASSUME" else self._never)
+                    read: Callable[[], Assume | Never] = self._assume if keyword == "ASSUME" else self._never
+                    self._found[index] = self._read(read)
         self.names.numbered(self.numbered)
         self.names.finish()
         if not self.rules_so_far and not self.problems:

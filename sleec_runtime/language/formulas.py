@@ -6,8 +6,9 @@ from collections.abc import Callable
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.cursor import Cursor
+from sleec_runtime.language.keywords import PHRASE
 from sleec_runtime.language.resolve import Names, Side
-from sleec_runtime.language.scanner import PHRASE, Tokens
+from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.model import And, Atom, Formula, Not, Operator, Or, Rational, Source, Span, Truth
 
 MAX_DIGITS = 100

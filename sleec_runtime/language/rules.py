@@ -6,13 +6,12 @@ import re
 
 from sleec_runtime.language.cursor import MAX_DEPTH, Abandon, quoted
 from sleec_runtime.language.declarations import DeclarationParser
-from sleec_runtime.language.scanner import PHRASE, STATEMENTS
+from sleec_runtime.language.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
 from sleec_runtime.language.suggest import edits
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Obligation, Or, Rule, Span
 
 _LABEL = re.compile(r"\w(?:[\w.'\u2019-]*\w)?")
 _RULE_STOPS = STATEMENTS | {"UNLESS"}
-_BEFORE_COMMA = frozenset({"UNLESS", "IN", "THEN"})
 _Response = tuple[tuple[Obligation, ...], tuple[Clause, ...]]
 
 
@@ -140,11 +139,11 @@ class RuleParser(DeclarationParser):
         self.at += 1
         self.leaf = self.names.condition
         condition = self.formula()
-        self._comma_before("IN")
+        self._comma_before(IN_WHICH_CASE)
         obligations: tuple[Obligation, ...] = ()
         hedges: tuple[Clause, ...] = ()
         kind = self.kinds[self.at]
-        if kind == "IN":
+        if kind == IN_WHICH_CASE or kind == "IN":
             self._in_which_case()
             obligations, hedges = self._response(may_be_empty=True)
             if len(obligations) > 1 and not hedges:
@@ -155,6 +154,8 @@ class RuleParser(DeclarationParser):
 
     def _in_which_case(self) -> None:
         self.at += 1
+        if self.kinds[self.at - 1] == IN_WHICH_CASE:
+            return
         for keyword in ("WHICH", "CASE"):
             at = self.at
             if self.kinds[at] == keyword:
@@ -178,9 +179,9 @@ class RuleParser(DeclarationParser):
         opened = self.at
         self.deeper()
         self.at += 1
-        if may_be_empty and self.kinds[self.at] == "UNLESS":
-            obligations, inner = (), ()
-        else:
+        obligations: tuple[Obligation, ...] = ()
+        inner: tuple[Clause, ...] = ()
+        if not may_be_empty or self.kinds[self.at] != "UNLESS":
             obligations, inner = self._response(may_be_empty)
         hedges = list(inner)
         while self.kinds[self.at] == "UNLESS":
@@ -248,7 +249,7 @@ class RuleParser(DeclarationParser):
 
     def _comma_before(self, keyword: str) -> None:
         """Prose has commas before its clauses; they do no harm."""
-        if self.kinds[self.at] == "," and self.kinds[self.at + 1] == keyword:
+        if self.kinds[self.at] == "," and self.kinds[self.at + 1] in (keyword, keyword[:2]):
             self.at += 1
 
     def _end_of_clause(self, what: str) -> None:
@@ -265,7 +266,7 @@ class RuleParser(DeclarationParser):
             self._no_choice()
         if kind == "THEN":
             self.expected(what, "a rule has one THEN; each exception is UNLESS condition IN WHICH CASE response")
-        if kind == "IN":
+        if kind in ("IN", IN_WHICH_CASE):
             self.expected(what, "IN WHICH CASE follows the condition of an UNLESS; is UNLESS missing?")
         self.end_of_statement(what)
 

@@ -1,7 +1,7 @@
 """From characters to tokens: one regular expression over the whole text.
 
-Tokens live in parallel sequences, not in objects, so that a text of 100,000 rules stays small. Comments are attached
-here: every line that the printer writes starts with a keyword, so a comment belongs to the token of such a keyword.
+Tokens live in parallel sequences, not in objects, and are made a block of lines at a time, so that a text of 100,000
+rules stays small and most of the work is done inside Python's own loops.
 """
 
 from __future__ import annotations
@@ -9,45 +9,60 @@ from __future__ import annotations
 import re
 from array import array
 from dataclasses import dataclass
+from itertools import accumulate, compress
+from operator import sub
 
-from sleec_runtime.model import NO_COMMENTS, Comments
+from sleec_runtime.language.comments import Remark, attach
+from sleec_runtime.language.keywords import IN_WHICH_CASE, KEYWORDS
+from sleec_runtime.model import Comments
 
-DECLARATIONS = frozenset({"MEASURE", "CONSTANT", "TRIGGER", "CONDITION", "OBLIGATION"})
-RULE_STARTS = frozenset({"RULE", "WHEN", "IF"})
-STATEMENTS = DECLARATIONS | RULE_STARTS | {"DOMAIN", "READING", "EXCLUSIVE", "NEVER", "ASSUME", "CONCERN", "PURPOSE"}
-TIMES = frozenset({"WITHIN", "OTHERWISE", "EVENTUALLY"})
-KEYWORDS = STATEMENTS | TIMES | {"THEN", "UNLESS", "IN", "WHICH", "CASE", "AND", "OR", "NOT"}
-
-PHRASE = frozenset({"word", "number", "digits"})
-"""The kinds of token that may follow the first word of a phrase."""
-
-_LINE_STARTS = STATEMENTS | {"UNLESS"}
-_SETTINGS = frozenset({"DOMAIN", "READING"})
+_BLOCK = 1 << 16
 
 # Letters with marks of their own (accents typed apart, Hebrew, Arabic, Indic and Thai vowels): \w leaves them out.
 _MARKS = "\u0300-\u036f\u0591-\u05bd\u064b-\u065f\u0900-\u0963\u0966-\u0dff\u0e31-\u0eff"
 _REST = rf"[\w{_MARKS}'\u2019-]"
 
+# Every match begins where the one before it ended, blanks first: offsets are sums of lengths because of that.
 _TOKEN = re.compile(
     r"\s*(?:"
-    rf"([^\W\d]{_REST}*)(\.\w[\w.{_MARKS}'\u2019-]*)?"  # 1 word, 2 its tail if it has dots
-    r"|([(),:.](?!=))"  # 3 punctuation
-    r"|(<=|>=|<>|!=|==|=(?![<>])|[<>\u2264\u2265\u2260])"  # 4 operator
-    rf"|(-?[0-9]+(?:\.[0-9]+)?(?!{_REST}|\.[0-9]))"  # 5 number
-    r"|((?://|\#)[^\n]*)"  # 6 comment
-    rf"|(\d{_REST}*)"  # 7 digits with letters: 3rd, 12-lead
-    r"|(&&|\|\||=[<>]|-+>|:=|.)"  # 8 anything else
-    r")"
+    rf"IN\s+WHICH\s+CASE(?!{_REST})"
+    rf"|[^\W\d]{_REST}*(?:\.\w[\w.{_MARKS}'\u2019-]*)?"
+    r"|[(),.]|:(?!=)"
+    r"|<=|>=|<>|!=|==|=(?![<>])|[<>\u2264\u2265\u2260]"
+    rf"|-?[0-9]+(?:\.[0-9]+)?(?!{_REST}|\.[0-9])"
+    r"|(?://|\#)[^\n]*"
+    rf"|\d{_REST}*"
+    r"|&&|\|\||=[<>]|-+>|:=|\S"
+    r")|\s+"
 )
-_WORD, _DOTTED, _MARK, _OPERATOR, _NUMBER, _COMMENT, _DIGITS, _STRANGE = range(1, 9)
-_KIND_OF_GROUP = {
-    _DOTTED: "dotted",
-    _OPERATOR: "operator",
-    _NUMBER: "number",
-    _DIGITS: "digits",
-    _STRANGE: "strange",
-}
-_KEYWORD = {word: word for word in KEYWORDS}
+_NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]+)?")
+
+
+class _Kinds(dict[str, str]):
+    """The kind of each token by its text: keywords and marks are known, the rest is told from how it begins."""
+
+    def __missing__(self, token: str) -> str:
+        first = token[:1]
+        if not first.isdecimal() and (first.isalnum() or first == "_"):
+            if "." in token:
+                return "dotted"
+            return IN_WHICH_CASE if token.startswith("IN") and token[2:3].isspace() else "word"
+        if first == "#" or token.startswith("//"):
+            return "comment"
+        if _NUMBER.fullmatch(token):
+            return "number"
+        return "digits" if first.isdecimal() else "strange"
+
+
+_KINDS = _Kinds(
+    {
+        **{word: word for word in KEYWORDS},
+        **dict.fromkeys(["<", "<=", ">", ">=", "=", "==", "!=", "<>", "≤", "≥", "≠"], "operator"),
+        **{mark: mark for mark in "(),:."},
+        IN_WHICH_CASE: IN_WHICH_CASE,
+        "": "blank",
+    }
+)
 
 
 @dataclass
@@ -55,7 +70,7 @@ class Tokens:
     """The tokens of a text: `kinds[i]` is a keyword, a punctuation mark or a kind in lower case, and the token is
     ``text[starts[i]:ends[i]]``. Three tokens of kind ``end`` close the sequence, so that one may look ahead.
 
-    `comments` holds the comments of the token that starts a line of rules; `closing` those after all of them.
+    `comments` holds the comments of the tokens that start a line of rules; `closing` those after all of them.
     """
 
     kinds: list[str]
@@ -70,98 +85,37 @@ def scan(text: str) -> Tokens:
     kinds: list[str] = []
     starts = array("q")
     ends = array("q")
-    remarks = _Remarks(text, kinds, ends)
-    keyword = _KEYWORD.get
-    add_kind, add_start, add_end = kinds.append, starts.append, ends.append
-    line_starts, phrase_word = _LINE_STARTS, "word"
-    # Without the trailing blanks: each of them would be tried as the start of a token.
-    for match in _TOKEN.finditer(text, 0, len(text.rstrip())):
-        group = match.lastindex
-        if group == _WORD:
-            kind = keyword(match[1], phrase_word)
-            if kind in line_starts:
-                remarks.line_starts(len(kinds), kind, match.start(1))
-            elif remarks.pending:
-                remarks.line_goes_on()
-        elif group == _COMMENT:
-            remarks.comment(match.start(_COMMENT), match.end())
-            continue
-        else:
-            assert group is not None
-            kind = match[_MARK] if group == _MARK else _KIND_OF_GROUP[group]
-            if remarks.pending:
-                remarks.line_goes_on()
-        add_kind(kind)
-        add_start(match.start(_WORD if group == _DOTTED else group))
-        add_end(match.end())
+    remarks: list[Remark] = []
+    at = 0
+    while at < len(text):
+        # No token reaches over a line break; an IN WHICH CASE that does is three tokens.
+        stop = text.find("\n", at + _BLOCK) + 1 or len(text)
+        pieces = _TOKEN.findall(text, at, stop)
+        tokens = list(map(str.lstrip, pieces))
+        new_kinds = list(map(_KINDS.__getitem__, tokens))
+        new_ends = array("q", accumulate(map(len, pieces), initial=at))[1:]
+        new_starts = array("q", map(sub, new_ends, map(len, tokens)))
+        if new_kinds[-1] == "blank":
+            new_kinds.pop()
+            new_starts.pop()
+            new_ends.pop()
+        if "comment" in new_kinds:
+            keep = [kind != "comment" for kind in new_kinds]
+            token = len(kinds)
+            for kept, start, end in zip(keep, new_starts, new_ends):
+                token += kept
+                if not kept:
+                    remarks.append(Remark(start, end, token))
+            new_kinds = list(compress(new_kinds, keep))
+            new_starts = array("q", compress(new_starts, keep))
+            new_ends = array("q", compress(new_ends, keep))
+        kinds += new_kinds
+        starts += new_starts
+        ends += new_ends
+        at = stop
     for _ in range(3):
-        add_kind("end")
-        add_start(len(text))
-        add_end(len(text))
-    return Tokens(kinds, starts, ends, remarks.attached, remarks.left_over())
-
-
-class _Remarks:
-    """Attaches each comment to the token whose line of rules it speaks of.
-
-    A comment on a line of its own belongs to the next line of rules, one behind rules to theirs. An empty string
-    among the comments above stands for an empty line, so that a file's heading stays apart from its first rule.
-    """
-
-    def __init__(self, text: str, kinds: list[str], ends: array[int]) -> None:
-        self.attached: dict[int, Comments] = {}
-        self.pending: list[str] = []
-        self._text = text
-        self._kinds = kinds
-        self._ends = ends
-        self._last = -1
-        self._end_of_comment = 0
-
-    def line_starts(self, token: int, kind: str, start: int) -> None:
-        if self.pending:
-            if kind in _SETTINGS or self._is_gap(start):
-                self._leave_gap()
-            if kind not in _SETTINGS:
-                self._attach(token, Comments(above=tuple(self.pending)))
-                self.pending.clear()
-        self._last = -1 if kind in _SETTINGS else token
-
-    def line_goes_on(self) -> None:
-        """The pending comments stand inside a line of rules: they are kept above it."""
-        if self._last >= 0:
-            before = self.attached.get(self._last, NO_COMMENTS)
-            inside = tuple(text for text in self.pending if text)
-            self._attach(self._last, Comments(before.above + inside, before.behind))
-            self.pending.clear()
-
-    def comment(self, start: int, end: int) -> None:
-        text = self._text[start:end]
-        words = text[1 if text[0] == "#" else 2 :].strip()
-        before_it = max(self._ends[-1] if self._ends else 0, self._end_of_comment)
-        is_behind = bool(self._ends) and "\n" not in self._text[before_it:start]
-        if is_behind and self._last >= 0:
-            before = self.attached.get(self._last, NO_COMMENTS)
-            if before.behind is None:
-                self._attach(self._last, Comments(before.above, words))
-            else:
-                self._attach(self._last, Comments((*before.above, words), before.behind))
-        else:
-            if self.pending and self._is_gap(start):
-                self._leave_gap()
-            self.pending.append(words)
-            if is_behind:
-                self._leave_gap()
-        self._end_of_comment = end
-
-    def left_over(self) -> tuple[str, ...]:
-        return tuple(self.pending)
-
-    def _attach(self, token: int, comments: Comments) -> None:
-        self.attached[token] = comments
-
-    def _is_gap(self, start: int) -> bool:
-        return self._text.count("\n", self._end_of_comment, start) > 1
-
-    def _leave_gap(self) -> None:
-        if self.pending[-1]:
-            self.pending.append("")
+        kinds.append("end")
+        starts.append(len(text))
+        ends.append(len(text))
+    comments, closing = attach(remarks, text, kinds, starts, ends)
+    return Tokens(kinds, starts, ends, comments, closing)

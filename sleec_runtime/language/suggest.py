@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 
-from sleec_runtime.language.scanner import KEYWORDS
+from sleec_runtime.language.keywords import KEYWORDS
 
 # Comparing every unknown name with every known one is quadratic; past this many comparisons nothing is suggested.
 _BUDGET = 200_000
