@@ -77,12 +77,11 @@ class UnknownName(SleecError, LookupError):
         self.name = name
 
     def _suggestion(self, name: str, known: Sequence[str]) -> str:
-        from difflib import get_close_matches
+        from sleec_runtime.language.suggest import nearest
 
-        folded = {other.casefold(): other for other in known}
-        near = get_close_matches(name.casefold(), folded, n=1)
-        if near:
-            return f"did you mean {folded[near[0]]}?"
+        near = nearest(name, known)
+        if near is not None:
+            return f"did you mean {near}?"
         if not known:
             return f"the ruleset has no {self.kind}"
         return f"the ruleset has {', '.join(known[:8])}{', …' if len(known) > 8 else ''}"

@@ -1,0 +1,218 @@
+"""From a trigger to what runs: everything that can be refused is refused first, then the variants run.
+
+Definition 2 of the paper with one ε a rule: for every rule of the trigger, the variant of its method that is bound to
+the layer that Algorithm 1 gives, and no other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from types import CoroutineType
+from typing import Any, NamedTuple
+
+from sleec_runtime.conflicts import find_conflict, missing_for
+from sleec_runtime.errors import (
+    ConflictInContext,
+    NeedsAwait,
+    UndeterminedDecision,
+    UnknownTrigger,
+    VariantsFailed,
+)
+from sleec_runtime.evaluation import Decision, Due, Outcome, Situation, Undetermined
+from sleec_runtime.explain import conflict_in_words, outcome_in_words
+from sleec_runtime.instance import Instance
+from sleec_runtime.layers import Variant, await_under, run_all
+from sleec_runtime.model import Context, Rule
+from sleec_runtime.snapshot import Cell, Snapshot
+
+
+class ActiveClause(NamedTuple):
+    """A rule by its label, and the number of its active clause: 0 is the default, i is the layer ``label.hci``."""
+
+    rule: str
+    clause: int
+
+
+class Plan:
+    """What a dispatch will do in one context: checked, and nothing run yet. Immutable."""
+
+    __slots__ = ("asynchronous", "clauses", "decisions", "mark", "obligations", "prohibitions", "triggers", "variants")
+
+    def __init__(self, triggers: tuple[str, ...], due: Due, variants: tuple[Variant, ...], mark: object) -> None:
+        self.triggers = triggers
+        self.decisions = due.decisions
+        self.variants = variants
+        self.mark = mark
+        self.obligations = due.obligations
+        self.prohibitions = due.prohibitions
+        self.clauses = tuple(ActiveClause(d.rule.label, d.clause) for d in due.decisions)
+        self.asynchronous = any(variant.asynchronous for variant in variants)
+
+
+class Done:
+    """What one dispatch did, and why. It keeps the context that it was decided in."""
+
+    __slots__ = ("_plan", "_results", "_snapshot")
+
+    def __init__(self, plan: Plan, snapshot: Snapshot, results: Sequence[object]) -> None:
+        self._plan = plan
+        self._snapshot = snapshot
+        self._results = results
+
+    @property
+    def triggers(self) -> tuple[str, ...]:
+        return self._plan.triggers
+
+    @property
+    def obligations(self) -> tuple[str, ...]:
+        """What was due and done: each name once, in the order of the rules and of their clauses."""
+        return self._plan.obligations
+
+    @property
+    def prohibitions(self) -> tuple[str, ...]:
+        """What was not to be done."""
+        return self._plan.prohibitions
+
+    @property
+    def clauses(self) -> tuple[ActiveClause, ...]:
+        """The active clause of each rule that spoke, in the order of the rules."""
+        return self._plan.clauses
+
+    @property
+    def decisions(self) -> tuple[Decision, ...]:
+        """The same, with the conditions that decided."""
+        return self._plan.decisions
+
+    @property
+    def results(self) -> Mapping[str, object]:
+        """What the variants returned, by the label of the rule. A clause with nothing to run has no entry."""
+        return {variant.label: result for variant, result in zip(self._plan.variants, self._results)}
+
+    @property
+    def context(self) -> Context:
+        """The context χ that the dispatch was decided in."""
+        return self._snapshot.context(self._plan.triggers)
+
+    @property
+    def change(self) -> int:
+        """The number of the change of context that made it."""
+        return self._snapshot.number
+
+    def explain(self) -> str:
+        """For every rule of the trigger: the active clause, what it obliges, and the conditions that decided."""
+        conditions = self._snapshot.conditions
+        program = self._snapshot.program
+        lines = [f"{' and '.join(self.triggers)}, in the context of change {self.change}:"]
+        for rule, outcome in outcomes_of(self._snapshot, self.triggers):
+            lines.append(outcome_in_words(rule, outcome, conditions))
+        if len(lines) == 1:
+            where = "" if program.domain is None else f" in the domain {program.domain}"
+            lines.append(f"no rule has this trigger{where}")
+        return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        return f"Done(triggers={self.triggers}, obligations={self.obligations}, clauses={self.clauses})"
+
+
+def cell_of(snapshot: Snapshot, trigger: str) -> Cell:
+    """What the rules of `trigger` say in this context. Raises UnknownTrigger."""
+    number = snapshot.program.number_of.get(trigger)
+    if number is None:
+        raise UnknownTrigger(trigger, snapshot.program.number_of)
+    return snapshot.cell(number)
+
+
+def outcomes_of(snapshot: Snapshot, triggers: Sequence[str]) -> list[tuple[Rule, Outcome]]:
+    """What every rule of `triggers` says, in the order of the rules. Raises UnknownTrigger."""
+    program = snapshot.program
+    pairs = [
+        pair
+        for trigger in dict.fromkeys(triggers)
+        for pair in zip(program.cells[program.number_of[trigger]], cell_of(snapshot, trigger).outcomes)
+    ]
+    return sorted(pairs, key=lambda pair: program.order[pair[0].label]) if len(triggers) > 1 else pairs
+
+
+def due_in(snapshot: Snapshot, triggers: Sequence[str]) -> Due:
+    """What is due if `triggers` occur together in this context.
+
+    O(rules of the triggers + constraints on what they oblige). Raises UnknownTrigger, UndeterminedDecision (in strict
+    mode), and ConflictInContext.
+    """
+    for trigger in triggers:
+        cell_of(snapshot, trigger)
+    outcomes = [outcome for _, outcome in outcomes_of(snapshot, triggers)]
+    missing = [name for outcome in outcomes if isinstance(outcome, Undetermined) for name in outcome.missing]
+    if missing:
+        raise UndeterminedDecision(triggers, tuple(dict.fromkeys(missing)))
+    due = Due(tuple(outcome for outcome in outcomes if isinstance(outcome, Decision)))
+    _refuse_conflict(snapshot, triggers, due)
+    return due
+
+
+def _refuse_conflict(snapshot: Snapshot, triggers: Sequence[str], due: Due) -> None:
+    program = snapshot.program
+    literals = due.literals
+    constraints = program.constraints_on(literals)
+    closed = Situation(snapshot.context(triggers), program.measures)
+    cause = find_conflict(literals, constraints, closed)
+    if cause is not None:
+        raise ConflictInContext(conflict_in_words(cause, due.decisions), cause)
+    if program.strict:
+        open_world = Situation(closed.context, program.measures, absent=None)
+        possible = find_conflict(literals, constraints, open_world)
+        if possible is not None:
+            raise UndeterminedDecision(triggers, missing_for(possible.constraints, open_world))
+
+
+def plan(snapshot: Snapshot, triggers: tuple[str, ...], instance: Instance) -> Plan:
+    """What a dispatch of `triggers` in this context will do. Raises as `due_in` does, and NotBound."""
+    due = due_in(snapshot, triggers)
+    variants = []
+    for decision in due.decisions:
+        clauses = list(decision.rule.clauses())
+        variant = instance.variant(decision.rule, decision.clause, clauses[decision.clause])
+        if variant is not None:
+            variants.append(variant)
+    return Plan(triggers, due, tuple(variants), snapshot.mark)
+
+
+def run(plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Done:
+    """Runs the variants of a plan in order. Raises what a variant raised, after all have run."""
+    if plan.asynchronous:
+        raise NeedsAwait(
+            f"a variant of {' and '.join(plan.triggers)} is a coroutine function", "await trigger_async(…) instead"
+        )
+    results, errors = run_all(plan.variants, args, kwargs)
+    for result in results:
+        if type(result) is CoroutineType:
+            result.close()
+            raise NeedsAwait(
+                f"a variant of {' and '.join(plan.triggers)} returned a coroutine", "await trigger_async(…) instead"
+            )
+    if errors:
+        raise _one_of(errors)
+    return Done(plan, snapshot, results)
+
+
+async def run_async(plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Done:
+    """Runs the variants of a plan one after the other, awaiting those that are coroutines. Raises as `run` does."""
+    results: list[object] = []
+    errors: list[tuple[str, Exception]] = []
+    for variant in plan.variants:
+        try:
+            results.append(await await_under(variant, args, kwargs))
+        except Exception as error:  # noqa: BLE001, PERF203 - raised again once all have run
+            errors.append((variant.label, error))
+    if errors:
+        raise _one_of(errors)
+    return Done(plan, snapshot, results)
+
+
+def _one_of(errors: Sequence[tuple[str, Exception]]) -> Exception:
+    """What one variant raised, as it raised it; of several, an error that holds them all."""
+    if len(errors) == 1:
+        return errors[0][1]
+    several = VariantsFailed(errors)
+    several.__cause__ = errors[0][1]
+    return several

@@ -1,0 +1,105 @@
+"""Decisions in words: which clause of which rule, and the conditions and values that made it so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from sleec_runtime.conflicts import Conflict
+from sleec_runtime.evaluation import Decision, Outcome, Step, Undetermined
+from sleec_runtime.model import (
+    And,
+    Atom,
+    Comparison,
+    Exclusive,
+    Formula,
+    MeasureRef,
+    Not,
+    Number,
+    Or,
+    Rule,
+    Term,
+    Truth,
+    Value,
+    leaves,
+    measures_of,
+)
+
+
+def outcome_in_words(rule: Rule, outcome: Outcome, conditions: Mapping[str, Value]) -> str:
+    """A few lines on what one rule says and why."""
+    if outcome is None:
+        return f"{rule.label}: nothing, because its guard is false"
+    if isinstance(outcome, Undetermined):
+        return f"{rule.label}: undetermined, because nobody reported {', '.join(outcome.missing)}"
+    return decision_in_words(outcome, conditions)
+
+
+def decision_in_words(decision: Decision, conditions: Mapping[str, Value]) -> str:
+    """The active clause, what it obliges, and the conditions that decided, with the values that they were read from."""
+    clause = "the default" if decision.layer is None else f"hedge {decision.layer}"
+    what = ", ".join(map(str, decision.obligations)) or "nothing"
+    lines = [f"{decision.rule.label}: {clause} obliges {what}"]
+    lines += [f"  {_step(step, conditions)}" for step in decision.steps]
+    return "\n".join(lines)
+
+
+def conflict_in_words(cause: Conflict, decisions: tuple[Decision, ...]) -> str:
+    """What cannot all be done, which rules ask for it, and which constraints forbid it."""
+    literals = " and ".join(
+        f"{literal} ({', '.join(d.rule.label for d in decisions if literal in d.obligations)})"
+        for literal in cause.literals
+    )
+    forbidding = "; ".join(
+        "EXCLUSIVE " + ", ".join(c.names) if isinstance(c, Exclusive) else f"NEVER {formula_in_words(c.formula)}"
+        for c in cause.constraints
+    )
+    if not literals:
+        return f"this situation is one that must not be: {forbidding}"
+    verb = "is" if len(cause.literals) == 1 else "are"
+    return f"{literals} {verb} due, against {forbidding}" if forbidding else f"{literals} are both due"
+
+
+def formula_in_words(formula: Formula) -> str:
+    """The formula as the structured-English form writes it."""
+    if isinstance(formula, Truth):
+        return "true" if formula.value else "false"
+    if isinstance(formula, Atom):
+        return formula.name
+    if isinstance(formula, Comparison):
+        return f"{_term(formula.left)} {formula.operator} {_term(formula.right)}"
+    if isinstance(formula, Not):
+        inner = formula_in_words(formula.operand)
+        return f"NOT {inner}" if isinstance(formula.operand, (Atom, Truth)) else f"NOT ({inner})"
+    word = " AND " if isinstance(formula, And) else " OR "
+    return word.join(map(_operand, formula.operands))
+
+
+def _operand(formula: Formula) -> str:
+    text = formula_in_words(formula)
+    return f"({text})" if isinstance(formula, (And, Or)) else text
+
+
+def _step(step: Step, conditions: Mapping[str, Value]) -> str:
+    where = "guard" if step.clause is None else f"clause {step.clause}"
+    values = ", ".join(dict.fromkeys(_values(step.condition, conditions)))
+    text = f"{where}: {formula_in_words(step.condition)} is {'true' if step.held else 'false'}"
+    return f"{text} ({values})" if values else text
+
+
+def _values(formula: Formula, conditions: Mapping[str, Value]) -> Iterator[str]:
+    for leaf in leaves(formula):
+        if isinstance(leaf, Comparison):
+            yield from (f"{name} = {conditions.get(name, 'unreported')}" for name in measures_of(leaf))
+        elif leaf is not formula:
+            value = conditions.get(leaf.name)
+            yield f"{leaf.name} = {'unreported' if value is None else str(value).lower()}"
+        elif leaf.name not in conditions:
+            yield "unreported"
+
+
+def _term(term: Term) -> str:
+    if isinstance(term, MeasureRef):
+        return term.name
+    if isinstance(term, Number):
+        return term.constant or str(term.value)
+    return term.value

@@ -1,0 +1,105 @@
+"""The paper's own mode (Section 4): layers globally active, renewed on each change of context.
+
+For code that calls layered methods itself, as ROS callbacks of the paper's Listing 2 do. It cannot be made safe:
+ContextPy3's global layers are one tuple that is swapped a layer at a time, so a call that comes while two layers
+change sees one changed and the other not; and each call walks all active layers (about 0.5 µs each).
+"""
+
+from __future__ import annotations
+
+import threading
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+import contextpy3
+
+from sleec_runtime.dispatch import due_in
+from sleec_runtime.errors import SleecError
+from sleec_runtime.evaluation import Decision
+from sleec_runtime.layers import RuleLayer
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Rule
+    from sleec_runtime.runtime import Sleec
+    from sleec_runtime.snapshot import Snapshot
+
+# ContextPy3 has one tuple of global layers for the process, and reads and writes it without a lock.
+_GLOBAL_LAYERS = threading.Lock()
+
+
+class GlobalActivation:
+    """Keeps the layers of the active clauses globally active: the layer manager LM, for every rule as if its trigger
+    occurred. Use `trigger` wherever you can; use this where something else makes the call.
+
+    What it does not do: check each call for conflicts, tell a guard that is false from a rule's ε, or change several
+    layers at once. A new layer is activated before the old one of its rule is deactivated, because ContextPy3 lets the
+    last activated one decide; the other way round the base would run in between.
+    """
+
+    def __init__(self, sleec: Sleec) -> None:
+        self._sleec = sleec
+        self._active: dict[str, RuleLayer] = {}
+        self._end = self._not_started
+
+    def start(self) -> GlobalActivation:
+        """Activates the layers of now, and renews them on each change. O(rules).
+
+        Raises ConflictInContext (or UndeterminedDecision) if some trigger could not be answered in this context, and
+        SleecError if one of the layers is active already: then nothing is activated.
+        """
+        with self._sleec.held() as snapshot, _GLOBAL_LAYERS:
+            for trigger in snapshot.program.number_of:
+                due_in(snapshot, (trigger,))
+            layers = self._due_layers(snapshot, snapshot.program.ruleset.rules)
+            for layer in layers.values():
+                if layer is not None and layer in contextpy3._BASELAYERS:
+                    raise SleecError(f"layer {layer.name} is globally active already", "deactivate it first")
+            self._renew(layers)
+            self._end = self._sleec.listen(self._changed)
+        return self
+
+    def stop(self) -> None:
+        """Deactivates what this activated."""
+        with self._sleec.held(), _GLOBAL_LAYERS:
+            self._end()
+            self._end = self._not_started
+            self._renew(dict.fromkeys(self._active))
+
+    def __enter__(self) -> GlobalActivation:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+    def _changed(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
+        layers = self._due_layers(after, rules)
+        if before.program is not after.program:
+            layers = {**dict.fromkeys(self._active), **layers}
+        with _GLOBAL_LAYERS:
+            self._renew(layers)
+
+    def _due_layers(self, snapshot: Snapshot, rules: tuple[Rule, ...]) -> dict[str, RuleLayer | None]:
+        outcomes = {rule.label: snapshot.outcome(rule) for rule in rules}
+        return {
+            label: self._sleec.layers.of(outcome.layer) if isinstance(outcome, Decision) else None
+            for label, outcome in outcomes.items()
+        }
+
+    def _renew(self, layers: dict[str, RuleLayer | None]) -> None:
+        for label, layer in layers.items():
+            old = self._active.get(label)
+            if layer is old:
+                continue
+            if layer is not None:
+                contextpy3.global_activate_layer(layer)
+                self._active[label] = layer
+            if old is not None:
+                contextpy3.global_deactivate_layer(old)
+                if layer is None:
+                    del self._active[label]
+
+    @staticmethod
+    def _not_started() -> None:
+        raise SleecError("global activation is not on", "start() it first")

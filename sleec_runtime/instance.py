@@ -1,0 +1,278 @@
+"""γ(Γ), the CO-SLEEC instance of a ruleset: its layers L, its methods M, and which method is whose (MM).
+
+Paper, Section 3.2, with one ε for each rule: with one for all, a rule that yields ε lets every other triggered rule
+run its base variant besides the right one. The ε of a rule is the base variant of its method, run under no layer.
+"""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple, TypeVar
+
+from sleec_runtime.errors import AlreadyBound, NotBound, Unbindable, UnknownLabel, UnknownObligation
+from sleec_runtime.layers import (
+    Entry,
+    LayeredMethod,
+    Layers,
+    Variant,
+    inherited_entries,
+    own_entries,
+    select,
+)
+from sleec_runtime.model import Clause, Rule, Ruleset
+from sleec_runtime.obligations import implementations, is_coroutine_function, obligation_of, recorded
+
+F = TypeVar("F")
+
+_MARK = "__sleec_rules__"
+_METHODS = (types.FunctionType, staticmethod, classmethod, LayeredMethod)
+
+
+class Method(NamedTuple):
+    """MM(R): a method's implementations, nearest definition first, and the object or class that they are bound to."""
+
+    name: str
+    definitions: Sequence[Sequence[Entry]]
+    instance: object
+    owner: type | None
+
+
+class Instance:
+    """The layers, the methods bound to rules, and the callables that implement obligations.
+
+    Changes are made under the lock of the runtime; variants are looked up without.
+    """
+
+    def __init__(self, ruleset: Ruleset) -> None:
+        self.layers = Layers()
+        self._token = object()
+        self._labels: dict[str, None] = {}
+        self._methods: dict[str, Method] = {}
+        self._callables: dict[str, Callable[..., Any]] = {}
+        self._variants: dict[tuple[str, int], Variant | None] = {}
+        self.admit(ruleset)
+
+    def copied(self) -> Instance:
+        """An instance with the same layers, marks and bindings, whose bindings may change apart."""
+        copy = object.__new__(Instance)
+        copy.layers = self.layers
+        copy._token = self._token
+        copy._labels = self._labels
+        copy._methods = dict(self._methods)
+        copy._callables = dict(self._callables)
+        copy._variants = {}
+        return copy
+
+    def admit(self, ruleset: Ruleset) -> None:
+        """Makes the rules of `ruleset` and their layers known, so that methods can be written for them."""
+        self.layers.admit(ruleset)
+        self._labels.update(dict.fromkeys(rule.label for rule in ruleset.rules))
+
+    def known(self, label: str) -> str:
+        """`label`, if a rule has it. Raises UnknownLabel."""
+        if label not in self._labels:
+            raise UnknownLabel(label, self._labels)
+        return label
+
+    def mark(self, label: str) -> Callable[[F], F]:
+        """The decorator that makes a method the one of rule `label`. Raises UnknownLabel.
+
+        It returns what it was given, a function or ContextPy3's layered method, with a note on it: ContextPy3 finds a
+        method's earlier variants by looking at the name in the class body, and must find what it put there.
+        """
+        note = (self._token, self.known(label))
+
+        def decorator(method: F) -> F:
+            if not isinstance(method, _METHODS):
+                raise Unbindable(
+                    f"{method!r} cannot be the method of rule {label}",
+                    "mark a function or method, above its @cop.base or @cop.around",
+                )
+            setattr(method, _MARK, (*getattr(method, _MARK, ()), note))
+            return method
+
+        return decorator
+
+    def bind(self, target: object) -> tuple[str, ...]:
+        """Makes the marked methods of `target` those of their rules: all of them, or none. Returns the labels.
+
+        `target` is an object, a class (for its static and class methods), a module, or one function. Raises Unbindable
+        if nothing in it is marked, AlreadyBound for a rule that has a method.
+        """
+        found = dict(self._marked(target))
+        if not found:
+            raise Unbindable(
+                f"nothing in {target!r} is marked as the method of a rule", 'mark methods with @sleec.rule("label")'
+            )
+        for label, method in found.items():
+            if label in self._methods:
+                raise AlreadyBound(
+                    f"rule {label} has the method {self._methods[label].name}, and {method.name} would be a second",
+                    f"unbind({label!r}) first",
+                )
+        self._methods.update(found)
+        self._forget(found)
+        return tuple(found)
+
+    def unbind(self, labels: Iterable[str]) -> None:
+        """Takes their methods from rules. Raises UnknownLabel."""
+        labels = [self.known(label) for label in labels]
+        for label in labels:
+            self._methods.pop(label, None)
+        self._forget(labels)
+
+    def implement(self, target: object, obligations: frozenset[str]) -> None:
+        """Gives callables to obligations: by a mapping, or the object or module that has them.
+
+        Raises UnknownObligation, and Unbindable for what is not callable or implements nothing.
+        """
+        if isinstance(target, Mapping):
+            for name, function in target.items():
+                if name not in obligations:
+                    raise UnknownObligation(name, obligations)
+                if not callable(function):
+                    raise Unbindable(f"{function!r}, given for {name}, is not callable")
+            found = dict(target)
+        else:
+            found = implementations(target, obligations)
+            if not found:
+                raise Unbindable(
+                    f"{target!r} implements no obligation of the ruleset",
+                    'mark methods with @sleec_runtime.obligation("…"), or name them in snake case',
+                )
+        self._callables.update(found)
+        self._forget(self._labels)
+
+    def variant(self, rule: Rule, number: int, clause: Clause) -> Variant | None:
+        """What runs where clause `number` of `rule` is active; None where there is nothing to run. O(1) but the first
+        time.
+
+        Raises NotBound if the rule has no method and not all obligations of the clause a callable, or if the method
+        has no variant for a clause that obliges something: the base must not run in its place.
+        """
+        # The same dictionary throughout: bind() puts another in its place, and what is found for the methods of before
+        # must not go into that.
+        variants = self._variants
+        key = (rule.label, number)
+        if key not in variants:
+            method = self._methods.get(rule.label)
+            if method is None:
+                variants[key] = self._composed(rule, number, clause)
+            else:
+                variants[key] = self._written(rule, number, clause, method)
+        return variants[key]
+
+    def objects(self) -> list[object]:
+        """The objects that methods are bound to, once each."""
+        return list({id(m.instance): m.instance for m in self._methods.values() if m.instance is not None}.values())
+
+    def missing(self, rules: Iterable[Rule]) -> dict[str, NotBound]:
+        """Why rules cannot run in every context, by their labels. O(clauses)."""
+        problems = ((rule.label, self._problem(rule)) for rule in rules)
+        return {label: problem for label, problem in problems if problem is not None}
+
+    def _problem(self, rule: Rule) -> NotBound | None:
+        try:
+            for number, clause in enumerate(rule.clauses()):
+                self.variant(rule, number, clause)
+        except NotBound as problem:
+            return problem
+        return None
+
+    def _written(self, rule: Rule, number: int, clause: Clause, method: Method) -> Variant | None:
+        layer = self.layers.of(rule.layer(number))
+        entries = select(method.definitions, layer)
+        if entries is not None:
+            return Variant(rule.label, layer, entries, method.instance, method.owner)
+        if all(literal.negated for literal in clause.obligations):
+            return None
+        decorator = "@cop.base" if layer is None else f'@cop.around(sleec.layers["{layer.name}"])'
+        raise NotBound(
+            f"{method.name}, the method of rule {rule.label}, has no variant for {_clause_name(rule, number)}",
+            [rule.label],
+            f"write it under {decorator}, and bind the method when all its variants are there",
+        )
+
+    def _composed(self, rule: Rule, number: int, clause: Clause) -> Variant | None:
+        """impl(O0); …; impl(Ok) and nothing else: properly structured by construction."""
+        names = [literal.name for literal in clause.obligations if not literal.negated]
+        without = [name for name in names if name not in self._callables]
+        if without:
+            raise NotBound(
+                f"rule {rule.label} has no method, and {', '.join(without)} ({_clause_name(rule, number)}) no callable",
+                [rule.label],
+                f'mark a method with @sleec.rule("{rule.label}") and bind() its object, or implement() the obligations',
+            )
+        if not names:
+            return None
+        function = _in_order([_seen(name, self._callables[name]) for name in names])
+        layer = self.layers.of(rule.layer(number))
+        return Variant(rule.label, layer, own_entries(function), None, None)
+
+    def _marked(self, target: object) -> Iterable[tuple[str, Method]]:
+        if isinstance(target, (types.FunctionType, LayeredMethod)):
+            return [(label, _function(target)) for label in self._notes(target)]
+        if isinstance(target, types.ModuleType):
+            return [(label, _function(a)) for a in vars(target).values() for label in self._notes(a)]
+        owner = target if isinstance(target, type) else type(target)
+        instance = None if isinstance(target, type) else target
+        found: dict[str, Method] = {}
+        for base in owner.__mro__:
+            for name, attribute in vars(base).items():
+                for label in self._notes(attribute):
+                    found.setdefault(label, _of_class(name, instance, owner))
+        return found.items()
+
+    def _notes(self, attribute: object) -> list[str]:
+        """The labels that one definition of a method is marked with, on itself or on one of its variants."""
+        if not isinstance(attribute, _METHODS):
+            return []
+        notes = list(getattr(attribute, _MARK, ()))
+        if isinstance(attribute, LayeredMethod):
+            notes += [note for entry in attribute.get_methods() for note in getattr(entry[1], _MARK, ())]
+        return [label for token, label in dict.fromkeys(notes) if token is self._token]
+
+    def _forget(self, labels: Iterable[str]) -> None:
+        gone = frozenset(labels)
+        self._variants = {key: variant for key, variant in self._variants.items() if key[0] not in gone}
+
+
+def _of_class(name: str, instance: object, owner: type) -> Method:
+    definitions = inherited_entries(owner, name)
+    if instance is None and any(
+        isinstance(entry[1], types.FunctionType) for entries in definitions for entry in entries
+    ):
+        raise Unbindable(f"{owner.__name__}.{name} needs an object", f"bind an instance of {owner.__name__}")
+    return Method(name, definitions, instance, owner)
+
+
+def _function(function: Any) -> Method:
+    definition = own_entries(function)
+    return Method(getattr(definition[0][1], "__name__", repr(function)), [definition], None, None)
+
+
+def _clause_name(rule: Rule, number: int) -> str:
+    return rule.layer(number) or "its default"
+
+
+def _seen(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
+    return function if obligation_of(function) == name else recorded(name, function)
+
+
+def _in_order(functions: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
+    if any(map(is_coroutine_function, functions)):
+
+        async def awaited(*args: Any, **kwargs: Any) -> None:
+            for function in functions:
+                result = function(*args, **kwargs)
+                if is_coroutine_function(function):
+                    await result
+
+        return awaited
+
+    def called(*args: Any, **kwargs: Any) -> None:
+        for function in functions:
+            function(*args, **kwargs)
+
+    return called

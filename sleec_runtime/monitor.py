@@ -1,0 +1,144 @@
+"""The online monitor: what a dispatch executed, against what the rules oblige in its context."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from contextlib import ExitStack
+from dataclasses import dataclass
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
+
+from sleec_runtime.dispatch import Done, Plan, run, run_async
+from sleec_runtime.evaluation import Due, decide
+from sleec_runtime.obligations import Recording, recording, watched
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Context
+    from sleec_runtime.runtime import Sleec
+    from sleec_runtime.snapshot import Snapshot
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A dispatch that did not do what was due: `due` and `executed` in order, a name once for each rule that asks for
+    it. What raised counts as not executed, and as begun where it is prohibited."""
+
+    context: Context
+    due: tuple[str, ...]
+    executed: tuple[str, ...]
+    missing: tuple[str, ...]
+    unexpected: tuple[str, ...]
+    prohibited: tuple[str, ...]
+
+    def __str__(self) -> str:
+        parts = [
+            f"{what}: {', '.join(names)}"
+            for what, names in (
+                ("not executed", self.missing),
+                ("executed, and not due", self.unexpected),
+                ("executed, and prohibited", self.prohibited),
+            )
+            if names
+        ]
+        order = f"executed {', '.join(self.executed)} where {', '.join(self.due)} was due"
+        return f"{' and '.join(sorted(self.context.triggers))}: {'; '.join(parts) or order}"
+
+
+class Monitor:
+    """Looks at every dispatch of a running instance, and calls `on_difference` where what was executed is not what was
+    due, in the order in which it was due.
+
+    What is due is decided afresh from the rules and the context, not taken from the dispatch. Executions are seen of
+    callables marked with ``@obligation``, of those given to `implement`, and of the snake-case methods of bound objects
+    and of those in `watch`. What a variant hands to another thread is not seen, nor what an inner trigger executes,
+    which is looked at for itself. If `on_difference` raises, the trigger does.
+
+    Cost: once more the evaluation of the rules of the trigger, and a note for each execution; see docs/runtime.md for
+    figures. One monitor at a time.
+    """
+
+    def __init__(
+        self, sleec: Sleec, on_difference: Callable[[Difference], object], watch: Iterable[object] = ()
+    ) -> None:
+        self._sleec = sleec
+        self._on_difference = on_difference
+        self._watch = tuple(watch)
+        self._watching = ExitStack()
+        self._current: Recording | None = None
+
+    def start(self) -> Monitor:
+        """Raises SleecError if another monitor is on, or if an object to be watched takes no attributes."""
+        with self._sleec.held() as snapshot:
+            robots = {id(robot): robot for robot in (*self._sleec.bound_objects(), *self._watch)}
+            with ExitStack() as watching:
+                for robot in robots.values():
+                    watching.enter_context(watched(robot, snapshot.program.whole.obligations))
+                self._sleec.attach(self)
+                self._watching = watching.pop_all()
+        return self
+
+    def stop(self) -> None:
+        """Dispatches under way are still looked at."""
+        self._sleec.detach(self)
+        self._watching.close()
+
+    def __enter__(self) -> Monitor:
+        return self.start()
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+    def run(self, plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Done:
+        """`dispatch.run`, looked at."""
+        with recording(apart=True) as seen:
+            try:
+                return run(plan, snapshot, args, kwargs)
+            finally:
+                self._compare(plan, snapshot, seen)
+
+    async def run_async(self, plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Done:
+        """`dispatch.run_async`, looked at."""
+        with recording(apart=True) as seen:
+            try:
+                return await run_async(plan, snapshot, args, kwargs)
+            finally:
+                self._compare(plan, snapshot, seen)
+
+    def _compare(self, plan: Plan, snapshot: Snapshot, seen: Recording) -> None:
+        program = snapshot.program
+        context = snapshot.context(plan.triggers)
+        rules = sorted(
+            (rule for trigger in plan.triggers for rule in program.cells[program.number_of[trigger]]),
+            key=lambda rule: program.order[rule.label],
+        )
+        decisions = (decide(rule, context, program.ruleset.reading, program.measures) for rule in rules)
+        due = Due(tuple(decision for decision in decisions if decision is not None))
+        in_order = tuple(o.name for decision in due.decisions for o in decision.obligations if not o.negated)
+        executed = _without(seen.executed, seen.failed)
+        prohibited = tuple(name for name in dict.fromkeys(seen.executed) if name in due.prohibitions)
+        if executed != in_order or prohibited:
+            self._on_difference(
+                Difference(
+                    context,
+                    in_order,
+                    executed,
+                    missing=tuple(name for name in dict.fromkeys(in_order) if name not in executed),
+                    unexpected=tuple(
+                        name for name in dict.fromkeys(executed) if name not in in_order and name not in prohibited
+                    ),
+                    prohibited=prohibited,
+                )
+            )
+
+
+def _without(executed: Iterable[str], failed: Iterable[str]) -> tuple[str, ...]:
+    rest = list(failed)
+    kept = []
+    for name in executed:
+        if name in rest:
+            rest.remove(name)
+        else:
+            kept.append(name)
+    return tuple(kept)

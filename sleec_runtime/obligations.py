@@ -1,0 +1,177 @@
+"""Which callable does what a rule obliges, and what was done: marks, names, and recordings.
+
+An obligation is implemented by the callable marked ``@obligation("OpenCurtains")``, or by the method that has its
+name in snake case, ``open_curtains``. A recording is how tests and the monitor see what was executed.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import re
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any, TypeVar
+
+from sleec_runtime.errors import Unbindable
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+_MARK = "__sleec_obligation__"
+_WORD_BORDER = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+
+
+class Recording:
+    """What was executed while it was on, in order: `executed`, with those that raised in `failed` as well.
+
+    It sees its own thread and asyncio task, and the tasks that these start; not other threads.
+    """
+
+    def __init__(self, outer: Recording | None = None, apart: bool = False) -> None:
+        self.executed: list[str] = []
+        self.failed: list[str] = []
+        self.outer = outer
+        self.apart = apart
+
+    def begin(self, name: str) -> None:
+        self.executed.append(name)
+        if self.outer is not None:
+            self.outer.begin(name)
+
+    def fail(self, name: str) -> None:
+        self.failed.append(name)
+        if self.outer is not None:
+            self.outer.fail(name)
+
+
+_recording: ContextVar[Recording | None] = ContextVar("sleec_recording", default=None)
+
+
+@contextmanager
+def recording(apart: bool = False) -> Iterator[Recording]:
+    """Records what is executed within. Recordings nest: an outer one sees what an inner one sees, except that those
+    kept `apart` do not report to each other, so that each dispatch can be looked at for itself.
+    """
+    outer = _recording.get()
+    while apart and outer is not None and outer.apart:
+        outer = outer.outer
+    inner = Recording(outer, apart)
+    token = _recording.set(inner)
+    try:
+        yield inner
+    finally:
+        _recording.reset(token)
+
+
+def snake_case(name: str) -> str:
+    """The name of the method that implements obligation `name`: ``AskLegalPresence`` is ``ask_legal_presence``."""
+    return _WORD_BORDER.sub("_", name).lower()
+
+
+def obligation(name: str) -> Callable[[F], F]:
+    """Marks a function or method as the implementation of obligation `name`: impl(O) of the paper, Section 3.2.
+
+    What it does is unchanged; each call of it is seen by the recordings that are on, at the cost of one look-up.
+    """
+
+    def mark(function: F) -> F:
+        if isinstance(function, (staticmethod, classmethod)):
+            return type(function)(mark(function.__func__))
+        wrapper = recorded(name, function)
+        setattr(wrapper, _MARK, name)
+        return wrapper  # type: ignore[return-value]
+
+    return mark
+
+
+def is_coroutine_function(function: Any) -> bool:
+    """Whether calling `function` gives something to be awaited, as far as can be told without calling it."""
+    if isinstance(function, (staticmethod, classmethod)):
+        function = function.__func__
+    return inspect.iscoroutinefunction(function) or inspect.iscoroutinefunction(type(function).__call__)
+
+
+def recorded(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
+    """`function`, seen by recordings under `name`."""
+    if is_coroutine_function(function):
+
+        @functools.wraps(function)
+        async def awaited(*args: Any, **kwargs: Any) -> Any:
+            on = _recording.get()
+            if on is None:
+                return await function(*args, **kwargs)
+            on.begin(name)
+            try:
+                return await function(*args, **kwargs)
+            except BaseException:
+                on.fail(name)
+                raise
+
+        return awaited
+
+    @functools.wraps(function, updated=())
+    def called(*args: Any, **kwargs: Any) -> Any:
+        on = _recording.get()
+        if on is None:
+            return function(*args, **kwargs)
+        on.begin(name)
+        try:
+            return function(*args, **kwargs)
+        except BaseException:
+            on.fail(name)
+            raise
+
+    return called
+
+
+def obligation_of(function: object) -> str | None:
+    """The obligation that a callable is marked with."""
+    name = getattr(function, _MARK, None)
+    return name if isinstance(name, str) else None
+
+
+def implementations(robot: object, obligations: Iterable[str]) -> dict[str, Callable[..., Any]]:
+    """The callables of `robot` (an object or a module) that implement `obligations`; a mark goes before a name.
+
+    O(attributes of robot + obligations).
+    """
+    wanted = dict.fromkeys(obligations)
+    by_mark: dict[str, Callable[..., Any]] = {}
+    for attribute in dir(robot):
+        # Looked at without getting it, because a property may do something when it is read.
+        name = obligation_of(_underlying(inspect.getattr_static(robot, attribute, None)))
+        if name in wanted and name is not None:
+            by_mark[name] = getattr(robot, attribute)
+    found: dict[str, Callable[..., Any]] = {}
+    for name in wanted:
+        implementation = by_mark.get(name) or getattr(robot, snake_case(name), None)
+        if callable(implementation):
+            found[name] = implementation
+    return found
+
+
+def _underlying(attribute: object) -> object:
+    return attribute.__func__ if isinstance(attribute, (staticmethod, classmethod)) else attribute
+
+
+@contextmanager
+def watched(robot: object, obligations: Iterable[str]) -> Iterator[None]:
+    """Lets recordings see the unmarked implementations of `robot` too, by instance attributes in front of its methods,
+    until the end of the block."""
+    placed: list[str] = []
+    for name, function in implementations(robot, obligations).items():
+        if obligation_of(function) is None:
+            if not hasattr(robot, "__dict__"):
+                raise Unbindable(
+                    f"{robot!r} takes no attributes, so its methods cannot be watched",
+                    f'mark {function.__name__} with @sleec_runtime.obligation("{name}")',
+                )
+            # An attribute of the object itself is looked up before the method of its class.
+            setattr(robot, snake_case(name), recorded(name, function))
+            placed.append(snake_case(name))
+    try:
+        yield
+    finally:
+        for attribute in placed:
+            delattr(robot, attribute)

@@ -1,0 +1,191 @@
+"""Sensor values made crisp: thresholds, scales, and fuzzy membership with a cut.
+
+SLEEC rules speak of propositions, "applied to fuzzy contexts by instantiating fuzzy predicates to crisp values at
+evaluation time" (paper, Section 2.1). A predicate says how one condition or measure follows from one sensor. All is
+computed exactly, so a value at the border is always on the same side of it.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Union
+
+from sleec_runtime.errors import SleecError, UnknownCondition, UnknownName, WrongType
+from sleec_runtime.values import exact
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Measure, Rational, Value
+    from sleec_runtime.runtime import Sleec
+
+Membership = Callable[["Rational"], object]
+"""How far a value belongs to a fuzzy set: from 0, not at all, to 1, wholly."""
+
+
+class UnknownSensor(UnknownName):
+    """A sensor that no predicate was declared for."""
+
+    kind = "sensor"
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """`condition` is true where the sensor is at least `at_least`, and at most `at_most`, of those that are given."""
+
+    condition: str
+    sensor: str
+    at_least: object = None
+    at_most: object = None
+
+    def __post_init__(self) -> None:
+        if self.at_least is None and self.at_most is None:
+            raise SleecError(f"the threshold of {self.condition} has no bound", "give at_least, at_most, or both")
+        for bound in (self.at_least, self.at_most):
+            if bound is not None:
+                _number(self.condition, bound, "a bound")
+
+    def crisp(self, reading: Rational, measure: Measure | None) -> Value:
+        above = self.at_least is None or reading >= _number(self.condition, self.at_least, "a bound")
+        return above and (self.at_most is None or reading <= _number(self.condition, self.at_most, "a bound"))
+
+    def check(self, measure: Measure | None) -> None:
+        _condition_only(self.condition, measure)
+
+
+@dataclass(frozen=True)
+class Scale:
+    """`condition` is a measure on a scale; `cuts` are where its second, third, … value begins."""
+
+    condition: str
+    sensor: str
+    cuts: Sequence[object]
+
+    def crisp(self, reading: Rational, measure: Measure | None) -> Value:
+        assert measure is not None, "checked when it was declared"
+        return measure.values[bisect_right([_number(self.condition, cut, "a cut") for cut in self.cuts], reading)]
+
+    def check(self, measure: Measure | None) -> None:
+        if measure is None or measure.kind != "scale":
+            raise SleecError(f"{self.condition} has no scale", f"declare it: MEASURE {self.condition}: low < high")
+        cuts = [_number(self.condition, cut, "a cut") for cut in self.cuts]
+        if len(cuts) != len(measure.values) - 1 or cuts != sorted(set(cuts)):
+            raise SleecError(
+                f"{self.condition} has the values {', '.join(measure.values)}",
+                f"give {len(measure.values) - 1} rising cuts, one between each two",
+            )
+
+
+@dataclass(frozen=True)
+class Fuzzy:
+    """`condition` is true where the sensor's membership is at least `cut`."""
+
+    condition: str
+    sensor: str
+    membership: Membership
+    cut: object = 0.5
+
+    def crisp(self, reading: Rational, measure: Measure | None) -> Value:
+        return _number(self.condition, self.membership(reading), "a membership") >= _number(
+            self.condition, self.cut, "a cut"
+        )
+
+    def check(self, measure: Measure | None) -> None:
+        _condition_only(self.condition, measure)
+        if not 0 < _number(self.condition, self.cut, "a cut") <= 1:
+            raise SleecError(f"the cut of {self.condition} is {self.cut}", "give one above 0, and at most 1")
+
+
+@dataclass(frozen=True)
+class Direct:
+    """`condition` is a measure, and the sensor measures it."""
+
+    condition: str
+    sensor: str
+
+    def crisp(self, reading: Rational, measure: Measure | None) -> Value:
+        return reading
+
+    def check(self, measure: Measure | None) -> None:
+        if measure is None or measure.kind == "scale":
+            raise SleecError(f"{self.condition} is no number", "give a Threshold, a Scale or a Fuzzy predicate")
+
+
+Predicate = Union[Threshold, Scale, Fuzzy, Direct]
+
+
+def trapezoid(foot: object, top: object, end_of_top: object, end: object) -> Membership:
+    """Membership that rises from `foot` to `top`, is whole up to `end_of_top`, and falls until `end`. Raises SleecError
+    unless these are numbers that do not fall."""
+    corners = [_number("a trapezoid", corner, "a corner") for corner in (foot, top, end_of_top, end)]
+    if corners != sorted(corners):
+        raise SleecError(f"the corners {', '.join(map(str, corners))} fall", "give them from left to right")
+    a, b, c, d = corners
+
+    def membership(value: Rational) -> object:
+        from fractions import Fraction
+
+        if b <= value <= c:
+            return 1
+        if value <= a or value >= d:
+            return 0
+        return Fraction(value - a) / (b - a) if value < b else Fraction(d - value) / (d - c)
+
+    return membership
+
+
+def triangle(foot: object, top: object, end: object) -> Membership:
+    """Membership that rises from `foot` to `top` and falls until `end`."""
+    return trapezoid(foot, top, top, end)
+
+
+class Sensors:
+    """The predicates of an instance: sensor values come in, one change of context goes out."""
+
+    def __init__(self, sleec: Sleec, *predicates: Predicate) -> None:
+        """Raises UnknownCondition, and SleecError for a predicate that does not fit what it decides, or decides what
+        another decides."""
+        vocabulary = sleec.vocabulary
+        self._sleec = sleec
+        self._by_sensor: dict[str, list[Predicate]] = {}
+        decided: set[str] = set()
+        for predicate in predicates:
+            if predicate.condition not in vocabulary:
+                raise UnknownCondition(predicate.condition, vocabulary)
+            if predicate.condition in decided:
+                raise SleecError(f"two predicates decide {predicate.condition}", "leave one out")
+            predicate.check(vocabulary[predicate.condition])
+            decided.add(predicate.condition)
+            self._by_sensor.setdefault(predicate.sensor, []).append(predicate)
+
+    def crisp(self, readings: Mapping[str, object]) -> dict[str, Value | None]:
+        """What the predicates make of `readings`; a reading of None makes unknown what depends on it.
+
+        O(predicates of these sensors). Raises UnknownSensor and WrongType.
+        """
+        vocabulary = self._sleec.vocabulary
+        crisp: dict[str, Value | None] = {}
+        for sensor, reading in readings.items():
+            if sensor not in self._by_sensor:
+                raise UnknownSensor(sensor, self._by_sensor)
+            number = None if reading is None else _number(sensor, reading, "a sensor value")
+            for predicate in self._by_sensor[sensor]:
+                measure = vocabulary.get(predicate.condition)
+                crisp[predicate.condition] = None if number is None else predicate.crisp(number, measure)
+        return crisp
+
+    def update(self, readings: Mapping[str, object]) -> None:
+        """One change of context, whole or not at all: what the predicates make of `readings`. Raises as `crisp`."""
+        self._sleec.update(self.crisp(readings))
+
+
+def _number(name: str, value: object, role: str) -> Rational:
+    number = exact(value)
+    if number is None:
+        raise WrongType(name, value, f"given {role}, a number")
+    return number
+
+
+def _condition_only(name: str, measure: Measure | None) -> None:
+    if measure is not None:
+        raise SleecError(f"{name} is a measure, not a condition", "give a Scale or a Direct predicate")

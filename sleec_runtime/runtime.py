@@ -1,0 +1,291 @@
+"""The runtime's face: a ruleset at work."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from sleec_runtime.dispatch import Done, Plan, due_in, plan, run, run_async
+from sleec_runtime.errors import NotBound, SleecError, UnknownTrigger
+from sleec_runtime.evaluation import Due, broken_assumptions
+from sleec_runtime.instance import Instance
+from sleec_runtime.layers import Layers
+from sleec_runtime.model import Assume, Measure, Reading, Rule, Ruleset
+from sleec_runtime.program import Program
+from sleec_runtime.snapshot import Conditions, Snapshot
+
+if TYPE_CHECKING:
+    from sleec_runtime.global_activation import GlobalActivation
+    from sleec_runtime.monitor import Monitor
+
+F = TypeVar("F")
+
+Listener = Callable[["Snapshot", "Snapshot", "tuple[Rule, ...]"], None]
+"""Told of each change: the context before, the one after, and the rules that were decided anew."""
+
+
+class Sleec:
+    """A CO-SLEEC instance (paper, Section 3.2) with the context that it is in.
+
+    Any thread may call anything at any time. A dispatch reads one reference and never waits; changes take a lock.
+    `strict` makes a decision that depends on unreported conditions an error; without it they are false
+    (Definition 1). `domain` leaves out the rules of other domains; `reading` goes before the ruleset's own.
+    """
+
+    def __init__(
+        self, ruleset: Ruleset, domain: str | None = None, reading: Reading | None = None, strict: bool = False
+    ) -> None:
+        whole = ruleset if reading is None else ruleset.read_as(reading)
+        self._reading = reading
+        self._strict = strict
+        self._lock = threading.RLock()
+        self._listeners: list[Listener] = []
+        self._monitor: Monitor | None = None
+        self._snapshot = Snapshot.first(Program(whole, domain, strict), {})
+        self._instance = Instance(whole)
+
+    # What there is --------------------------------------------------------------------------------------
+
+    @property
+    def ruleset(self) -> Ruleset:
+        """The rules in force: those of the domain, under the reading."""
+        return self._snapshot.program.ruleset
+
+    @property
+    def domain(self) -> str | None:
+        return self._snapshot.program.domain
+
+    @property
+    def layers(self) -> Layers:
+        """L: the layers by name, for ``@cop.around(sleec.layers["dress_assist.hc1"])``. Raises UnknownLayer."""
+        return self._instance.layers
+
+    @property
+    def conditions(self) -> Conditions:
+        """What is known now, as one whole context: it does not change under its reader."""
+        return self._snapshot.conditions
+
+    @property
+    def vocabulary(self) -> Mapping[str, Measure | None]:
+        """What `update` takes: the conditions, with None, and the measures, each with its declaration."""
+        return self._snapshot.program.vocabulary
+
+    # Code for the rules ---------------------------------------------------------------------------------
+
+    def rule(self, label: str) -> Callable[[F], F]:
+        """Marks a method as the one of rule `label`, MM(R); goes above its ``@cop.base``. Raises UnknownLabel."""
+        return self._instance.mark(label)
+
+    def bind(self, *targets: object) -> None:
+        """Makes the marked methods of objects, classes, modules or functions those of their rules.
+
+        A method's variants are read here, so bind when all are there. Raises Unbindable if a target has no marked
+        method, AlreadyBound if a rule has a method.
+        """
+        with self._lock:
+            for target in targets:
+                labels = self._instance.bind(target)
+                self._plan_anew(labels)
+
+    def unbind(self, *labels: str) -> None:
+        """Takes their methods from rules. Dispatches under way finish with them. Raises UnknownLabel."""
+        with self._lock:
+            self._instance.unbind(labels)
+            self._plan_anew(labels)
+
+    def implement(self, target: object) -> None:
+        """Gives a callable to each of some obligations; rules without a method run these, in the order of the clause.
+
+        `target` maps names to callables, or is an object or module whose callables are marked with
+        ``@sleec_runtime.obligation("OpenCurtains")`` or named in snake case. Each is called with the arguments of the
+        trigger. Raises UnknownObligation, and Unbindable for what is not callable or implements nothing.
+        """
+        with self._lock:
+            self._instance.implement(target, self._snapshot.program.whole.obligations)
+            self._plan_anew(rule.label for rule in self.ruleset.rules)
+
+    def missing(self) -> Mapping[str, NotBound]:
+        """The rules that could not run in some context, with why. Empty when all code is there. O(clauses)."""
+        return self._instance.missing(self.ruleset.rules)
+
+    # Context --------------------------------------------------------------------------------------------
+
+    def update(self, changes: Mapping[str, object]) -> None:
+        """One change of context, whole or not at all: no dispatch sees part of it.
+
+        None says that a condition is no longer known. O(changes + size of the rules that mention them). Raises
+        UnknownCondition or WrongType, and then nothing has changed.
+        """
+        with self._lock:
+            before = self._snapshot
+            after, rules = before.changed(changes)
+            if after is not before:
+                self._publish(before, after, rules)
+
+    def broken_assumptions(self, *triggers: str) -> tuple[Assume, ...]:
+        """The assumptions that the context breaks, if `triggers` occur in it.
+
+        What was proved of the rules was proved of contexts that break none, so a robot that finds one broken has reason
+        to distrust its sensors. Rules decide in such a context as in any other.
+        """
+        snapshot = self._snapshot
+        return broken_assumptions(snapshot.program.ruleset, snapshot.context(triggers))
+
+    # Triggers -------------------------------------------------------------------------------------------
+
+    def trigger(self, name: str, /, *args: Any, **kwargs: Any) -> Done:
+        """The trigger occurs: decides every rule of it in one context, and runs the variants, each with the arguments.
+
+        All that can be refused is refused before anything runs: UnknownTrigger, NotBound, UndeterminedDecision (in
+        strict mode), ConflictInContext, NeedsAwait. A variant that raises does not keep those of other rules from
+        running; what it raised is raised after them (VariantsFailed holds several). O(rules of the trigger) the first
+        time in a context, then O(rules that speak), however many others are loaded.
+        """
+        snapshot = self._snapshot
+        ready = self._ready(snapshot, name)
+        monitor = self._monitor
+        if monitor is not None:
+            return monitor.run(ready, snapshot, args, kwargs)
+        return run(ready, snapshot, args, kwargs)
+
+    def trigger_all(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
+        """Several triggers occur at once: one context, the rules of all in their order. Otherwise as `trigger`."""
+        snapshot = self._snapshot
+        ready = plan(snapshot, tuple(dict.fromkeys(names)), self._instance)
+        monitor = self._monitor
+        if monitor is not None:
+            return monitor.run(ready, snapshot, args, kwargs)
+        return run(ready, snapshot, args, kwargs)
+
+    async def trigger_async(self, name: str, /, *args: Any, **kwargs: Any) -> Done:
+        """`trigger`, where variants may be coroutine functions: they are awaited one after the other. The context is
+        that of the moment when this is first awaited."""
+        snapshot = self._snapshot
+        ready = self._ready(snapshot, name)
+        monitor = self._monitor
+        if monitor is not None:
+            return await monitor.run_async(ready, snapshot, args, kwargs)
+        return await run_async(ready, snapshot, args, kwargs)
+
+    async def trigger_all_async(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
+        """`trigger_all`, where variants may be coroutine functions."""
+        snapshot = self._snapshot
+        ready = plan(snapshot, tuple(dict.fromkeys(names)), self._instance)
+        monitor = self._monitor
+        if monitor is not None:
+            return await monitor.run_async(ready, snapshot, args, kwargs)
+        return await run_async(ready, snapshot, args, kwargs)
+
+    def due(self, *names: str) -> Due:
+        """What would be due if these triggers occurred now; nothing is run, and no code need be bound. Raises as
+        `trigger` does, but for what concerns code."""
+        return due_in(self._snapshot, names)
+
+    # Other rules, other modes ---------------------------------------------------------------------------
+
+    def prepare(self, ruleset: Ruleset) -> None:
+        """Makes the labels and layers of `ruleset` known, so that methods can be written for it before `replace`."""
+        with self._lock:
+            self._instance.admit(ruleset)
+
+    def replace(self, ruleset: Ruleset, *, bind: Iterable[object] = (), implement: object = None) -> None:
+        """Puts other rules in force, at once for all triggers; those under way finish under the old ones.
+
+        Layers of equal name stay the objects that they are, methods stay bound by label, and what is known of the
+        context stays known. `bind` and `implement` bring the code for new rules. Raises NotBound if a rule would be
+        without code that was not without before, WrongType if a known value does not fit the new declarations, and
+        what `bind` and `implement` raise: then nothing has changed.
+        """
+        whole = ruleset if self._reading is None else ruleset.read_as(self._reading)
+        with self._lock:
+            instance = self._instance.copied()
+            instance.admit(whole)
+            for target in bind:
+                instance.bind(target)
+            if implement is not None:
+                instance.implement(implement, whole.obligations)
+            self._install(Program(whole, self.domain, self._strict), instance)
+
+    def enter_domain(self, domain: str | None) -> None:
+        """Puts the rules of another domain in force, as `replace` does. Raises UnknownDomain."""
+        with self._lock:
+            self._install(Program(self._snapshot.program.whole, domain, self._strict), self._instance)
+
+    def activate_globally(self) -> GlobalActivation:
+        """The paper's own mode (Section 4): from now on the layers of the active clauses are globally active, so that
+        methods can be called without a trigger. See `GlobalActivation` for what that costs and where it is wrong."""
+        from sleec_runtime.global_activation import GlobalActivation
+
+        return GlobalActivation(self).start()
+
+    # For the modules of the runtime ---------------------------------------------------------------------
+
+    def listen(self, listener: Listener) -> Callable[[], None]:
+        """Has `listener` told of every change of context, before the next one can come; returns what ends it."""
+        with self._lock:
+            self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener)
+
+    @contextmanager
+    def held(self) -> Iterator[Snapshot]:
+        """The context of now, which does not change within the block: changes wait, dispatches do not."""
+        with self._lock:
+            yield self._snapshot
+
+    def attach(self, monitor: Monitor) -> None:
+        """Lets `monitor` run every dispatch. Raises SleecError if another does."""
+        with self._lock:
+            if self._monitor is not None:
+                raise SleecError("a monitor is on already", "stop() it first")
+            self._monitor = monitor
+
+    def detach(self, monitor: Monitor) -> None:
+        """Ends that."""
+        with self._lock:
+            if self._monitor is monitor:
+                self._monitor = None
+
+    def bound_objects(self) -> list[object]:
+        """The objects whose methods are bound to rules."""
+        return self._instance.objects()
+
+    def _ready(self, snapshot: Snapshot, name: str) -> Plan:
+        place = snapshot.program.places.get(name)
+        if place is None:
+            raise UnknownTrigger(name, snapshot.program.places)
+        cell = snapshot.rows[place[0]][place[1]]
+        ready = cell.plan
+        if ready is None or ready.mark is not snapshot.mark:
+            # Two threads may both make the plan; they make the same one.
+            ready = cell.plan = plan(snapshot, (name,), self._instance)
+        return ready
+
+    def _plan_anew(self, labels: Iterable[str]) -> None:
+        by_label = self.ruleset.by_label
+        triggers = dict.fromkeys(by_label[label].trigger for label in labels if label in by_label)
+        self._snapshot = self._snapshot.without_plans(triggers)
+
+    def _install(self, program: Program, instance: Instance) -> None:
+        before = self._snapshot
+        were_missing = self._instance.missing(before.program.ruleset.rules)
+        problems = [
+            problem for label, problem in instance.missing(program.ruleset.rules).items() if label not in were_missing
+        ]
+        if problems:
+            labels = [label for problem in problems for label in problem.rules]
+            raise NotBound(
+                "the rules stay as they are: " + "; ".join(problem.message for problem in problems),
+                labels,
+                "bring the code with replace(…, bind=…, implement=…)",
+            )
+        known = {name: value for name, value in before.conditions.items() if name in program.vocabulary}
+        after = Snapshot.first(program, known, before.number + 1)
+        self._instance = instance
+        self._publish(before, after, program.ruleset.rules)
+
+    def _publish(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
+        self._snapshot = after
+        for listener in tuple(self._listeners):
+            listener(before, after, rules)
