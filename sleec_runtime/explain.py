@@ -6,23 +6,8 @@ from collections.abc import Iterator, Mapping
 
 from sleec_runtime.conflicts import Conflict
 from sleec_runtime.evaluation import Decision, Outcome, Step, Undetermined
-from sleec_runtime.model import (
-    And,
-    Atom,
-    Comparison,
-    Exclusive,
-    Formula,
-    MeasureRef,
-    Not,
-    Number,
-    Or,
-    Rule,
-    Term,
-    Truth,
-    Value,
-    leaves,
-    measures_of,
-)
+from sleec_runtime.language.printer import print_formula, print_number
+from sleec_runtime.model import Comparison, Exclusive, Formula, Rule, Value, leaves, measures_of
 
 
 def outcome_in_words(rule: Rule, outcome: Outcome, conditions: Mapping[str, Value]) -> str:
@@ -50,7 +35,7 @@ def conflict_in_words(cause: Conflict, decisions: tuple[Decision, ...]) -> str:
         for literal in cause.literals
     )
     forbidding = "; ".join(
-        "EXCLUSIVE " + ", ".join(c.names) if isinstance(c, Exclusive) else f"NEVER {formula_in_words(c.formula)}"
+        "EXCLUSIVE " + ", ".join(c.names) if isinstance(c, Exclusive) else f"NEVER {print_formula(c.formula)}"
         for c in cause.constraints
     )
     if not literals:
@@ -59,47 +44,26 @@ def conflict_in_words(cause: Conflict, decisions: tuple[Decision, ...]) -> str:
     return f"{literals} {verb} due, against {forbidding}" if forbidding else f"{literals} are both due"
 
 
-def formula_in_words(formula: Formula) -> str:
-    """The formula as the structured-English form writes it."""
-    if isinstance(formula, Truth):
-        return "true" if formula.value else "false"
-    if isinstance(formula, Atom):
-        return formula.name
-    if isinstance(formula, Comparison):
-        return f"{_term(formula.left)} {formula.operator} {_term(formula.right)}"
-    if isinstance(formula, Not):
-        inner = formula_in_words(formula.operand)
-        return f"NOT {inner}" if isinstance(formula.operand, (Atom, Truth)) else f"NOT ({inner})"
-    word = " AND " if isinstance(formula, And) else " OR "
-    return word.join(map(_operand, formula.operands))
-
-
-def _operand(formula: Formula) -> str:
-    text = formula_in_words(formula)
-    return f"({text})" if isinstance(formula, (And, Or)) else text
-
-
 def _step(step: Step, conditions: Mapping[str, Value]) -> str:
     where = "guard" if step.clause is None else f"clause {step.clause}"
     values = ", ".join(dict.fromkeys(_values(step.condition, conditions)))
-    text = f"{where}: {formula_in_words(step.condition)} is {'true' if step.held else 'false'}"
+    text = f"{where}: {print_formula(step.condition)} is {'true' if step.held else 'false'}"
     return f"{text} ({values})" if values else text
 
 
 def _values(formula: Formula, conditions: Mapping[str, Value]) -> Iterator[str]:
     for leaf in leaves(formula):
         if isinstance(leaf, Comparison):
-            yield from (f"{name} = {conditions.get(name, 'unreported')}" for name in measures_of(leaf))
+            yield from (f"{name} = {_value(conditions.get(name))}" for name in measures_of(leaf))
         elif leaf is not formula:
-            value = conditions.get(leaf.name)
-            yield f"{leaf.name} = {'unreported' if value is None else str(value).lower()}"
+            yield f"{leaf.name} = {_value(conditions.get(leaf.name))}"
         elif leaf.name not in conditions:
             yield "unreported"
 
 
-def _term(term: Term) -> str:
-    if isinstance(term, MeasureRef):
-        return term.name
-    if isinstance(term, Number):
-        return term.constant or str(term.value)
-    return term.value
+def _value(value: Value | None) -> str:
+    if value is None:
+        return "unreported"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return value if isinstance(value, str) else print_number(value)
