@@ -53,7 +53,7 @@ def parse_english(source: Source) -> Ruleset:
         statements=tuple(statements),
         reading=parser.reading or DEFAULT_READING,
         syntax="english",
-        inferred=tuple(parser.names.inferred.values()),
+        inferred=tuple(measure for _, measure in sorted(parser.names.inferred.items())),
         reading_stated=parser.reading is not None,
         source=source,
         closing_comments=tokens.closing,

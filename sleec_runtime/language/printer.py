@@ -143,14 +143,10 @@ class _Printer:
             yield from _comment_lines(_trimmed(first.above))
             behind = first.behind
         else:
-            # There is no line of the rule's own: its comments share the line of its default.
-            yield from _comment_lines(_trimmed(first.above))
-            behind = own.behind
-            if first.behind is not None:
-                if behind is not None:
-                    yield _comment(first.behind)
-                else:
-                    behind = first.behind
+            # There is no line of the rule's own: its comments share the line of its default, which has room for one.
+            behind = first.behind if own.behind is None else own.behind
+            crowded_out = first.behind if own.behind is not None else None
+            yield from _comment_lines(_trimmed((*first.above, crowded_out or "")))
         guard = ""
         if rule.guard is not None:
             guard = f" AND {_operand(rule.guard, Or)}"
