@@ -47,7 +47,19 @@ OBLIGATIONS = ("Help", "Wait", "open the curtains", "Warn", "Leave", "Log", "tel
 BOTH = ("Nurse", "ring the bell")
 """Names that are triggers and obligations: what one rule obliges sets off another."""
 
-EXOTIC = ("Größe", "x-ray", "O'Brien", "patients'", "_hidden", "Ñandú", "λ", "C3", "名前", "être au lit", "the 2nd floor")
+EXOTIC = (
+    "Größe",
+    "x-ray",
+    "O'Brien",
+    "patients'",
+    "_hidden",
+    "Ñandú",
+    "λ",
+    "C3",
+    "名前",
+    "être au lit",
+    "the 2nd floor",
+)
 """Names at the edge of what a name may be; used as conditions where `exotic` is set."""
 
 NUMBERS = ("Age", "Temperature", "the noise level")

@@ -1,7 +1,7 @@
 """Text to `Ruleset` and back (docs/language.md).
 
-    ruleset = load("rulesets/household.sleec")
-    print_ruleset(ruleset)
+ruleset = load("rulesets/household.sleec")
+print_ruleset(ruleset)
 """
 
 from __future__ import annotations

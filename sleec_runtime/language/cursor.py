@@ -119,7 +119,11 @@ class Cursor:
                 self.misspelt(at, meant)
                 raise Abandon
         if kind == "strange":
-            self.fail(f"unexpected {quoted(self.token_text(at))}; expected {what}", self.token_span(at), self._instead(at, hint))
+            self.fail(
+                f"unexpected {quoted(self.token_text(at))}; expected {what}",
+                self.token_span(at),
+                self._instead(at, hint),
+            )
         if kind in TIMES:
             self.fail(
                 f"{kind} is not supported yet: this version reads rules without times",
@@ -219,7 +223,7 @@ class Cursor:
         at = self.at
         kinds = self.kinds
         if kinds[at] != "word":
-            self._no_name(what, hint)
+            self.no_name(what, hint)
         if kinds[at + 1] in PHRASE:
             return self._phrase_of_words(what)
         self.at = at + 1
@@ -235,7 +239,8 @@ class Cursor:
             self.fail(f"{word} is a truth value and cannot be {what}", Span(start, end), "choose another name")
         return word if word.isascii() else unicodedata.normalize("NFC", word)
 
-    def _no_name(self, what: str, hint: str | None) -> NoReturn:
+    def no_name(self, what: str, hint: str | None) -> NoReturn:
+        """Gives up because `what` cannot start with the token at hand."""
         kind = self.kinds[self.at]
         if kind in ("number", "digits"):
             self.fail(
@@ -300,7 +305,10 @@ class Cursor:
         return None
 
     def _says(self, words: str, token: int) -> bool:
-        return all(self.token_text(min(token + i, len(self.kinds) - 1)).casefold() == word for i, word in enumerate(words.split()))
+        return all(
+            self.token_text(min(token + i, len(self.kinds) - 1)).casefold() == word
+            for i, word in enumerate(words.split())
+        )
 
     def _two_names(self, first: int, words: list[str]) -> None:
         for offset, word in enumerate(words):

@@ -84,7 +84,9 @@ class DeclarationParser(FormulaParser):
             values.append(self._listed_name("a value of the scale"))
             spans.append(self.span(at_value))
         if self.kinds[self.at] in (",", "operator", "("):
-            self.expected("< between the values of the scale", "write a scale from the lowest value up: low < middle < high")
+            self.expected(
+                "< between the values of the scale", "write a scale from the lowest value up: low < middle < high"
+            )
         span = self.span(first)
         comments = self.comments_of(first)
         if len(values) == 1 and values[0] == "boolean":
@@ -104,7 +106,9 @@ class DeclarationParser(FormulaParser):
         self.fail(
             f"{quoted(written)} is no kind of measure",
             span,
-            f"did you mean {near}?" if near else "write number, integer, boolean or a scale of two values or more: low < high",
+            f"did you mean {near}?"
+            if near
+            else "write number, integer, boolean or a scale of two values or more: low < high",
         )
 
     def _constant(self) -> Constant | None:

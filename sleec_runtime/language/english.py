@@ -6,7 +6,9 @@ wherever they stand, and NEVER and ASSUME last: what a name in them is depends o
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import gc
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TypeVar
 
 from sleec_runtime.errors import LanguageError, Problem
@@ -44,9 +46,10 @@ def parse_english(source: Source) -> Ruleset:
         LanguageError: with every problem, in the order of the text.
     """
     problems: list[Problem] = []
-    tokens = scan(source.text)
-    parser = EnglishParser(source, tokens, problems, Names(source, problems))
-    statements = parser.statements()
+    with _no_garbage_collection():
+        tokens = scan(source.text)
+        parser = EnglishParser(source, tokens, problems, Names(source, problems))
+        statements = parser.statements()
     if problems:
         raise LanguageError(source, _shown(problems))
     return Ruleset(
@@ -158,7 +161,9 @@ class EnglishParser(RuleParser):
                 self.misspelt(0, keyword)
                 return
         if self.kinds[0] == "UNLESS":
-            self.expected("a rule before this UNLESS", "an exception belongs to a rule: WHEN trigger THEN response UNLESS ...")
+            self.expected(
+                "a rule before this UNLESS", "an exception belongs to a rule: WHEN trigger THEN response UNLESS ..."
+            )
         self.expected("a statement, such as RULE or WHEN", "a rule looks like this: WHEN trigger THEN response")
 
     def _not_yet(self, keyword: str) -> None:
@@ -265,6 +270,22 @@ class EnglishParser(RuleParser):
         self.leaf = self.names.assumed
         formula = self.formula()
         return Assume(formula, self.domains, self.span(first), self.comments_of(first))
+
+
+@contextmanager
+def _no_garbage_collection() -> Iterator[None]:
+    """Parsing makes many objects and no cycles: looking for them again and again takes a fifth of its time."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            if not gc.get_freeze_count():
+                # All that is new becomes old at once, unseen; else the first collection would walk through it.
+                gc.freeze()
+                gc.unfreeze()
+            gc.enable()
 
 
 def _shown(problems: list[Problem]) -> list[Problem]:

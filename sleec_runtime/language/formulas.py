@@ -84,9 +84,9 @@ class FormulaParser(Cursor):
             operand = self._unary()
             self.depth -= 1
             return Not(operand, self.span(first))
-        if kind == "number":
-            return self._comparison(first, Side(self.number(), self.token_span(first)))
-        self.expected("a condition", self._hint_at_condition(kind))
+        if kind != "number":
+            self.expected("a condition", self._hint_at_condition(kind))
+        return self._comparison(first, Side(self.number(), self.token_span(first)))
 
     def _leaf(self) -> Formula:
         first = self.at
@@ -110,9 +110,7 @@ class FormulaParser(Cursor):
             return None
         word = self.token_text(token)
         if word not in ("true", "false"):
-            self.problem(
-                f"{word} is written in small letters: {word.casefold()}", self.token_span(token), None
-            )
+            self.problem(f"{word} is written in small letters: {word.casefold()}", self.token_span(token), None)
         if self.kinds[token + 1] == "operator":
             self.fail(
                 f"{word} cannot be compared",
@@ -167,9 +165,7 @@ class FormulaParser(Cursor):
         self.at += 1
         text = self.token_text(token)
         if len(text) > MAX_DIGITS:
-            self.fail(
-                f"this number has more than {MAX_DIGITS} digits", self.token_span(token), "is a blank missing?"
-            )
+            self.fail(f"this number has more than {MAX_DIGITS} digits", self.token_span(token), "is a blank missing?")
         if "." not in text:
             return int(text)
         from fractions import Fraction

@@ -109,7 +109,11 @@ class _Printer:
             if isinstance(statement, (Rule, Exclusive, Never, Assume)) and statement.domains != domains:
                 domains = statement.domains
                 settings.append(f"DOMAIN {', '.join(domains) if domains is not None else 'everywhere'}")
-            heading, above = _split(statement.comments.above, bool(settings))
+            labelled = False
+            if isinstance(statement, Rule):
+                rules += 1
+                labelled = statement.labelled or statement.label != f"rule_{rules}"
+            heading, above = _split(_above(statement, labelled), bool(settings))
             if before is not None and (settings or _stands_apart(before, statement)):
                 yield ""
             if settings:
@@ -121,14 +125,11 @@ class _Printer:
                 settings = []
             yield from _comment_lines(above)
             if isinstance(statement, Rule):
-                rules += 1
-                yield from self.rule(statement, statement.labelled or statement.label != f"rule_{rules}")
+                yield from self.rule(statement, labelled)
             else:
                 yield _behind(_statement(statement), statement.comments.behind)
             before = statement
         closing = _trimmed(ruleset.closing_comments)
-        if settings:
-            yield from settings
         if closing:
             if before is not None:
                 yield ""
@@ -143,10 +144,7 @@ class _Printer:
             yield from _comment_lines(_trimmed(first.above))
             behind = first.behind
         else:
-            # There is no line of the rule's own: its comments share the line of its default, which has room for one.
             behind = first.behind if own.behind is None else own.behind
-            crowded_out = first.behind if own.behind is not None else None
-            yield from _comment_lines(_trimmed((*first.above, crowded_out or "")))
         guard = ""
         if rule.guard is not None:
             guard = f" AND {_operand(rule.guard, Or)}"
@@ -201,6 +199,17 @@ def _stands_apart(before: Statement, statement: Statement) -> bool:
 
 
 # Comments -------------------------------------------------------------------------------------------------
+
+
+def _above(statement: Statement, labelled: bool) -> Sequence[str]:
+    """The comments above a statement. A rule without a label has no line apart from its default's: the comments of both
+    stand above it, and the one too many behind it, too."""
+    if not isinstance(statement, Rule) or labelled:
+        return statement.comments.above
+    own, default = statement.comments, statement.default.comments
+    one_too_many = default.behind if own.behind is not None else None
+    above = (*own.above, *default.above)
+    return (*above, one_too_many) if one_too_many else above
 
 
 def _split(above: Sequence[str], has_settings: bool) -> tuple[Sequence[str], Sequence[str]]:

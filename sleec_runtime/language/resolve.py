@@ -356,9 +356,7 @@ class Names:
 
     def _report_clashes(self) -> set[str]:
         clashing: set[str] = set()
-        places: dict[str, dict[str, Span]] = {
-            kind: {**self._used[kind], **self._declared[kind]} for kind in _KINDS
-        }
+        places: dict[str, dict[str, Span]] = {kind: {**self._used[kind], **self._declared[kind]} for kind in _KINDS}
         places["measure"] = {name: self._measured.get(name, NOWHERE_YET) for name in (*self.inferred,)}
         for name in self.measures:
             places["measure"][name] = self._named.get(name, NOWHERE_YET)

@@ -85,7 +85,11 @@ class RuleParser(DeclarationParser):
         self.at += 1
         at = self.at
         try:
-            match = _LABEL.match(self.text, self.starts[at]) if self.kinds[at] in PHRASE or self.kinds[at] == "dotted" else None
+            match = (
+                _LABEL.match(self.text, self.starts[at])
+                if self.kinds[at] in PHRASE or self.kinds[at] == "dotted"
+                else None
+            )
             if match is None:
                 self.expected("a label after RULE", "a label is one word, as in: RULE dress_assist")
             span = Span(*match.span())
@@ -115,7 +119,9 @@ class RuleParser(DeclarationParser):
         first = self.at
         self.at += 1
         at_trigger = self.at
-        trigger = self.name("a trigger after WHEN", self._hint_at_trigger()) or self.expected("a trigger after WHEN")
+        if self.kinds[at_trigger] != "word":
+            self.no_name("a trigger after WHEN", self._hint_at_trigger())
+        trigger = self.name("a trigger after WHEN") or self.expected("a trigger after WHEN")
         trigger_span = self.span(at_trigger)
         if not self.hurt:
             self.names.use("trigger", trigger, trigger_span)
@@ -149,7 +155,9 @@ class RuleParser(DeclarationParser):
             if len(obligations) > 1 and not hedges:
                 self._leave_room(self.depth)
         elif kind in ("WHICH", "CASE", "THEN"):
-            self.expected("IN WHICH CASE after the condition", "as in: UNLESS UserUndressed IN WHICH CASE RefuseRequest")
+            self.expected(
+                "IN WHICH CASE after the condition", "as in: UNLESS UserUndressed IN WHICH CASE RefuseRequest"
+            )
         return Clause(condition, obligations, hedges, self.span(first), self.comments_of(first))
 
     def _in_which_case(self) -> None:
@@ -226,13 +234,16 @@ class RuleParser(DeclarationParser):
                     "NOT forbids one obligation: write NOT A AND NOT B, or forbid both together with NEVER A AND B",
                 )
         at_name = self.at
-        name = self.name("an obligation", self._hint_at_obligation())
+        if self.kinds[at_name] != "word":
+            self.no_name("an obligation", self._hint_at_obligation())
+        name = self.name("an obligation")
         if not name:
             self._literal(found)
             return
+        span = self.span(at_name)
         if not self.hurt:
-            self.names.use("obligation", name, self.span(at_name))
-        found.append(Obligation(name, negated, self.span(first)))
+            self.names.use("obligation", name, span)
+        found.append(Obligation(name, negated, self.span(first) if negated else span))
 
     def _close(self, opened: int) -> None:
         if self.kinds[self.at] == "OR":

@@ -67,9 +67,7 @@ def _swapped(word: str, keyword: str) -> bool:
 
 
 def _doubled(word: str, keyword: str) -> bool:
-    return len(word) == len(keyword) + 1 and any(
-        keyword[: i + 1] + keyword[i:] == word for i in range(len(keyword))
-    )
+    return len(word) == len(keyword) + 1 and any(keyword[: i + 1] + keyword[i:] == word for i in range(len(keyword)))
 
 
 def _plain(name: str) -> str:
