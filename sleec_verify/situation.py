@@ -76,9 +76,8 @@ def _condition(ruleset: Ruleset, name: str) -> str:
     if name in ruleset.conditions:
         return name
     if name in ruleset.measures:
-        raise SituationError(
-            f"{name} is a measure, neither true nor false", f"give its value: {_example(ruleset, name)}"
-        )
+        example = ruleset.measures[name].values[:1] or ("15",)
+        raise SituationError(f"{name} is a measure, neither true nor false", f"give its value: {name}={example[0]}")
     if name in ruleset.triggers:
         raise SituationError(f"{name} is a trigger", "give what occurs with --when")
     if name in ruleset.obligations:
@@ -86,23 +85,18 @@ def _condition(ruleset: Ruleset, name: str) -> str:
     raise _unknown(name, "condition or measure", {*ruleset.conditions, *ruleset.measures})
 
 
-def _example(ruleset: Ruleset, name: str) -> str:
-    measure = ruleset.measures[name]
-    return f"{name}={measure.values[0] if measure.values else 15}"
-
-
 def _measured(ruleset: Ruleset, measure: Measure, written: str) -> Value:
     if measure.kind == "scale":
         if written in measure.values:
             return written
         raise SituationError(
-            f"{written or 'nothing'} is no value of {measure.name}", f"its scale is {' < '.join(measure.values)}"
+            f"{measure.name} is never {written or 'nothing'}", f"its scale is {' < '.join(measure.values)}"
         )
     if written in ruleset.constants:
         return ruleset.constants[written].value
     if not _NUMBER.fullmatch(written):
         raise SituationError(
-            f"{written[:40] or 'nothing'} is no number, and {measure.name} is a number",
+            f"{measure.name} is a number, and {written[:40] or 'nothing'} is not",
             f"write it with digits, as in {measure.name}=15 or {measure.name}=36.6",
         )
     from fractions import Fraction
@@ -123,7 +117,7 @@ def _unknown(name: str, what: str, known: frozenset[str] | set[str]) -> Situatio
         hint = f"did you mean {near}?"
     elif known:
         shown = sorted(known)
-        hint = f"there are {', '.join(shown[:10])}{' and more' if len(shown) > 10 else ''}"
+        hint = f"the rules know {', '.join(shown[:10])}{' and more' if len(shown) > 10 else ''}"
     else:
         hint = f"the ruleset has no {what}"
     return SituationError(f"there is no {what} {name}", hint)

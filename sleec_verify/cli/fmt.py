@@ -23,10 +23,8 @@ from sleec_verify.report.outcome import Unusable, counted
 )
 @options.paths(several=True)
 @click.option("--write", "mode", flag_value="write", help="Change the files in place.")
-@click.option(
-    "--check", "mode", flag_value="check", help="Change nothing; exit with 1 if a file is laid out otherwise."
-)
-@click.option("--diff", "mode", flag_value="diff", help="Change nothing; show what would change, and exit as --check.")
+@click.option("--check", "mode", flag_value="check", help="Change nothing; exit with 1 if --write would.")
+@click.option("--diff", "mode", flag_value="diff", help="Change nothing; show what --write would; exit as --check.")
 def command(paths: tuple[str, ...], mode: str | None) -> int:
     """Print the rules in FILE in their usual layout: files, folders, or - for standard input.
 
@@ -37,8 +35,7 @@ def command(paths: tuple[str, ...], mode: str | None) -> int:
         raise click.UsageError("several files: say --write, --check or --diff")
     if mode == "write" and "-" in found:
         raise click.UsageError("standard input cannot be changed in place")
-    code = exits.HOLDS
-    changed = 0
+    changed = unusable = 0
     for path in found:
         try:
             if isinstance(path, Unusable):
@@ -46,7 +43,7 @@ def command(paths: tuple[str, ...], mode: str | None) -> int:
             ruleset = load(path)
         except SleecError as error:
             complain(error)
-            code = exits.UNUSABLE
+            unusable += 1
             continue
         laid_out = _laid_out(ruleset)
         if mode is None:
@@ -56,10 +53,11 @@ def command(paths: tuple[str, ...], mode: str | None) -> int:
             _show(path, ruleset, laid_out, mode)
     if mode is not None:
         done = "changed" if mode == "write" else "to change"
-        print(f"{counted(len(found), 'file')}, {changed or 'none'} {done}", file=sys.stderr)
-    if changed and mode != "write":
-        code = max(code, exits.FINDINGS)
-    return code
+        more = f", {unusable} unusable" if unusable else ""
+        print(f"{counted(len(found), 'file')}, {changed or 'none'} {done}{more}", file=sys.stderr)
+    if unusable:
+        return exits.UNUSABLE
+    return exits.FINDINGS if changed and mode != "write" else exits.HOLDS
 
 
 def _safely(path: str, ruleset: Ruleset, laid_out: str) -> None:

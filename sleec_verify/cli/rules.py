@@ -69,10 +69,7 @@ def _explained(check: Check, kind: FindingKind, palette: Palette) -> Iterator[st
     yield f"{palette('strong', kind.code)}: {kind.title}\n"
     yield f"{palette(kind.severity, kind.severity)} of the check {check.name}: {check.question}\n\n"
     yield fill(kind.explanation, 100) + "\n\n"
-    for title, example in (
-        (f"Rules that have it{palette('faint', ':')}", kind.bad),
-        ("Rules that have not:", kind.good),
-    ):
+    for title, example in (("Rules that have it:", kind.bad), ("Rules that have not:", kind.good)):
         yield f"{title}\n\n{indent(example.strip(), '    ')}\n\n"
 
 

@@ -20,6 +20,8 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             place = source.place(finding.span)
             label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
             yield f"{source.path}:{place.line}:{place.column}: {label} {finding.message}\n"
+        for name, why in outcome.unlisted:
+            yield f"{source.path}: {palette('note', f'note[{name}]')} {why}\n"
         for name, why in outcome.undecided:
             yield f"{source.path}: {palette('unknown', f'unknown[{name}]')} {why}\n"
     counts = ", ".join(counted(number, severity) for severity, number in tally(outcomes).items())

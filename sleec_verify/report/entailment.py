@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from sleec_verify.report.full import finding_lines
-from sleec_verify.report.json import Json, dump, finding_json, span_json
 from sleec_verify.report.words import listed
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
     from sleec_verify.entailment import Entailment
+    from sleec_verify.report.json import Json
     from sleec_verify.report.palette import Palette
 
 
@@ -44,6 +44,8 @@ def _concise(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator
 
 
 def _json(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
+    from sleec_verify.report.json import dump, finding_json, span_json
+
     del palette  # a program reads this
     source = ruleset.source
     due: list[Json] = [*answer.obligations]

@@ -50,7 +50,7 @@ def excerpt(source: Source, marks: Sequence[Mark], palette: Palette) -> Iterator
         line = source.line(number)
         here = sorted(stretches[number], key=lambda s: (not s.mark.main, s.start))
         left = _left_edge(line, here)
-        yield f"{palette('faint', f'{number:>{margin}} |')} {_shown(line, left)}"
+        yield f"{palette('faint', f'{number:>{margin}} |')} {_shown(line, left)}".rstrip()
         for start, end, mark, last in here:
             pad = " " * _columns(_shown(line[:start], left))
             width = max(1, min(_columns(_printable(line[start:end])), _WIDTH - len(pad)))

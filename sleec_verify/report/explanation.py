@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from sleec_verify.report.entailment import caveats
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.outcome import counted
-from sleec_verify.report.words import listed, quoted, situation, value_text
+from sleec_verify.report.words import context_text, listed, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Formula, Rule, Ruleset, Span
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 def render(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
     """The situation, then a paragraph for each rule that is triggered in it, and what comes of it all."""
     source = ruleset.source
-    said = situation(sorted(context.triggers), context.conditions)
-    yield f"{said}, by the {len(ruleset.rules)} rules of {source.path} (reading {ruleset.reading}):\n\n"
+    size = counted(len(ruleset.rules), "rule")
+    yield f"{context_text(context)}, by the {size} of {source.path}, reading {ruleset.reading}:\n\n"
     decided = {because.rule: because for because in answer.because}
     triggered = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
     for rule in triggered:

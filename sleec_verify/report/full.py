@@ -24,12 +24,15 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
         for finding in outcome.findings:
             yield from (line + "\n" for line in finding_lines(finding, source, palette))
             yield "\n"
+        for name, why in outcome.unlisted:
+            yield f"{source.path}: {palette('note', f'note[{name}]')} {why}\n\n"
         for name, why in outcome.undecided:
             yield f"{source.path}: {palette('unknown', f'unknown[{name}]')} {why}\n\n"
         yield _on(outcome, palette) + "\n"
     if len(outcomes) > 1:
         unusable = sum(isinstance(outcome, Unusable) for outcome in outcomes)
-        yield f"{counted(len(outcomes), 'ruleset')}: {_counts(outcomes)}{f', {unusable} unusable' if unusable else ''}\n"
+        more = f", {unusable} unusable" if unusable else ""
+        yield f"{counted(len(outcomes), 'ruleset')}: {_counts(outcomes)}{more}\n"
 
 
 def finding_lines(finding: Finding, source: Source, palette: Palette) -> Iterator[str]:

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Union
 
 from sleec_verify import __version__
-from sleec_verify.finding import Proved, Refuted
-from sleec_verify.report.outcome import Checked, Outcome, Unusable, tally
+from sleec_verify.finding import Proved, Refuted, Unknown
+from sleec_verify.report.outcome import Outcome, Unusable, counted, tally
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
@@ -53,17 +53,16 @@ def _ruleset(outcome: Outcome) -> Json:
     }
 
 
+_VERDICTS: dict[type, str] = {Proved: "proved", Refuted: "refuted", Unknown: "unknown"}
+
+
 def _check(result: CheckResult) -> Json:
     verdict = result.verdict
     return {
         "name": result.name,
-        "verdict": "proved"
-        if isinstance(verdict, Proved)
-        else "refuted"
-        if isinstance(verdict, Refuted)
-        else "unknown",
+        "verdict": _VERDICTS[type(verdict)],
         "seconds": round(result.seconds, 6),
-        "reason": result.reason if isinstance(verdict, (Proved, Refuted)) else verdict.why,
+        "reason": verdict.why if isinstance(verdict, Unknown) else result.reason,
     }
 
 
@@ -96,7 +95,7 @@ def error_json(error: SleecError) -> Json:
         {"message": problem.message, "hint": problem.hint, "span": span_json(problem.span, error.source)}
         for problem in error.problems
     ]
-    return {"message": error.message, "hint": error.hint, "problems": problems}
+    return {"message": f"this is no ruleset: {counted(len(problems), 'problem')}", "hint": None, "problems": problems}
 
 
 def span_json(span: Span, source: Source) -> dict[str, Json]:

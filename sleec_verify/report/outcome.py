@@ -31,6 +31,11 @@ class Checked(NamedTuple):
         return [(r.name, r.verdict.why) for r in self.results if isinstance(r.verdict, Unknown)]
 
     @property
+    def unlisted(self) -> list[tuple[str, str]]:
+        """The checks that found more than they list, each with a word on it."""
+        return [(r.name, r.reason) for r in self.results if r.reason is not None]
+
+    @property
     def hedges(self) -> int:
         """How many hedge clauses the rules have."""
         return sum(sum(1 for _ in rule.clauses()) - 1 for rule in self.ruleset.rules)

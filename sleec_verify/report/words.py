@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Value
+    from sleec_runtime.model import Context, Value
     from sleec_verify.finding import Witness
 
 
@@ -33,18 +33,23 @@ def quoted(name: str) -> str:
     return f'"{name}"' if " " in name else name
 
 
-def situation(triggers: Sequence[str], conditions: Mapping[str, Value]) -> str:
-    """``When A and B occur, C is true and Age is 15``, without a full stop."""
-    if not triggers:
-        occurs = "Whatever occurs"
-    else:
-        occurs = f"When {listed(map(quoted, triggers))} {'occurs' if len(triggers) == 1 else 'occur'}"
-    given = [f"{quoted(name)} is {value_text(value)}" for name, value in conditions.items()]
-    if not given:
-        return occurs
-    return f"{occurs}{',' if triggers else ' and'} {listed(given)}"
-
-
 def witness_text(witness: Witness) -> str:
-    """The situation of a witness as one sentence."""
-    return f"{situation(witness.triggers, witness.conditions)} (the rest does not matter)"
+    """``When A and B occur, C is true and Age is 15 (the rest does not matter)``"""
+    occurs = f"When {_occurring(witness.triggers)}" if witness.triggers else "Whatever occurs"
+    return f"{', '.join([occurs, *_given(witness.conditions)])} (the rest does not matter)"
+
+
+def context_text(context: Context) -> str:
+    """``When A occurs, C is true (and all else is false)``"""
+    occurs = f"When {_occurring(sorted(context.triggers)) if context.triggers else 'nothing occurs'}"
+    return f"{', '.join([occurs, *_given(context.conditions)])} (and all else is false)"
+
+
+def _occurring(triggers: Sequence[str]) -> str:
+    return f"{listed(map(quoted, triggers))} {'occurs' if len(triggers) == 1 else 'occur'}"
+
+
+def _given(conditions: Mapping[str, Value]) -> list[str]:
+    """The facts as one phrase, or none."""
+    facts = [f"{quoted(name)} is {value_text(value)}" for name, value in conditions.items()]
+    return [listed(facts)] if facts else []

@@ -1,0 +1,172 @@
+"""Standard input, folders, terminals, closed pipes, interruptions, and failures that nobody expected."""
+
+from __future__ import annotations
+
+import io
+import os
+import pty
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from sleec_verify.cli import main
+from tests.cli.conftest import Cli
+
+RULES = "WHEN Rung THEN OpenDoor\nUNLESS Night IN WHICH CASE AskWho\n"
+CLASH = RULES + "WHEN Storm THEN NOT OpenDoor\n"
+COMMAND = [sys.executable, "-m", "sleec_verify"]
+
+
+def test_standard_input(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(CLASH.encode())))
+    ran = cli("check", "-", "--format", "concise")
+    assert ran.out.startswith("<stdin>:1:1: error[SLEEC101]")
+    assert ran.code == 1
+
+
+def test_broken_standard_input(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(b"\xff\xfeW")))
+    ran = cli("check", "-", "--format", "json")
+    assert ran.code == 2
+    assert '"path": "<stdin>"' in ran.out
+
+
+def test_folder_is_every_file_below_it_sorted(cli: Cli) -> None:
+    files = {"b.sleec": RULES, "a/z.sleec": RULES, "a/a.sleec": RULES, "a/notes.txt": "not rules"}
+    ran = cli("check", ".", "b.sleec", "./b.sleec", files=files)
+    paths = [line.split(":")[0] for line in ran.out.splitlines()]
+    assert paths == ["./a/a.sleec", "./a/z.sleec", "./b.sleec", "b.sleec", "4 rulesets"]
+
+
+def test_each_file_comes_once(cli: Cli) -> None:
+    ran = cli("check", "a.sleec", "a.sleec", files={"a.sleec": RULES})
+    assert len(ran.out.splitlines()) == 1
+
+
+def on_terminal(arguments: list[str], **environment: str) -> str:
+    """What a program writes to a terminal."""
+    leader, follower = pty.openpty()
+    env = {name: value for name, value in os.environ.items() if name not in ("NO_COLOR", "TERM")}
+    process = subprocess.Popen(
+        [*COMMAND, *arguments], stdout=follower, stderr=follower, stdin=follower, env={**env, **environment}
+    )
+    os.close(follower)
+    shown = b""
+    try:
+        while data := os.read(leader, 4096):
+            shown += data
+    except OSError:  # Linux ends a terminal without writers so
+        pass
+    process.wait()
+    os.close(leader)
+    return shown.decode()
+
+
+@pytest.fixture
+def clash(tmp_path: Path) -> str:
+    path = tmp_path / "clash.sleec"
+    path.write_text(CLASH)
+    return str(path)
+
+
+def test_colours_on_a_terminal(clash: str) -> None:
+    assert "\033[1;31merror[SLEEC101]\033[0m" in on_terminal(["check", clash], TERM="xterm")
+
+
+@pytest.mark.parametrize("environment", [{"NO_COLOR": "1", "TERM": "xterm"}, {"TERM": "dumb"}])
+def test_no_colours_where_they_are_not_wanted(clash: str, environment: dict[str, str]) -> None:
+    shown = on_terminal(["check", clash], **environment)
+    assert "error[SLEEC101]" in shown
+    assert "\033" not in shown
+
+
+def test_no_colours_in_a_file(clash: str) -> None:
+    done = subprocess.run(
+        [*COMMAND, "check", clash], capture_output=True, text=True, env={**os.environ, "TERM": "xterm"}
+    )
+    assert "error[SLEEC101]" in done.stdout
+    assert "\033" not in done.stdout
+    assert done.returncode == 1
+
+
+def test_closed_pipe_is_no_failure(tmp_path: Path) -> None:
+    many = tmp_path / "many.sleec"
+    many.write_text("".join(f"OBLIGATION o{i}\n" for i in range(20_000)) + "WHEN t THEN o1\n")
+    process = subprocess.Popen([*COMMAND, "fmt", str(many)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    assert process.stderr is not None
+    process.stdout.readline()
+    process.stdout.close()
+    assert process.stderr.read() == ""
+    process.stderr.close()
+    process.wait()
+
+
+def test_stream_that_cannot_say_a_character(tmp_path: Path) -> None:
+    path = tmp_path / "a.sleec"
+    path.write_text("WHEN Grün THEN Öffnen\nWHEN Grün THEN NOT Öffnen\n", encoding="utf-8")
+    env = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    done = subprocess.run([*COMMAND, "check", str(path)], capture_output=True, text=True, env=env)
+    assert done.returncode == 1
+    assert "\\xd6ffnen" in done.stdout
+
+
+def test_interruption_shows_no_traceback(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("sleec_verify.checks.run_checks", interrupt)
+    ran = cli("check", "a.sleec", files={"a.sleec": RULES})
+    assert (ran.code, ran.out, ran.err.strip()) == (130, "", "")
+
+
+@pytest.fixture
+def failing(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise ZeroDivisionError("the mistake")
+
+    monkeypatch.setattr("sleec_verify.checks.run_checks", fail)
+
+
+@pytest.mark.usefixtures("failing")
+def test_unexpected_failure_asks_for_a_report(cli: Cli) -> None:
+    ran = cli("check", "a.sleec", files={"a.sleec": RULES})
+    assert ran.code == 2
+    assert "ZeroDivisionError: the mistake" in ran.err
+    assert "Please report it" in ran.err
+    assert "Traceback" not in ran.err
+
+
+@pytest.mark.usefixtures("failing")
+def test_traceback_on_demand(cli: Cli) -> None:
+    ran = cli("--traceback", "check", "a.sleec", files={"a.sleec": RULES})
+    assert ran.code == 2
+    assert "Traceback" in ran.err
+
+
+def test_main_exits_with_the_code(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr("sys.argv", ["sleec-verify", "rules", "SLEEC000"])
+    with pytest.raises(SystemExit) as exited:
+        main()
+    assert exited.value.code == 2
+    assert "no finding code" in capsys.readouterr().err
+
+
+def test_progress_bar_on_a_terminal(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sleec_verify.cli.progress.PATIENCE", 0)
+    monkeypatch.setattr("sys.stderr", terminal := Terminal())
+    assert cli("check", "a.sleec", files={"a.sleec": RULES}).code == 0
+    assert "a.sleec: " in terminal.getvalue()
+
+
+def test_no_progress_bar_for_what_is_quick(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stderr", terminal := Terminal())
+    assert cli("check", "a.sleec", files={"a.sleec": RULES}).code == 0
+    assert terminal.getvalue() == ""
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
