@@ -132,7 +132,7 @@ class Instance:
                 if name not in obligations:
                     raise UnknownObligation(name, obligations)
                 if not callable(function):
-                    raise Unbindable(f"{function!r}, given for {name}, is not callable")
+                    raise Unbindable(f"{function!r} is not callable", f"give {name} a function or a bound method")
             found = dict(target)
         else:
             found = implementations(target, obligations)

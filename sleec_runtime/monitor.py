@@ -63,24 +63,22 @@ class Monitor:
         self._sleec = sleec
         self._on_difference = on_difference
         self._watch = tuple(watch)
-        self._watching = ExitStack()
-        self._current: Recording | None = None
+        self._on = ExitStack()
 
     def start(self) -> Monitor:
         """Raises SleecError if another monitor is on, or if an object to be watched takes no attributes."""
-        with self._sleec.held() as snapshot:
+        with self._sleec.held() as snapshot, ExitStack() as undo:
+            self._sleec.attach(self)
+            undo.callback(self._sleec.detach, self)
             robots = {id(robot): robot for robot in (*self._sleec.bound_objects(), *self._watch)}
-            with ExitStack() as watching:
-                for robot in robots.values():
-                    watching.enter_context(watched(robot, snapshot.program.whole.obligations))
-                self._sleec.attach(self)
-                self._watching = watching.pop_all()
+            for robot in robots.values():
+                undo.enter_context(watched(robot, snapshot.program.whole.obligations))
+            self._on = undo.pop_all()
         return self
 
     def stop(self) -> None:
         """Dispatches under way are still looked at."""
-        self._sleec.detach(self)
-        self._watching.close()
+        self._on.close()
 
     def __enter__(self) -> Monitor:
         return self.start()

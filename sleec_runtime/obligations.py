@@ -10,7 +10,7 @@ import functools
 import inspect
 import re
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from contextvars import ContextVar
 from typing import Any, TypeVar
 
@@ -25,7 +25,8 @@ _WORD_BORDER = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 class Recording:
     """What was executed while it was on, in order: `executed`, with those that raised in `failed` as well.
 
-    It sees its own thread and asyncio task, and the tasks that these start; not other threads.
+    It sees its own thread and asyncio task, and the tasks that these start; not other threads. What implements an
+    obligation by another implementation of the same one, as an override that calls `super` does, is executed once.
     """
 
     def __init__(self, outer: Recording | None = None, apart: bool = False) -> None:
@@ -33,16 +34,24 @@ class Recording:
         self.failed: list[str] = []
         self.outer = outer
         self.apart = apart
+        self._under_way: set[str] = set()
 
-    def begin(self, name: str) -> None:
+    @contextmanager
+    def executing(self, name: str) -> Iterator[None]:
+        """Notes the execution of `name`, which is that of the block."""
+        if name in self._under_way:
+            yield
+            return
+        self._under_way.add(name)
         self.executed.append(name)
-        if self.outer is not None:
-            self.outer.begin(name)
-
-    def fail(self, name: str) -> None:
-        self.failed.append(name)
-        if self.outer is not None:
-            self.outer.fail(name)
+        try:
+            with nullcontext() if self.outer is None else self.outer.executing(name):
+                yield
+        except BaseException:
+            self.failed.append(name)
+            raise
+        finally:
+            self._under_way.discard(name)
 
 
 _recording: ContextVar[Recording | None] = ContextVar("sleec_recording", default=None)
@@ -101,12 +110,8 @@ def recorded(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
             on = _recording.get()
             if on is None:
                 return await function(*args, **kwargs)
-            on.begin(name)
-            try:
+            with on.executing(name):
                 return await function(*args, **kwargs)
-            except BaseException:
-                on.fail(name)
-                raise
 
         return awaited
 
@@ -115,12 +120,8 @@ def recorded(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
         on = _recording.get()
         if on is None:
             return function(*args, **kwargs)
-        on.begin(name)
-        try:
+        with on.executing(name):
             return function(*args, **kwargs)
-        except BaseException:
-            on.fail(name)
-            raise
 
     return called
 

@@ -58,6 +58,6 @@ def listing_2(sleec: Sleec, ruleset: Ruleset | None = None) -> Log:
     """A robot for the rules in force (or for `ruleset`), bound to them."""
     namespace: dict[str, object] = {"Log": Log, "cop": cop, "sleec": sleec}
     exec(robot_source(ruleset or sleec.ruleset), namespace)
-    robot = namespace["Robot"]()  # type: ignore[operator]
+    robot: Log = namespace["Robot"]()  # type: ignore[operator]
     sleec.bind(robot)
     return robot

@@ -1,6 +1,9 @@
 """γ(Γ): methods as in the paper's Listing 2, on classes, subclasses, functions and modules; and instances by
 construction."""
 
+# ruff: noqa: F811 - the variants of a method share its name
+# mypy: disable-error-code=no-redef
+
 from __future__ import annotations
 
 import types

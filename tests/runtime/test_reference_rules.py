@@ -1,10 +1,11 @@
-"""The paper's eight rules over all their contexts, against if-else written by hand; and the cases of its experiment E1."""
+"""The paper's eight rules over all their contexts, against if-else written by hand; and its experiment E1."""
 
 from __future__ import annotations
 
 import random
 from collections.abc import Callable
 from itertools import product
+from typing import Any
 
 import pytest
 
@@ -28,7 +29,7 @@ def chain(reading: Reading, default: list[str], *hedges: tuple[bool, list[str]])
     return chosen
 
 
-Expected = Callable[[Reading, dict], list[str]]
+Expected = Callable[[Reading, dict[str, Any]], list[str]]
 
 EXPECTED: dict[str, Expected] = {
     "AddressUserName": lambda reading, c: chain(
@@ -61,7 +62,7 @@ HOSPITAL = {"AddressUserName", "InstructionFail", "PreparingExamination"}
 HOUSEHOLD = {"CurtainOpenRequest", "DressingStarted", "UserSaysStop"}
 
 BOTH = (False, True)
-VALUES: dict[str, tuple] = {
+VALUES: dict[str, tuple[Any, ...]] = {
     "UserNameUnknown": BOTH,
     "UserDirectsOtherwise": BOTH,
     "InstructionRepeat": (2, 3, 4),
