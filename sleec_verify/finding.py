@@ -87,11 +87,13 @@ Verdict = Union[Proved, Refuted, Unknown]
 
 @dataclass(frozen=True)
 class CheckResult:
-    """The verdict of one check on one ruleset and the seconds that it took."""
+    """The verdict of one check on one ruleset and the seconds that it took. `reason` says, where there is something
+    to say, why not everything is listed."""
 
     name: str
     verdict: Verdict
     seconds: float
+    reason: str | None = None
 
     @property
     def findings(self) -> tuple[Finding, ...]:

@@ -1,0 +1,109 @@
+"""The checks by name, and running them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from time import perf_counter
+
+from sleec_runtime.model import Ruleset
+from sleec_verify.checks.assumptions import ASSUMPTIONS
+from sleec_verify.checks.base import Check, FindingKind
+from sleec_verify.checks.conflict import CONFLICT, Enough
+from sleec_verify.checks.dead import DEAD_HEDGE, DEAD_RULE
+from sleec_verify.checks.reading import READING
+from sleec_verify.checks.redundant import REDUNDANT_HEDGE, REDUNDANT_RULE
+from sleec_verify.checks.text import EMPTY_HEDGE, PHRASE_KEYWORD, TRIGGER_OBLIGATION, UNUSED_NAME
+from sleec_verify.checks.vacuous import VACUOUS_CONFLICT
+from sleec_verify.cone import Cones
+from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
+from sleec_verify.replay import replays
+from sleec_verify.solver import Undecided
+
+__all__ = ["CHECKS", "Check", "FindingKind", "run_checks"]
+
+CHECKS: Mapping[str, Check] = {
+    check.name: check
+    for check in (
+        CONFLICT,
+        VACUOUS_CONFLICT,
+        ASSUMPTIONS,
+        DEAD_RULE,
+        DEAD_HEDGE,
+        REDUNDANT_RULE,
+        REDUNDANT_HEDGE,
+        READING,
+        UNUSED_NAME,
+        EMPTY_HEDGE,
+        TRIGGER_OBLIGATION,
+        PHRASE_KEYWORD,
+    )
+}
+
+Progress = Callable[[str, int, int], None]
+"""Called before each check with its name, how many are done, and how many there are."""
+
+
+def run_checks(
+    ruleset: Ruleset,
+    names: Sequence[str] | None = None,
+    domain: str | None = None,
+    progress: Progress | None = None,
+) -> tuple[CheckResult, ...]:
+    """The verdicts of the checks (all, or those of `names`), in their own order.
+
+    A ruleset is checked in each of its domains, with the rules that apply everywhere; `domain` picks one. A finding
+    says in which domains it holds. Raises KeyError for an unknown check.
+    """
+    chosen = list(CHECKS.values()) if names is None else [CHECKS[name] for name in dict.fromkeys(names)]
+    domains = ruleset.domains if domain is None else (domain,)
+    by_domain = {d: Cones(ruleset.in_domain(d)) for d in domains}
+    whole = Cones(ruleset)
+    results = []
+    for done, check in enumerate(chosen):
+        if progress is not None:
+            progress(check.name, done, len(chosen))
+        started = perf_counter()
+        if check.scope == "text" or not by_domain:
+            verdict, reason = _verdict(check, {"": whole})
+        else:
+            verdict, reason = _verdict(check, by_domain)
+        results.append(CheckResult(check.name, verdict, perf_counter() - started, reason))
+    return tuple(results)
+
+
+def _verdict(check: Check, by_domain: Mapping[str, Cones]) -> tuple[Verdict, str | None]:
+    found: dict[tuple[object, ...], Finding] = {}
+    unknown: list[str] = []
+    cut: str | None = None
+    for domain, cones in by_domain.items():
+        try:
+            for finding in check.run(cones):
+                if not replays(cones, finding):
+                    unknown.append(f"a witness did not replay, which is a bug in sleec-verify: {finding.message}")
+                    continue
+                # What covers a redundant rule may be another rule in each domain; it is one finding all the same.
+                rules = finding.rules[:1] if check.scope == "every domain" else finding.rules
+                key = (finding.code, rules, finding.clauses, finding.obligations, finding.span)
+                seen = found.setdefault(key, finding)
+                if domain:
+                    found[key] = replace(seen, domains=(*seen.domains, domain))
+        except Undecided as error:
+            unknown.append(str(error))
+        except Enough as error:
+            cut = str(error)
+    findings = tuple(
+        finding
+        for finding in sorted(found.values(), key=lambda f: f.span)
+        if check.scope != "every domain" or _everywhere(finding, by_domain)
+    )
+    if unknown:
+        return Unknown("; ".join(dict.fromkeys(unknown)), findings), None
+    return (Refuted(findings) if findings else Proved()), cut
+
+
+def _everywhere(finding: Finding, by_domain: Mapping[str, Cones]) -> bool:
+    """Whether a finding holds in every domain in which its first rule counts."""
+    rule = finding.rules[0]
+    counts_in = (domain for domain, cones in by_domain.items() if domain and rule in cones.ruleset.by_label)
+    return all(domain in finding.domains for domain in counts_in)

@@ -1,0 +1,88 @@
+"""What a check is: the question it asks, the kinds of finding it makes with their documentation, and how it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from sleec_runtime.model import Clause, Formula, Obligation, Rule, Span
+from sleec_verify.cone import Cones, Place
+from sleec_verify.equation import implications
+from sleec_verify.finding import ClauseRef, Finding, Severity, Witness
+
+Scope = Literal["some domain", "every domain", "text"]
+"""Where a finding must hold to count: in some domain, in every domain in which its first rule applies, or whatever
+the domain, because it is about the text."""
+
+
+@dataclass(frozen=True)
+class FindingKind:
+    """One code: what it says, why it matters and what to do, with a ruleset that has it and one that has not."""
+
+    code: str
+    severity: Severity
+    title: str
+    explanation: str
+    bad: str
+    good: str
+
+
+@dataclass(frozen=True)
+class Check:
+    """A question about a ruleset.
+
+    `run` yields the findings; the property is proved where it yields none. It raises `Undecided` where it
+    cannot decide.
+    """
+
+    name: str
+    question: str
+    kinds: tuple[FindingKind, ...]
+    run: Callable[[Cones], Iterable[Finding]]
+    scope: Scope = "some domain"
+
+    def finding(
+        self,
+        message: str,
+        span: Span,
+        *,
+        kind: int = 0,
+        rules: tuple[str, ...] = (),
+        clauses: tuple[ClauseRef, ...] = (),
+        obligations: tuple[str, ...] = (),
+        witness: Witness | None = None,
+        note: str | None = None,
+        help: str | None = None,
+        related: tuple[tuple[Span, str], ...] = (),
+    ) -> Finding:
+        """A finding of this check, of its first kind unless told."""
+        code, severity = self.kinds[kind].code, self.kinds[kind].severity
+        return Finding(
+            self.name, code, severity, message, span, rules, clauses, obligations, witness, note, help, related
+        )
+
+
+def clause_name(rule: Rule, number: int) -> str:
+    """A clause as people call it."""
+    return f"hedge {number} of {rule.label}" if number else f"the default of {rule.label}"
+
+
+def clause_at(cones: Cones, place: Place) -> Clause:
+    return cones.clauses[place.rule][place.number]
+
+
+def guard_at(cones: Cones, place: Place) -> Formula:
+    """The guard of a clause, written out."""
+    return implications(cones.rules[place.rule], cones.ruleset.reading)[place.number].guard
+
+
+def literals_of(clauses: Iterable[Clause]) -> set[Obligation]:
+    """Every literal that some of the clauses oblige."""
+    return {obligation for clause in clauses for obligation in clause.obligations}
+
+
+def listed(names: Iterable[str], word: str = "and") -> str:
+    """``a``, ``a and b``, ``a, b and c``."""
+    names = list(names)
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {word} {names[-1]}"

@@ -1,0 +1,94 @@
+"""Rules and hedges that no situation reaches."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from sleec_verify.checks.base import Check, FindingKind, Scope, clause_name
+from sleec_verify.cone import Cones
+from sleec_verify.finding import ClauseRef, Finding
+from sleec_verify.question import Question
+
+
+def _dead_rules(cones: Cones) -> Iterator[Finding]:
+    """Unsatisfiable exactly when the rule is dead: some guard of the rule. A model is a situation that triggers it."""
+    for position, rule in enumerate(cones.rules):
+        with Question(cones) as question:
+            guards = question.guards(position)
+            if not question.ask(question.encoder.any_of(guards)):
+                yield DEAD_RULE.finding(
+                    f"{rule.label} is active in no situation",
+                    rule.label_span if rule.labelled else rule.span,
+                    rules=(rule.label,),
+                    help="look at its guard and at the assumptions, or remove it",
+                )
+
+
+def _dead_hedges(cones: Cones) -> Iterator[Finding]:
+    """Unsatisfiable exactly when the hedge is dead: its guard. A model is a situation in which it decides."""
+    for position, rule in enumerate(cones.rules):
+        clauses = cones.clauses[position]
+        if len(clauses) == 1:
+            continue
+        with Question(cones) as question:
+            for number, guard in enumerate(question.guards(position)):
+                if number and not question.ask(guard):
+                    yield DEAD_HEDGE.finding(
+                        f"{clause_name(rule, number)} decides in no situation",
+                        clauses[number].span,
+                        rules=(rule.label,),
+                        clauses=(ClauseRef(rule.label, number),),
+                        note=_why(cones, position, number),
+                        help="mend its condition, or remove it",
+                    )
+
+
+def _why(cones: Cones, position: int, number: int) -> str:
+    """In words, what kind of thing keeps the hedge from deciding."""
+    condition = cones.clauses[position][number].condition
+    assert condition is not None, "only hedges are asked about"
+    with Question(cones) as question:
+        if not question.ask(question.encoder.literal(condition)):
+            return "its condition can never be true"
+    return "its condition can be true, but never when the other hedges leave it the decision"
+
+
+_EXAMPLE_SCALE = "MEASURE RiskLevel: r_low < r_moderate < r_severe\n"
+
+DEAD_RULE = Check(
+    "dead-rule",
+    "Is every rule active in some situation?",
+    (
+        FindingKind(
+            "SLEEC201",
+            "warning",
+            "a rule that is active in no situation",
+            "The guard of the rule can never be true, or an assumption says that its trigger never occurs. The rule "
+            "reads like a protection and protects nobody. Mend the guard, or remove the rule.",
+            "MEASURE UserAge: number\nWHEN UserCalls AND UserAge < 18 AND UserAge > 65 THEN Answer\n",
+            "MEASURE UserAge: number\nWHEN UserCalls AND (UserAge < 18 OR UserAge > 65) THEN Answer\n",
+        ),
+    ),
+    _dead_rules,
+    scope="every domain",
+)
+
+DEAD_HEDGE = Check(
+    "dead-hedge",
+    "Does every hedge decide in some situation?",
+    (
+        FindingKind(
+            "SLEEC202",
+            "warning",
+            "a hedge that decides in no situation",
+            "No situation makes this hedge the one that decides: its condition cannot be true, or whenever it is, "
+            "another hedge of the rule decides instead. The exception that it promises is never made.",
+            _EXAMPLE_SCALE + "WHEN UserSaysStop THEN RobotStop\n"
+            "UNLESS RiskLevel < r_low IN WHICH CASE AskToFinishFirst\n",
+            _EXAMPLE_SCALE + "WHEN UserSaysStop THEN RobotStop\n"
+            "UNLESS RiskLevel > r_low IN WHICH CASE AskToFinishFirst\n",
+        ),
+    ),
+    _dead_hedges,
+    scope="every domain",
+)

@@ -1,0 +1,86 @@
+"""Where names are used: what the checks on the text need to know."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sleec_runtime.model import (
+    NOWHERE,
+    Assume,
+    Atom,
+    Comparison,
+    Constant,
+    Exclusive,
+    Formula,
+    Kind,
+    Never,
+    Number,
+    Rule,
+    Ruleset,
+    Span,
+    formulas_of,
+    leaves,
+    measures_of,
+)
+
+
+def _formulas(ruleset: Ruleset) -> Iterator[Formula]:
+    for rule in ruleset.rules:
+        yield from formulas_of(rule)
+    for constraint in ruleset.constraints:
+        if isinstance(constraint, (Never, Assume)):
+            yield constraint.formula
+
+
+def names_used(ruleset: Ruleset) -> dict[Kind, set[str]]:
+    """The names that rules and constraints use, by kind; measures count as conditions."""
+    used: dict[Kind, set[str]] = {"trigger": set(), "condition": set(), "obligation": set()}
+    for formula in _formulas(ruleset):
+        for leaf in leaves(formula):
+            if isinstance(leaf, Atom):
+                used[leaf.kind].add(leaf.name)
+            else:
+                used["condition"].update(measures_of(leaf))
+    for rule in ruleset.rules:
+        used["trigger"].add(rule.trigger)
+        used["obligation"].update(o.name for clause in rule.clauses() for o in clause.obligations)
+    for constraint in ruleset.constraints:
+        if isinstance(constraint, Exclusive):
+            used["obligation"].update(constraint.names)
+    return used
+
+
+def constants_used(ruleset: Ruleset) -> set[str]:
+    """The constants that comparisons, or other constants, name."""
+    used = {s.alias for s in ruleset.statements if isinstance(s, Constant) and s.alias is not None}
+    for formula in _formulas(ruleset):
+        for leaf in leaves(formula):
+            if isinstance(leaf, Comparison):
+                for side in (leaf.left, leaf.right):
+                    if isinstance(side, Number) and side.constant is not None:
+                        used.add(side.constant)
+    return used
+
+
+def mentions(ruleset: Ruleset, name: str) -> tuple[Span, tuple[str, ...]]:
+    """The first place at which the rules mention a name, and the labels of the rules that do."""
+    spans: list[Span] = []
+    labels = []
+    for rule in ruleset.rules:
+        found = list(_spans(rule, name))
+        if found:
+            labels.append(rule.label)
+            spans += found
+    return (min(spans) if spans else NOWHERE), tuple(labels)
+
+
+def _spans(rule: Rule, name: str) -> Iterator[Span]:
+    if rule.trigger == name:
+        yield rule.trigger_span
+    for clause in rule.clauses():
+        yield from (o.span for o in clause.obligations if o.name == name)
+    for formula in formulas_of(rule):
+        for leaf in leaves(formula):
+            named = (leaf.name,) if isinstance(leaf, Atom) else measures_of(leaf)
+            if name in named:
+                yield leaf.span

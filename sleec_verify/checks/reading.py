@@ -1,0 +1,102 @@
+"""Rules that mean something else under the other reading of a chain of hedges."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from sleec_runtime.model import Clause, Formula, Not, Obligation, Reading, Rule
+from sleec_verify.checks.base import Check, FindingKind, clause_name, listed
+from sleec_verify.cone import Cones
+from sleec_verify.equation import conjunction, disjunction, implications
+from sleec_verify.finding import ClauseRef, Finding
+from sleec_verify.question import Question
+from sleec_verify.witness import smallest_situation
+
+OTHER: dict[Reading, Reading] = {"cascade": "priority", "priority": "cascade"}
+
+
+def _readings(cones: Cones) -> Iterator[Finding]:
+    """Unsatisfiable exactly when the rule means the same: some literal is due under one reading and not under the
+    other. A model is a situation in which the readings part."""
+    for position, rule in enumerate(cones.rules):
+        if len(cones.clauses[position]) > 2 and _parts(cones, position):
+            yield _finding(cones, position, rule)
+
+
+def _parts(cones: Cones, position: int) -> bool:
+    rule, clauses = cones.rules[position], cones.clauses[position]
+    with Question(cones) as question:
+        encoder = question.encoder
+        here = encoder.due(zip(clauses, question.guards(position)))
+        there = encoder.due(zip(clauses, encoder.guards(rule, OTHER[cones.ruleset.reading])))
+        unequal = [(here[o], there[o]) for o in here if here[o] != there[o]]
+        return question.ask(encoder.any_of([encoder.both(a, -b) for a, b in unequal + [(b, a) for a, b in unequal]]))
+
+
+def _finding(cones: Cones, position: int, rule: Rule) -> Finding:
+    reading = cones.ruleset.reading
+    here, there = _due(rule, reading), _due(rule, OTHER[reading])
+    witness = smallest_situation(
+        cones,
+        disjunction([conjunction([one[o], Not(two[o])]) for one, two in ((here, there), (there, here)) for o in here]),
+    )
+    assert witness is not None, "the readings part in some situation"
+    with Question(cones) as question:
+        by_reading = {r: question.encoder.guards(rule, r) for r in (reading, OTHER[reading])}
+        question.ask(*question.encoder.assumptions(witness.context()))
+        deciding = {r: next(n for n, g in enumerate(guards) if question.true(g)) for r, guards in by_reading.items()}
+    clauses = cones.clauses[position]
+    said = [
+        f"read as {r}, {clause_name(rule, n)} decides: {_response(clauses[n])}"
+        for r, n in ((r, deciding[r]) for r in (reading, OTHER[reading]))
+    ]
+    return READING.finding(
+        f"what {rule.label} obliges depends on the reading of its hedges",
+        rule.label_span if rule.labelled else rule.span,
+        rules=(rule.label,),
+        clauses=tuple(ClauseRef(rule.label, n) for n in dict.fromkeys(deciding.values())),
+        obligations=tuple(sorted({o.name for n in deciding.values() for o in clauses[n].obligations})),
+        witness=witness,
+        note="; ".join(said),
+        help=f"this ruleset is read as {reading}; if that is what you mean, say it in the text: READING {reading}"
+        if not cones.ruleset.reading_stated
+        else f"the text says READING {reading}; other tools may read it otherwise",
+    )
+
+
+def _due(rule: Rule, reading: Reading) -> dict[Obligation, Formula]:
+    """For each literal of the rule, where it is due."""
+    guards: dict[Obligation, list[Formula]] = {}
+    for implication in implications(rule, reading):
+        for obligation in implication.clause.obligations:
+            guards.setdefault(obligation, []).append(implication.guard)
+    return {obligation: disjunction(where) for obligation, where in guards.items()}
+
+
+def _response(clause: Clause) -> str:
+    names: Iterable[str] = (str(obligation) for obligation in clause.obligations)
+    return listed(names) if clause.obligations else "nothing is due"
+
+
+READING = Check(
+    "reading",
+    "Does every rule oblige the same under both readings of a chain of hedges?",
+    (
+        FindingKind(
+            "SLEEC401",
+            "warning",
+            "a rule whose meaning depends on the reading",
+            "Two readings of a chain of hedges are in use. `cascade` stops at the first false condition; `priority` "
+            "lets the last true condition win, whatever came before it. Where a later condition can be true while an "
+            "earlier one is false, they may oblige different things, and tools of others may read this rule unlike "
+            "you. Write the rule so that both agree, for example by making each hedge repeat the condition before it.",
+            "WHEN HumanOnFloor THEN CallEmergencyServices\n"
+            "UNLESS UserResponsive IN WHICH CASE AskForUserStatus\n"
+            "UNLESS UserWithCompanion IN WHICH CASE AskCompanionToCheck\n",
+            "WHEN HumanOnFloor THEN CallEmergencyServices\n"
+            "UNLESS UserResponsive IN WHICH CASE AskForUserStatus\n"
+            "UNLESS UserResponsive AND UserWithCompanion IN WHICH CASE AskCompanionToCheck\n",
+        ),
+    ),
+    _readings,
+)

@@ -1,0 +1,141 @@
+"""Rules and hedges that change nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from sleec_runtime.model import Clause, Obligation, Rule
+from sleec_verify.checks.base import Check, FindingKind, clause_name, listed, literals_of
+from sleec_verify.cone import Cones
+from sleec_verify.finding import ClauseRef, Finding
+from sleec_verify.question import Question
+
+
+def _redundant_rules(cones: Cones) -> Iterator[Finding]:
+    """Unsatisfiable exactly when the rule is redundant: it obliges a literal that no other rule obliges. A model is a
+    situation in which the rule makes a difference."""
+    for position, rule in enumerate(cones.rules):
+        others = [other for other in cones.together_with(rule.trigger) if other != position]
+        if _makes_a_difference(cones, position, others):
+            continue
+        needed = _needed(cones, position, others)
+        cover = [cones.rules[other].label for other in needed]
+        yield REDUNDANT_RULE.finding(
+            f"{rule.label} can be removed: every situation obliges the same without it",
+            rule.label_span if rule.labelled else rule.span,
+            rules=(rule.label, *cover),
+            note=f"what it obliges, {listed(cover)} {'obliges' if len(cover) == 1 else 'oblige'} too"
+            if cover
+            else "it obliges nothing in any situation",
+            help="remove it, or keep it on purpose and say why in a comment",
+        )
+
+
+def _makes_a_difference(cones: Cones, position: int, others: Sequence[int]) -> bool:
+    about = literals_of(cones.clauses[position])
+    with Question(cones) as question:
+        mine, theirs = question.due([position], about), question.due(others, about)
+        return question.ask(_differs(question, mine, {}, theirs))
+
+
+def _differs(
+    question: Question, one: dict[Obligation, int], other: dict[Obligation, int], anyway: dict[Obligation, int]
+) -> int:
+    """A literal equal to "some literal is due by one and not by the other, and not due anyway"."""
+    encoder, never = question.encoder, -question.encoder.true()
+    differences = []
+    for obligation in {**one, **other}:
+        a, b = one.get(obligation, never), other.get(obligation, never)
+        unequal = encoder.any_of([encoder.both(a, -b), encoder.both(-a, b)])
+        differences.append(encoder.both(unequal, -anyway.get(obligation, never)))
+    return encoder.any_of(differences)
+
+
+def _needed(cones: Cones, position: int, others: Sequence[int]) -> list[int]:
+    """A minimal part of `others` that makes the rule redundant: leave out one after the other."""
+    about = literals_of(cones.clauses[position])
+    needed = [other for other in others if not about.isdisjoint(literals_of(cones.clauses[other]))]
+    for other in list(needed):
+        without = [kept for kept in needed if kept != other]
+        if not _makes_a_difference(cones, position, without):
+            needed = without
+    return needed
+
+
+def _redundant_hedges(cones: Cones) -> Iterator[Finding]:
+    """Unsatisfiable exactly when the hedge is redundant: some literal is due with it and not without it, or without
+    it and not with it, and no other rule obliges it. A model is a situation in which the hedge makes a difference."""
+    for position, rule in enumerate(cones.rules):
+        clauses = cones.clauses[position]
+        about = literals_of(clauses)
+        others = [other for other in cones.together_with(rule.trigger) if other != position]
+        for number in range(1, len(clauses)):
+            with Question(cones) as question:
+                changed = without_hedge(rule, number)
+                with_it = question.due([position], about)
+                without = question.encoder.due(zip(changed.clauses(), question.guards_of(changed)))
+                if question.ask(_differs(question, with_it, without, question.due(others, about))):
+                    continue
+            yield REDUNDANT_HEDGE.finding(
+                f"{clause_name(rule, number)} can be removed: every situation obliges the same without it",
+                clauses[number].span,
+                rules=(rule.label,),
+                clauses=(ClauseRef(rule.label, number),),
+                help="remove it, or check whether its response is the one you meant",
+            )
+
+
+def without_hedge(rule: Rule, number: int) -> Rule:
+    """The rule without hedge `number` (from 1, in the order of `Rule.clauses`) and the chain nested in it."""
+    left = number
+
+    def pruned(hedges: tuple[Clause, ...]) -> tuple[Clause, ...]:
+        nonlocal left
+        kept = []
+        for hedge in hedges:
+            left -= 1
+            if left == 0:
+                continue
+            kept.append(replace(hedge, hedges=pruned(hedge.hedges)) if hedge.hedges else hedge)
+        return tuple(kept)
+
+    default = replace(rule.default, hedges=pruned(rule.default.hedges))
+    return replace(rule, default=default, hedges=pruned(rule.hedges))
+
+
+REDUNDANT_RULE = Check(
+    "redundant-rule",
+    "Does every rule oblige something, somewhere, that the other rules do not?",
+    (
+        FindingKind(
+            "SLEEC301",
+            "warning",
+            "a rule without which every situation obliges the same",
+            "Whatever this rule obliges, other rules oblige in the same situations. Two rules that say the same drift "
+            "apart when only one of them is changed. Each of two equal rules is reported: keep one.",
+            "RULE answer\nWHEN UserCalls THEN Answer\nRULE answer_kindly\nWHEN UserCalls THEN Answer AND Smile\n",
+            "RULE answer_kindly\nWHEN UserCalls THEN Answer AND Smile\n",
+        ),
+    ),
+    _redundant_rules,
+    scope="every domain",
+)
+
+REDUNDANT_HEDGE = Check(
+    "redundant-hedge",
+    "Does every hedge change what is obliged in some situation?",
+    (
+        FindingKind(
+            "SLEEC302",
+            "warning",
+            "a hedge without which every situation obliges the same",
+            "The rule with this hedge and the rule without it oblige the same in every situation, as the hedge "
+            "repeats the response that would be due anyway, or never decides.",
+            "WHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE Answer\n",
+            "WHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE WaitUntilAwake\n",
+        ),
+    ),
+    _redundant_hedges,
+    scope="every domain",
+)

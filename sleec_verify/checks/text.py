@@ -1,0 +1,194 @@
+"""What can be seen without a solver: names that nothing uses, hedges that say nothing, words that mislead."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sleec_runtime.model import (
+    Atom,
+    Constant,
+    Declaration,
+    Exclusive,
+    Measure,
+    Never,
+    Span,
+    leaves,
+)
+from sleec_verify.checks.base import Check, FindingKind, clause_name
+from sleec_verify.cone import Cones
+from sleec_verify.finding import ClauseRef, Finding
+from sleec_verify.checks.names import constants_used, mentions, names_used
+
+
+def _unused(cones: Cones) -> Iterator[Finding]:
+    ruleset = cones.ruleset
+    used = names_used(ruleset)
+    constants = constants_used(ruleset)
+    for statement in ruleset.statements:
+        if isinstance(statement, Declaration):
+            for name, span in zip(statement.names, statement.name_spans):
+                if name not in used[statement.kind]:
+                    yield _unused_finding(statement.kind, name, span)
+        elif isinstance(statement, Measure) and statement.name not in used["condition"]:
+            yield _unused_finding("measure", statement.name, statement.span)
+        elif isinstance(statement, Constant) and statement.name not in constants:
+            yield _unused_finding("constant", statement.name, statement.span)
+    obliged = {o.name for clauses in cones.clauses for clause in clauses for o in clause.obligations}
+    for name, span in _constrained(cones):
+        if name not in obliged:
+            yield UNUSED_NAME.finding(
+                f"a constraint names {name}, but no rule obliges or forbids it",
+                span,
+                kind=1,
+                obligations=(name,),
+                help="check the spelling; if it is a situation and no obligation, declare it: CONDITION " + name,
+            )
+
+
+def _unused_finding(kind: str, name: str, span: Span) -> Finding:
+    return UNUSED_NAME.finding(
+        f"the {kind} {name} is declared and never used",
+        span,
+        help="remove the declaration, or check the spelling where you meant to use it",
+    )
+
+
+def _constrained(cones: Cones) -> Iterator[tuple[str, Span]]:
+    """The obligations that EXCLUSIVE and NEVER name."""
+    for constraint in cones.constraints:
+        if isinstance(constraint, Exclusive):
+            yield from zip(constraint.names, constraint.name_spans)
+        elif isinstance(constraint, Never):
+            for leaf in leaves(constraint.formula):
+                if isinstance(leaf, Atom) and leaf.kind == "obligation":
+                    yield leaf.name, leaf.span
+
+
+def _empty_hedges(cones: Cones) -> Iterator[Finding]:
+    for rule, clauses in zip(cones.rules, cones.clauses):
+        for number, clause in enumerate(clauses):
+            if number and not clause.obligations:
+                yield EMPTY_HEDGE.finding(
+                    f"{clause_name(rule, number)} says nothing of what to do",
+                    clause.span,
+                    rules=(rule.label,),
+                    clauses=(ClauseRef(rule.label, number),),
+                    note="where it decides, the rule obliges nothing, and its default is not executed either",
+                    help="if that is meant, keep it; else add IN WHICH CASE and a response",
+                )
+
+
+def _two_kinds(cones: Cones) -> Iterator[Finding]:
+    ruleset = cones.ruleset
+    for name in sorted(ruleset.triggers & ruleset.obligations):
+        span, rules = mentions(ruleset, name)
+        yield TRIGGER_OBLIGATION.finding(
+            f"{name} is a trigger and an obligation",
+            span,
+            rules=rules,
+            obligations=(name,),
+            note="that it happened and that it is to be done are kept apart: doing it triggers nothing here",
+        )
+
+
+_KEYWORDS = frozenset(("when", "then", "unless", "and", "or"))
+
+
+def _lower_case_keywords(cones: Cones) -> Iterator[Finding]:
+    ruleset = cones.ruleset
+    measures = set(ruleset.measures)
+    for name in sorted(ruleset.triggers | ruleset.conditions | ruleset.obligations | measures):
+        words = name.split()
+        # "the user does not answer" is fine as one condition; "not asleep" most likely is not.
+        found = [w for n, w in enumerate(words) if w.lower() in _KEYWORDS or (n == 0 and w.lower() == "not")]
+        if len(words) > 1 and found:
+            span, rules = mentions(ruleset, name)
+            yield PHRASE_KEYWORD.finding(
+                f"\u201c{name}\u201d is read as one name, the word {found[0]} included",
+                span,
+                rules=rules,
+                help=f"if you meant the keyword, write {found[0].upper()}",
+            )
+
+
+UNUSED_NAME = Check(
+    "unused-name",
+    "Is every name that is declared used, and every constrained name obliged?",
+    (
+        FindingKind(
+            "SLEEC501",
+            "note",
+            "a name that is declared and never used",
+            "A declaration that nothing uses is either left over or a sign that a rule spells the name otherwise.",
+            "CONDITION UserAsleep, UserAway\nWHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE Wait\n",
+            "CONDITION UserAsleep\nWHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE Wait\n",
+        ),
+        FindingKind(
+            "SLEEC502",
+            "note",
+            "a constraint on something that no rule obliges",
+            "An EXCLUSIVE or NEVER names an obligation that no rule obliges or forbids, so it can never matter. "
+            "Usually the name is spelt otherwise in the rules.",
+            "EXCLUSIVE Answer, StayQuiet\nWHEN UserCalls THEN Answer\nWHEN UserSleeps THEN StaySilent\n",
+            "EXCLUSIVE Answer, StaySilent\nASSUME NOT (UserCalls AND UserSleeps)\n"
+            "WHEN UserCalls THEN Answer\nWHEN UserSleeps THEN StaySilent\n",
+        ),
+    ),
+    _unused,
+    scope="text",
+)
+
+EMPTY_HEDGE = Check(
+    "empty-hedge",
+    "Does every hedge say what to do?",
+    (
+        FindingKind(
+            "SLEEC503",
+            "note",
+            "a hedge that says nothing of what to do",
+            "UNLESS without IN WHICH CASE lifts the rule and puts nothing in its place. That may be meant; a reader "
+            "cannot tell it from something forgotten.",
+            "WHEN UserCalls THEN Answer\nUNLESS UserAsleep\n",
+            "WHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE WaitUntilAwake\n",
+        ),
+    ),
+    _empty_hedges,
+    scope="text",
+)
+
+TRIGGER_OBLIGATION = Check(
+    "trigger-obligation",
+    "Is any name both a trigger and an obligation?",
+    (
+        FindingKind(
+            "SLEEC504",
+            "note",
+            "a name that is a trigger and an obligation",
+            "The response of one rule bears the name of the trigger of another. That is allowed, and the two are kept "
+            "apart: that it happened, and that it is to be done. Whether doing it sets off the other rule is a "
+            "question of its own.",
+            "WHEN SmokeDetected THEN SoundAlarm\nWHEN SoundAlarm THEN CallOperator\n",
+            "WHEN SmokeDetected THEN SoundAlarm\nWHEN AlarmHeard THEN CallOperator\n",
+        ),
+    ),
+    _two_kinds,
+    scope="text",
+)
+
+PHRASE_KEYWORD = Check(
+    "phrase-keyword",
+    "Does any phrase hold a keyword in lower case?",
+    (
+        FindingKind(
+            "SLEEC505",
+            "note",
+            "a phrase that holds a keyword in lower case",
+            "Keywords are written in capitals. In lower case the word is part of the name, so `the user is alone and "
+            "asleep` is one condition, not two.",
+            "WHEN the user calls THEN answer\nUNLESS the user is alone and asleep IN WHICH CASE wait\n",
+            "WHEN the user calls THEN answer\nUNLESS the user is alone AND the user is asleep IN WHICH CASE wait\n",
+        ),
+    ),
+    _lower_case_keywords,
+    scope="text",
+)

@@ -1,0 +1,178 @@
+"""The cone of influence: which rules and constraints can matter to a question.
+
+A rule whose trigger does not occur obliges nothing, and whether a trigger occurs is free unless an `ASSUME` speaks of
+it. So a question about a situation concerns the rules of its triggers, the assumptions that share names with them,
+and the rules of the triggers that these assumptions may force. Everything else can be left out without changing the
+answer, and questions about ten rules stay questions about ten rules in a ruleset of 100,000.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from typing import NamedTuple
+
+from sleec_runtime.model import (
+    Assume,
+    Atom,
+    Clause,
+    Exclusive,
+    Formula,
+    Never,
+    Obligation,
+    Rule,
+    Ruleset,
+    formulas_of,
+    leaves,
+    measures_of,
+)
+
+Name = tuple[str, str]
+"""A trigger (``("trigger", name)``), or a condition or measure (``("condition", name)``)."""
+
+
+class Place(NamedTuple):
+    """Clause `number` of the rule at `rule` in `Ruleset.rules`."""
+
+    rule: int
+    number: int
+
+
+def names_in(formula: Formula) -> Iterator[Name]:
+    """The triggers, conditions and measures that a formula speaks of; obligations are left out."""
+    for leaf in leaves(formula):
+        if isinstance(leaf, Atom):
+            if leaf.kind != "obligation":
+                yield leaf.kind, leaf.name
+        else:
+            for measure in measures_of(leaf):
+                yield "condition", measure
+
+
+def names_of_rule(rule: Rule) -> Iterator[Name]:
+    """The trigger, conditions and measures that decide a rule."""
+    yield "trigger", rule.trigger
+    for formula in formulas_of(rule):
+        yield from names_in(formula)
+
+
+class Cones:
+    """The indices of one ruleset, each made once, in time linear in the ruleset, when it is first asked for."""
+
+    def __init__(self, ruleset: Ruleset) -> None:
+        self.ruleset = ruleset
+        self.rules = ruleset.rules
+
+    @cached_property
+    def clauses(self) -> list[tuple[Clause, ...]]:
+        """The clauses of each rule, by the rule's position."""
+        return [tuple(rule.clauses()) for rule in self.rules]
+
+    @cached_property
+    def by_trigger(self) -> dict[str, list[int]]:
+        """The positions of the rules of each trigger."""
+        index: dict[str, list[int]] = {}
+        for position, rule in enumerate(self.rules):
+            index.setdefault(rule.trigger, []).append(position)
+        return index
+
+    @cached_property
+    def by_obligation(self) -> dict[Obligation, list[Place]]:
+        """The clauses that oblige each literal."""
+        index: dict[Obligation, list[Place]] = {}
+        for position, clauses in enumerate(self.clauses):
+            for number, clause in enumerate(clauses):
+                for obligation in clause.obligations:
+                    index.setdefault(obligation, []).append(Place(position, number))
+        return index
+
+    @cached_property
+    def assumptions(self) -> list[Assume]:
+        return [c for c in self.ruleset.constraints if isinstance(c, Assume)]
+
+    @cached_property
+    def possible(self) -> bool:
+        """Whether the assumptions leave any situation possible. If they do, those that share no name with a question
+        can be left out of it; if they do not, every question has the answer no."""
+        from sleec_verify.question import Question
+
+        with Question(self, assuming=False) as question:
+            for assumption in self.assumptions:
+                question.require_formula(assumption.formula)
+            return question.ask()
+
+    @cached_property
+    def constraints(self) -> list[Exclusive | Never]:
+        return [c for c in self.ruleset.constraints if not isinstance(c, Assume)]
+
+    @cached_property
+    def _assumptions_by_name(self) -> dict[Name, list[int]]:
+        index: dict[Name, list[int]] = {}
+        for position, assumption in enumerate(self.assumptions):
+            for name in set(names_in(assumption.formula)):
+                index.setdefault(name, []).append(position)
+        return index
+
+    def assumptions_about(self, names: Iterable[Name]) -> list[Assume]:
+        """The assumptions that share names with `names`, directly or through one another, in the order of the text."""
+        if not self.assumptions:
+            return []
+        found: set[int] = set()
+        open_names = set(names)
+        seen = set(open_names)
+        while open_names:
+            for position in self._assumptions_by_name.get(open_names.pop(), ()):
+                if position not in found:
+                    found.add(position)
+                    for name in names_in(self.assumptions[position].formula):
+                        if name not in seen:
+                            seen.add(name)
+                            open_names.add(name)
+        return [self.assumptions[position] for position in sorted(found)]
+
+    @cached_property
+    def _triggers_assumed(self) -> bool:
+        return any(kind == "trigger" for kind, _ in self._assumptions_by_name)
+
+    @cached_property
+    def _always(self) -> frozenset[str]:
+        """The triggers of assumptions that do not hold where none of their triggers occurs: some of these occur in
+        every situation."""
+        from sleec_verify.question import Question
+
+        always: set[str] = set()
+        for assumption in self.assumptions:
+            related = self.assumptions_about(names_in(assumption.formula))
+            triggers = {name for a in related for kind, name in names_in(a.formula) if kind == "trigger"}
+            if triggers <= always:
+                continue
+            with Question(self, assuming=False) as question:
+                for other in related:
+                    question.require_formula(other.formula)
+                for trigger in triggers:
+                    question.require(-question.encoder.variable(("trigger", trigger)))
+                if not question.ask():
+                    always |= triggers
+        return frozenset(always)
+
+    def together_with(self, trigger: str) -> list[int]:
+        """The rules that may be forced to be active when `trigger` occurs: its own, and those of the triggers that
+        assumptions tie to it or to the conditions of such rules, or force in any case. In the order of the text."""
+        if not self._triggers_assumed:
+            return self.by_trigger.get(trigger, [])
+        triggers = {trigger, *self._always}
+        rules = {position for t in triggers for position in self.by_trigger.get(t, ())}
+        while True:
+            names = {("trigger", t) for t in triggers}
+            for position in rules:
+                names.update(names_of_rule(self.rules[position]))
+            tied = {
+                name
+                for assumption in self.assumptions_about(names)
+                for kind, name in names_in(assumption.formula)
+                if kind == "trigger"
+            }
+            if tied <= triggers:
+                return sorted(rules)
+            triggers |= tied
+            rules.update(position for t in tied for position in self.by_trigger.get(t, ()))

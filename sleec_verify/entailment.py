@@ -1,0 +1,209 @@
+"""Definition 1: what a ruleset entails in one context, and why.
+
+With the context total and every response a conjunction of literals, unit propagation alone decides it: one
+propagation over Equation 1 gives every entailed obligation. An inconsistent context, in which Definition 1 to the
+letter entails everything, is reported as a conflict with its rules.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from sleec_runtime.model import Assume, Clause, Context, Formula, Obligation, Rule, Ruleset, Span
+from sleec_verify.checks.conflict import conflict_in
+from sleec_verify.clashes import Clash, clashes, opposite
+from sleec_verify.cnf import Encoder
+from sleec_verify.cone import Cones, Place, names_in, names_of_rule
+from sleec_verify.finding import Finding, Witness
+from sleec_verify.solver import MiniSat
+
+
+@dataclass(frozen=True)
+class Decided:
+    """A condition that was looked at, and its truth. `clause` is its hedge's number, None for the rule's guard."""
+
+    formula: Formula
+    truth: bool
+    clause: int | None
+    span: Span
+
+
+@dataclass(frozen=True)
+class Because:
+    """A clause that is active: what it obliges, and the conditions that made it the one.
+
+    In a cascade these are the true prefix and the first false condition; by priority, the last true condition and
+    the false ones after it.
+    """
+
+    rule: str
+    clause: int
+    layer: str | None
+    obligations: tuple[str, ...]
+    decisions: tuple[Decided, ...]
+    span: Span
+
+
+@dataclass(frozen=True)
+class Consequence:
+    """What the constraints make of what is due: it must be so, but no rule says so, and nothing executes it."""
+
+    literal: Obligation
+    clash: Clash
+
+
+@dataclass(frozen=True)
+class Entailment:
+    """The answer to "what is due here?". Where it is not `consistent`, nothing is listed as due and `conflicts` says
+    why. `missing` are measures that were asked about and not given: comparisons with them count as false."""
+
+    consistent: bool
+    obligations: tuple[str, ...]
+    prohibitions: tuple[str, ...]
+    because: tuple[Because, ...]
+    consequences: tuple[Consequence, ...]
+    conflicts: tuple[Finding, ...]
+    broken_assumptions: tuple[Assume, ...]
+    missing: tuple[str, ...]
+
+
+class Definition1:
+    """Equation 1 of some rules, compiled once for any number of contexts.
+
+    `formulas` get a literal each, so that their truth can be read off as well. `missing` are measures without a
+    value: comparisons with them are false.
+    """
+
+    def __init__(
+        self,
+        ruleset: Ruleset,
+        rules: Sequence[Rule] | None = None,
+        formulas: Sequence[Formula] = (),
+        missing: frozenset[str] = frozenset(),
+    ) -> None:
+        encoder = self._encoder = Encoder(ruleset.measures, missing)
+        self._in_force = encoder.fresh()
+        self.guards = [(rule, encoder.guards(rule, ruleset.reading)) for rule in rules or ruleset.rules]
+        for rule, guards in self.guards:
+            for clause, guard in zip(rule.clauses(), guards):
+                for obligation in clause.obligations:
+                    encoder.clauses.append([-self._in_force, -guard, encoder.obligation(obligation)])
+        self.formulas = [encoder.literal(formula) for formula in formulas]
+        encoder.close()
+        self._solver = MiniSat(encoder.clauses)
+        self._obligations = {v: key[1] for key, v in encoder.variables.items() if key[0] == "obligation"}
+
+    def entailed(self, context: Context) -> frozenset[Obligation] | None:
+        """Every literal over O that Definition 1 entails in `context`, or None where the rules contradict themselves
+        there. One propagation."""
+        consistent, literals = self._solver.propagate([self._in_force, *self._encoder.assumptions(context)])
+        if not consistent:
+            return None
+        named = self._obligations
+        return frozenset(Obligation(named[abs(v)], v < 0) for v in literals if abs(v) in named)
+
+    def facts(self, context: Context) -> Callable[[int], bool]:
+        """The truth, in `context`, of the literals in `guards` and `formulas`. One propagation."""
+        _, literals = self._solver.propagate(self._encoder.assumptions(context))
+        return set(literals).__contains__
+
+
+def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Entailment:
+    """What `ruleset` entails in `context` (Definition 1), in `domain` if one is named.
+
+    Only the rules of the triggers that occur are compiled. Raises `Undecided` where the constraints are too entangled
+    to say whether what is due can be done.
+    """
+    if domain is not None:
+        ruleset = ruleset.in_domain(domain)
+    rules = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
+    cones = Cones(ruleset)
+    ruled_out = clashes(cones.constraints)
+    labels = list(dict.fromkeys(label for clash in ruled_out for label in clash.labels))
+    conditions = [formula for rule in rules for formula, _, _ in _conditions(rule)]
+    assumed = [assumption.formula for assumption in cones.assumptions]
+    named = [name for rule in rules for name in names_of_rule(rule)]
+    named += [name for formula in assumed for name in names_in(formula)]
+    missing = {n for _, n in named if n in ruleset.measures and n not in context.conditions}
+
+    formulas = [*conditions, *labels, *assumed]
+    definition = Definition1(ruleset, rules, formulas, frozenset(ruleset.measures) - set(context.conditions))
+    true = definition.facts(context)
+    truth = {id(formula): true(literal) for formula, literal in zip(formulas, definition.formulas)}
+
+    position = {rule.label: p for p, rule in enumerate(cones.rules)}
+    active = [
+        Place(position[rule.label], number)
+        for rule, guards in definition.guards
+        for number, guard in enumerate(guards)
+        if true(guard)
+    ]
+    due = definition.entailed(context)
+    obliged = {o for place in active for o in cones.clauses[place.rule][place.number].obligations}
+    here = [clash for clash in ruled_out if all(truth[id(label)] for label in clash.labels)]
+    witness = Witness(tuple(sorted(context.triggers)), dict(context.conditions))
+    conflicts = tuple(conflict_in(cones, active, here, witness))
+    consistent = due is not None and not conflicts
+    return Entailment(
+        consistent=consistent,
+        obligations=tuple(sorted(o.name for o in due or () if not o.negated)) if consistent else (),
+        prohibitions=tuple(sorted(o.name for o in due or () if o.negated)) if consistent else (),
+        because=tuple(_because(cones.rules[place.rule], place.number, ruleset.reading, truth) for place in active),
+        consequences=tuple(_consequences(obliged, here)) if consistent else (),
+        conflicts=conflicts,
+        broken_assumptions=tuple(a for a in cones.assumptions if not truth[id(a.formula)]),
+        missing=tuple(sorted(missing)),
+    )
+
+
+def _conditions(rule: Rule) -> Iterator[tuple[Formula, int | None, Span]]:
+    if rule.guard is not None:
+        yield rule.guard, None, rule.guard.span
+    for number, clause in enumerate(rule.clauses()):
+        if clause.condition is not None:
+            yield clause.condition, number, clause.condition.span
+
+
+def _because(rule: Rule, number: int, reading: str, truth: dict[int, bool]) -> Because:
+    clause = list(rule.clauses())[number]
+    decided = []
+    if rule.guard is not None:
+        decided.append(Decided(rule.guard, True, None, rule.guard.span))
+    for hedge, at in _looked_at(rule, reading, truth):
+        assert hedge.condition is not None, "only hedges are looked at"
+        decided.append(Decided(hedge.condition, truth[id(hedge.condition)], at, hedge.condition.span))
+    obligations = tuple(str(o) for o in clause.obligations)
+    return Because(rule.label, number, rule.layer(number), obligations, tuple(decided), clause.span)
+
+
+def _looked_at(rule: Rule, reading: str, truth: dict[int, bool]) -> list[tuple[Clause, int]]:
+    """The hedges whose conditions decide which clause is active, in the order of the text."""
+    looked: list[tuple[Clause, int]] = []
+    numbers = {id(clause): number for number, clause in enumerate(rule.clauses())}
+
+    def chain(default: Clause, hedges: Sequence[Clause], top: bool) -> None:
+        deciding = default
+        walk = hedges if reading == "cascade" else hedges[::-1]
+        for hedge in walk:
+            looked.append((hedge, numbers[id(hedge)]))
+            held = truth[id(hedge.condition)]
+            if held:
+                deciding = hedge
+            if held != (reading == "cascade"):
+                break
+        if deciding.hedges and (top or deciding is not default):
+            chain(deciding, deciding.hedges, top=False)
+
+    chain(rule.default, rule.hedges, top=True)
+    return sorted(looked, key=lambda pair: pair[1])
+
+
+def _consequences(due: set[Obligation], here: Sequence[Clash]) -> Iterator[Consequence]:
+    """Where all literals of a clash but one are due, the last must not be so."""
+    seen = set(due)
+    for clash in here:
+        rest = [literal for literal in clash.literals if literal not in due]
+        if len(rest) == 1 and opposite(rest[0]) not in seen:
+            seen.add(opposite(rest[0]))
+            yield Consequence(opposite(rest[0]), clash)

@@ -1,0 +1,72 @@
+"""Guards and Equation 1 written out, as formulas that people can read.
+
+The guard of clause i is C0 ∧ C1 ∧ … ∧ Ci ∧ ¬C(i+1), without the last part for i = n; Equation 1 (paper, Section 3.2)
+says that each guard implies what its clause obliges. This is the quadratic form; `sleec_verify.cnf` has the linear one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from sleec_runtime.model import And, Atom, Clause, Formula, Not, Or, Reading, Rule, Truth
+
+
+class Implication(NamedTuple):
+    """One conjunct of Equation 1: clause `number` obliges what `clause` says where `guard` is true."""
+
+    number: int
+    guard: Formula
+    clause: Clause
+
+
+def implications(rule: Rule, reading: Reading) -> list[Implication]:
+    """Equation 1 of a rule, a conjunct for each clause in the order of `Rule.clauses`."""
+    triggered: list[Formula] = [Atom("trigger", rule.trigger)]
+    if rule.guard is not None:
+        triggered.append(rule.guard)
+    found: list[tuple[Formula, Clause]] = []
+    for clause, parts in zip((rule.default, *rule.hedges), _split(triggered, rule.hedges, reading)):
+        found += _descend(parts, clause, reading)
+    return [Implication(number, guard, clause) for number, (guard, clause) in enumerate(found)]
+
+
+def _descend(parts: list[Formula], clause: Clause, reading: Reading) -> Iterator[tuple[Formula, Clause]]:
+    first, *rest = _split(parts, clause.hedges, reading)
+    yield conjunction(first), clause
+    for nested, conjuncts in zip(clause.hedges, rest):
+        yield from _descend(conjuncts, nested, reading)
+
+
+def _split(active: list[Formula], hedges: Sequence[Clause], reading: Reading) -> list[list[Formula]]:
+    """The conjuncts under which each member of a chain decides: the default first, then the hedges."""
+    conditions = [hedge.condition for hedge in hedges if hedge.condition is not None]
+    if reading == "cascade":
+        return [
+            active + conditions[:i] + [Not(following) for following in conditions[i : i + 1]]
+            for i in range(len(conditions) + 1)
+        ]
+    return [
+        active + ([conditions[i - 1]] if i else []) + [Not(later) for later in conditions[i:]]
+        for i in range(len(conditions) + 1)
+    ]
+
+
+def conjunction(operands: Sequence[Formula]) -> Formula:
+    """The conjunction of any number of formulas, nested conjunctions flattened."""
+    flat: list[Formula] = []
+    for operand in operands:
+        if isinstance(operand, And):
+            flat += operand.operands
+        elif operand != Truth(True):
+            flat.append(operand)
+    if not flat:
+        return Truth(True)
+    return flat[0] if len(flat) == 1 else And(tuple(flat))
+
+
+def disjunction(operands: Sequence[Formula]) -> Formula:
+    """The disjunction of any number of formulas."""
+    if not operands:
+        return Truth(False)
+    return operands[0] if len(operands) == 1 else Or(tuple(operands))

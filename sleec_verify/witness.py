@@ -1,0 +1,167 @@
+"""The smallest situation that makes a formula true whatever else is the case.
+
+A situation names some triggers and some conditions; the rest must not matter. So every name has two rails, "known
+true" and "known false", and the formula must follow from what is known (Kleene's three values: sound for every
+completion). The solver finds some such situation, and a counter then presses the number of names down until no
+smaller one exists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from sleec_runtime.model import And, Comparison, Formula, Not, Or, Truth, Value, measures_of
+from sleec_verify.cnf import Encoder
+from sleec_verify.cone import Cones, Name, names_in
+from sleec_verify.finding import Witness
+from sleec_verify.solver import MiniSat, Solver, Undecided
+
+
+def smallest_situation(cones: Cones, formula: Formula) -> Witness | None:
+    """A situation of fewest names that makes `formula` (over triggers, conditions and measures) true, or None.
+
+    Taking all that it does not name as false (Definition 1) is a situation that the assumptions allow.
+
+    Raises `Undecided` where the solver did not decide.
+    """
+    rails = _Rails(cones)
+    rails.encoder.clauses.append([rails.known(formula, True)])
+    wanted = set(names_in(formula))
+    for assumption in cones.assumptions:
+        if not wanted.isdisjoint(names_in(assumption.formula)) or not _holds_of_nothing(assumption.formula):
+            wanted.update(names_in(assumption.formula))
+    for assumption in cones.assumptions_about(wanted):
+        rails.encoder.clauses.append([rails.in_completion(assumption.formula)])
+    rails.encoder.close()
+    return rails.smallest()
+
+
+class _Rails:
+    """The formula over what is known, and the search for the fewest names."""
+
+    def __init__(self, cones: Cones) -> None:
+        self.encoder = Encoder(cones.ruleset.measures)
+        self._rails: dict[Name, tuple[int, int]] = {}
+        self._mentioned: dict[Name, int] = {}
+
+    def _rails_of(self, name: Name) -> tuple[int, int]:
+        rails = self._rails.get(name)
+        if rails is None:
+            yes, no = rails = self._rails[name] = (self.encoder.fresh(), self.encoder.fresh())
+            self.encoder.clauses.append([-yes, -no])
+            self._mentioned[name] = self.encoder.any_of([yes, no])
+        return rails
+
+    def _measure(self, measure: str) -> int:
+        name = ("condition", measure)
+        if name not in self._mentioned:
+            self._mentioned[name] = self.encoder.fresh()
+        return self._mentioned[name]
+
+    def _compared(self, comparison: Comparison, value: bool) -> int:
+        literal = self.encoder.measures.literal(comparison)
+        mentioned = [self._measure(measure) for measure in measures_of(comparison)]
+        return self.encoder.all_of([literal if value else -literal, *mentioned])
+
+    def known(self, formula: Formula, value: bool) -> int:
+        """A literal that is true only if what is known gives `formula` this value."""
+        if isinstance(formula, Not):
+            return self.known(formula.operand, not value)
+        if isinstance(formula, (And, Or)):
+            parts = [self.known(operand, value) for operand in formula.operands]
+            return self.encoder.all_of(parts) if isinstance(formula, And) == value else self.encoder.any_of(parts)
+        if isinstance(formula, Comparison):
+            return self._compared(formula, value)
+        if isinstance(formula, Truth):
+            return self.encoder.true() if formula.value == value else -self.encoder.true()
+        yes, no = self._rails_of((formula.kind, formula.name))
+        return yes if value else no
+
+    def in_completion(self, formula: Formula) -> int:
+        """The literal of `formula` where all that is not known is false."""
+        if isinstance(formula, Not):
+            return -self.in_completion(formula.operand)
+        if isinstance(formula, And):
+            return self.encoder.all_of([self.in_completion(operand) for operand in formula.operands])
+        if isinstance(formula, Or):
+            return self.encoder.any_of([self.in_completion(operand) for operand in formula.operands])
+        if isinstance(formula, Comparison):
+            return self._compared(formula, True)
+        if isinstance(formula, Truth):
+            return self.encoder.true() if formula.value else -self.encoder.true()
+        return self._rails_of((formula.kind, formula.name))[0]
+
+    def smallest(self) -> Witness | None:
+        names = sorted(self._mentioned)
+        with MiniSat(self.encoder.clauses) as solver:
+            values = self._solve(solver)
+            if values is None:
+                return None
+            situation, size = self._situation(solver, values)
+            counter = _Counter(self.encoder, [self._mentioned[name] for name in names], size)
+            solver.add(counter.clauses)
+            while size:
+                solver.add([[-counter.at_least[size]]])
+                values = self._solve(solver)
+                if values is None:
+                    break
+                situation, size = self._situation(solver, values)
+        return situation
+
+    def _solve(self, solver: Solver) -> Mapping[str, Value] | None:
+        """The values of the measures in a situation, or None where there is no situation."""
+        while True:
+            answer = solver.solve()
+            if answer is None:
+                raise Undecided("the solver gave up while looking for a smallest situation")
+            if not answer:
+                return None
+            values = self.encoder.measures.decode(solver.holds)
+            if not isinstance(values, list):
+                return values
+            solver.add([values])
+
+    def _situation(self, solver: Solver, values: Mapping[str, Value]) -> tuple[Witness, int]:
+        """The situation that the solver's model stands for, and how many names it mentions."""
+        mentioned = [name for name, variable in sorted(self._mentioned.items()) if solver.holds(variable)]
+        triggers = []
+        conditions: dict[str, Value] = {}
+        for kind, name in mentioned:
+            rails = self._rails.get((kind, name))
+            if rails is None:
+                conditions[name] = values[name]
+            elif kind == "condition":
+                conditions[name] = solver.holds(rails[0])
+            elif solver.holds(rails[0]):
+                triggers.append(name)
+        return Witness(tuple(triggers), conditions), len(mentioned)
+
+
+class _Counter:
+    """Clauses by which ``at_least[k]`` is true wherever k of the literals are, for k up to `most` (sequential
+    counter)."""
+
+    def __init__(self, encoder: Encoder, literals: list[int], most: int) -> None:
+        self.clauses: list[list[int]] = []
+        self.at_least: dict[int, int] = {}
+        for literal in literals:
+            extended = {k: encoder.fresh() for k in range(1, min(most, len(self.at_least) + 1) + 1)}
+            for k, register in extended.items():
+                if k in self.at_least:
+                    self.clauses.append([-self.at_least[k], register])
+                if k == 1:
+                    self.clauses.append([-literal, register])
+                elif k - 1 in self.at_least:
+                    self.clauses.append([-literal, -self.at_least[k - 1], register])
+            self.at_least = extended
+
+
+def _holds_of_nothing(formula: Formula) -> bool:
+    """Whether a formula is true where no trigger occurs, every condition is false and no measure has a value."""
+    if isinstance(formula, Not):
+        return not _holds_of_nothing(formula.operand)
+    if isinstance(formula, And):
+        return all(_holds_of_nothing(operand) for operand in formula.operands)
+    if isinstance(formula, Or):
+        return any(_holds_of_nothing(operand) for operand in formula.operands)
+    return isinstance(formula, Truth) and formula.value

@@ -1,0 +1,124 @@
+"""Each check says what brute force over all contexts says: nothing missed, nothing invented."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+
+from sleec_runtime.model import Ruleset
+from sleec_verify.checks import run_checks
+from sleec_verify.checks.redundant import without_hedge
+from sleec_verify.finding import Proved, Refuted
+from tests import brute
+from tests.verify.small import small_rulesets
+
+BOOLEAN = small_rulesets()
+MEASURED = small_rulesets(measures=True, rules=2)
+
+
+def findings(ruleset, check):
+    (result,) = run_checks(ruleset, [check])
+    assert isinstance(result.verdict, (Proved, Refuted)), result
+    return result.findings
+
+
+def without_rule(ruleset: Ruleset, label: str) -> Ruleset:
+    return replace(ruleset, statements=tuple(s for s in ruleset.statements if getattr(s, "label", None) != label))
+
+
+def with_rule(ruleset: Ruleset, rule) -> Ruleset:
+    return replace(
+        ruleset,
+        statements=tuple(rule if getattr(s, "label", None) == rule.label else s for s in ruleset.statements),
+    )
+
+
+def check_conflicts(ruleset):
+    found = findings(ruleset, "conflict")
+    assert {frozenset(f.clauses) for f in found} == brute.causes(ruleset)
+    for finding in found:
+        context = finding.witness.context()
+        assert brute.conflicts(ruleset, context)
+
+
+def check_vacuous(ruleset):
+    expected = set()
+    for rule in ruleset.rules:
+        triggered = [c for c in brute.contexts(ruleset) if brute.active(rule, ruleset, c) is not None]
+        if triggered and all(brute.conflicts(ruleset, c) for c in triggered):
+            expected.add(rule.label)
+    assert {f.rules[0] for f in findings(ruleset, "vacuous-conflict")} == expected
+
+
+def check_dead(ruleset):
+    seen = {(rule.label, brute.active(rule, ruleset, c)) for c in brute.contexts(ruleset) for rule in ruleset.rules}
+    dead = {r.label for r in ruleset.rules if not any((r.label, n) in seen for n, _ in enumerate(r.clauses()))}
+    assert {f.rules[0] for f in findings(ruleset, "dead-rule")} == dead
+    hedges = {(r.label, n) for r in ruleset.rules for n, _ in enumerate(r.clauses()) if n and (r.label, n) not in seen}
+    assert {f.clauses[0] for f in findings(ruleset, "dead-hedge")} == hedges
+
+
+def same_everywhere(ruleset, other):
+    return all(brute.due(ruleset, c) == brute.due(other, c) for c in brute.contexts(ruleset))
+
+
+def check_redundant(ruleset):
+    expected = {r.label for r in ruleset.rules if same_everywhere(ruleset, without_rule(ruleset, r.label))}
+    found = findings(ruleset, "redundant-rule")
+    assert {f.rules[0] for f in found} == expected
+    for finding in found:
+        kept = replace(
+            ruleset,
+            statements=tuple(s for s in ruleset.statements if getattr(s, "label", finding.rules[0]) in finding.rules),
+        )
+        alone = without_rule(kept, finding.rules[0])
+        assert all(brute.due(kept, c) == brute.due(alone, c) for c in brute.contexts(ruleset))
+    hedges = {
+        (r.label, n)
+        for r in ruleset.rules
+        for n in range(1, len(list(r.clauses())))
+        if same_everywhere(ruleset, with_rule(ruleset, without_hedge(r, n)))
+    }
+    assert {f.clauses[0] for f in findings(ruleset, "redundant-hedge")} == hedges
+
+
+def check_reading(ruleset):
+    expected = set()
+    for rule in ruleset.rules:
+        alone = replace(
+            ruleset, statements=tuple(s for s in ruleset.statements if getattr(s, "label", rule.label) == rule.label)
+        )
+        if any(brute.due(alone, c, "cascade") != brute.due(alone, c, "priority") for c in brute.contexts(ruleset)):
+            expected.add(rule.label)
+    found = findings(ruleset, "reading")
+    assert {f.rules[0] for f in found} == expected
+    for finding in found:
+        context = finding.witness.context()
+        rule = ruleset.by_label[finding.rules[0]]
+        deciding = {brute.active(rule, ruleset, context, reading) for reading in ("cascade", "priority")}
+        assert {clause for _, clause in finding.clauses} == deciding
+
+
+ALL = [check_conflicts, check_vacuous, check_dead, check_redundant, check_reading]
+
+
+@pytest.mark.parametrize("check", ALL)
+def test_boolean_rulesets(check):
+    @settings(max_examples=40, deadline=None)
+    @given(BOOLEAN)
+    def compare(ruleset):
+        check(ruleset)
+
+    compare()
+
+
+@pytest.mark.parametrize("check", ALL)
+def test_rulesets_with_measures(check):
+    @settings(max_examples=10, deadline=None)
+    @given(MEASURED)
+    def compare(ruleset):
+        check(ruleset)
+
+    compare()
