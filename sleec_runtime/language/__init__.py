@@ -7,13 +7,16 @@ print_ruleset(ruleset)
 from __future__ import annotations
 
 import re
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.english import parse_english
 from sleec_runtime.language.printer import print_formula, print_rule, print_ruleset
 from sleec_runtime.language.source import read_source, tidy
 from sleec_runtime.model import Ruleset, Source, Span
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 __all__ = ["load", "parse", "parse_source", "print_formula", "print_rule", "print_ruleset", "read_source"]
 

@@ -7,12 +7,11 @@ on at the next keyword that surely starts something new.
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Iterable
 from typing import NoReturn
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.keywords import KEYWORDS, PHRASE, STATEMENTS, TIMES
+from sleec_runtime.language.keywords import IN_WHICH_CASE, KEYWORDS, PHRASE, STATEMENTS, TIMES
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.suggest import near_keyword
 from sleec_runtime.model import NO_COMMENTS, Comments, Source, Span
@@ -119,21 +118,32 @@ class Cursor:
                 self.misspelt(at, meant)
                 raise Abandon
         if kind == "strange":
-            self.fail(
-                f"unexpected {quoted(self.token_text(at))}; expected {what}",
-                self.token_span(at),
-                self._instead(at, hint),
-            )
+            self._strange(at, what, hint)
         if kind in TIMES:
             self.fail(
                 f"{kind} is not supported yet: this version reads rules without times",
                 self.token_span(at),
                 "leave the time out for now",
             )
-        if kind == "end":
+        if kind == "end" or (kind in STATEMENTS and self.starts_line(at)):
             end = self.ends[at - 1] if at else 0
-            self.fail(f"expected {what}, but the text ends here", Span(end, end), hint)
+            self.fail(
+                f"expected {what}, but the {'text' if kind == 'end' else 'statement'} ends here", Span(end, end), hint
+            )
         self.fail(f"expected {what}, but found {self.found(at)}", self.token_span(at), hint)
+
+    def _strange(self, token: int, what: str, hint: str | None) -> NoReturn:
+        """Gives up because of a character that the language has no use for."""
+        written = self.token_text(token)
+        span = self.token_span(token)
+        if written in _INSTEAD:
+            self.fail(f"unexpected {quoted(written)}", span, _INSTEAD[written])
+        import unicodedata
+
+        if unicodedata.category(written) in ("Cf", "Cc", "Zs", "Co", "Cn", "Cs"):
+            name = unicodedata.name(written, "a control character").lower()
+            self.fail(f"unexpected invisible character U+{ord(written):04X} ({name})", span, "delete it")
+        self.fail(f"unexpected {quoted(written)}; expected {what}", span, hint)
 
     def found(self, token: int) -> str:
         """The token as a message quotes it."""
@@ -141,15 +151,17 @@ class Cursor:
 
     def misspelt(self, token: int, keyword: str) -> None:
         """Reports a misspelt keyword and goes on as if it were right: it never hurts the clause."""
-        written = self.token_text(token)
-        if written.upper() == keyword:
+        last = token + 2 if keyword == IN_WHICH_CASE else token
+        span = Span(self.starts[token], self.ends[last])
+        written = self.text[span.start : span.end]
+        if keyword == IN_WHICH_CASE or written.upper() == keyword:
             message = f"keywords are written in capitals: {keyword} instead of {quoted(written)}"
-            hint = "if it is meant as a word of a phrase, put it elsewhere in the line or choose another word"
+            hint = "if it is part of a phrase, choose another word there"
         else:
             message = f"{quoted(written)} is no keyword; did you mean {keyword}?"
             hint = "words in capitals are taken for keywords; if it is a word of a phrase, write it in small letters"
-        self.problems.append(Problem(message, self.token_span(token), hint))
-        self.kinds[token] = keyword
+        self.problems.append(Problem(message, span, hint))
+        self.kinds[token : last + 1] = keyword.split()
 
     def skip(self, stops: Iterable[str]) -> None:
         """On to the next token whose kind is among `stops`, or to the end."""
@@ -175,7 +187,10 @@ class Cursor:
 
     def missing_parenthesis(self, opened: int) -> NoReturn:
         place = self.source.place(self.token_span(opened))
-        self.expected(f"a closing parenthesis for the one opened in line {place.line}, column {place.column}")
+        self.expected(
+            f"a closing parenthesis for the one opened in line {place.line}, column {place.column}",
+            "close it, or delete the opening one",
+        )
 
     def end_of_statement(self, what: str) -> None:
         """Makes sure that the next token starts something new. A full stop before it is allowed."""
@@ -191,15 +206,6 @@ class Cursor:
         if kind == ",":
             self.expected(what, "AND joins conditions and obligations; commas stand in lists of declarations only")
         self.expected(what)
-
-    def _instead(self, token: int, hint: str | None) -> str | None:
-        written = self.token_text(token)
-        if written in _INSTEAD:
-            return _INSTEAD[written]
-        if unicodedata.category(written) in ("Cf", "Cc", "Zs"):
-            name = unicodedata.name(written, "a control character").lower()
-            return f"it is a character that cannot be seen (U+{ord(written):04X}, {name}); delete it"
-        return hint
 
     def _blame_phrase(self) -> None:
         first, behind = self._phrase
@@ -236,8 +242,8 @@ class Cursor:
                 "is a blank missing?",
             )
         if word in ("true", "false"):
-            self.fail(f"{word} is a truth value and cannot be {what}", Span(start, end), "choose another name")
-        return word if word.isascii() else unicodedata.normalize("NFC", word)
+            self.fail(f"{word} is a truth value; expected {what}", Span(start, end), "choose another name")
+        return word if word.isascii() else composed(word)
 
     def no_name(self, what: str, hint: str | None) -> NoReturn:
         """Gives up because `what` cannot start with the token at hand."""
@@ -272,7 +278,7 @@ class Cursor:
                     Span(self.starts[first], self.ends[token]),
                     "is a keyword such as AND, THEN or UNLESS missing?",
                 )
-            keyword = self._keyword_in_phrase(token, word, first)
+            keyword = self.keyword_meant(token, word, first)
             if keyword is not None:
                 self.misspelt(token, keyword)
                 break
@@ -285,10 +291,10 @@ class Cursor:
         if camel and len(words) > 1:
             self._two_names(first, words)
         name = " ".join(words)
-        return name if name.isascii() else unicodedata.normalize("NFC", name)
+        return name if name.isascii() else composed(name)
 
-    def _keyword_in_phrase(self, token: int, word: str, first: int) -> str | None:
-        """The keyword that this word of a phrase was surely meant to be."""
+    def keyword_meant(self, token: int, word: str, first: int) -> str | None:
+        """The keyword that this word, of a phrase that starts at `first`, was surely meant to be."""
         if word.isupper():
             return near_keyword(word) if len(word) > 1 else None
         if token == first:
@@ -298,17 +304,12 @@ class Cursor:
         small = word.casefold()
         if small in ("then", "unless") or (small.upper() in STATEMENTS and self.starts_line(token)):
             return small.upper()
-        if small == "in" and self._says("in which case", token):
-            for offset in (1, 2):
-                self.kinds[token + offset] = ("WHICH", "CASE")[offset - 1]
-            return "IN"
+        if small == "in" and self._says("which case", token + 1):
+            return IN_WHICH_CASE
         return None
 
     def _says(self, words: str, token: int) -> bool:
-        return all(
-            self.token_text(min(token + i, len(self.kinds) - 1)).casefold() == word
-            for i, word in enumerate(words.split())
-        )
+        return [self.token_text(token).casefold(), self.token_text(token + 1).casefold()] == words.split()
 
     def _two_names(self, first: int, words: list[str]) -> None:
         for offset, word in enumerate(words):
@@ -319,12 +320,25 @@ class Cursor:
                     "or write the whole condition as a phrase of plain words",
                 )
                 return
+        if any(word[-1].isdecimal() and not word[0].isalpha() for word in words):
+            self.problem(
+                f"a name and a number side by side: {quoted(' '.join(words))}",
+                self.span(first),
+                "is a comparison such as < or >= missing between them?",
+            )
         self.problem(
             f"two names side by side: {quoted(' '.join(words))}",
             self.span(first),
             "is AND, or another keyword, missing between them? A single name is written without blanks, "
             "and a phrase in plain words",
         )
+
+
+def composed(name: str) -> str:
+    """`name` with its accents as one character each, so that what looks the same is the same."""
+    import unicodedata
+
+    return unicodedata.normalize("NFC", name)
 
 
 def quoted(text: str) -> str:

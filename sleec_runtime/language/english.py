@@ -7,8 +7,7 @@ wherever they stand, and NEVER and ASSUME last: what a name in them is depends o
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import TypeVar
 
 from sleec_runtime.errors import LanguageError, Problem
@@ -46,10 +45,20 @@ def parse_english(source: Source) -> Ruleset:
         LanguageError: with every problem, in the order of the text.
     """
     problems: list[Problem] = []
-    with _no_garbage_collection():
+    was_collecting = gc.isenabled()
+    # Parsing makes many objects and no cycles: looking for them again and again takes a fifth of its time.
+    gc.disable()
+    try:
         tokens = scan(source.text)
         parser = EnglishParser(source, tokens, problems, Names(source, problems))
         statements = parser.statements()
+    finally:
+        if was_collecting:
+            if not gc.get_freeze_count():
+                # All that is new becomes old at once, unseen; else the first collection would walk through it.
+                gc.freeze()
+                gc.unfreeze()
+            gc.enable()
     if problems:
         raise LanguageError(source, _shown(problems))
     return Ruleset(
@@ -156,7 +165,8 @@ class EnglishParser(RuleParser):
 
     def _no_statement(self) -> None:
         if self.kinds[0] == "word":
-            keyword = near_keyword(self.token_text(0).upper())
+            written = self.token_text(0).upper()
+            keyword = written if written in STATEMENTS else near_keyword(written)
             if keyword in STATEMENTS:
                 self.misspelt(0, keyword)
                 return
@@ -270,22 +280,6 @@ class EnglishParser(RuleParser):
         self.leaf = self.names.assumed
         formula = self.formula()
         return Assume(formula, self.domains, self.span(first), self.comments_of(first))
-
-
-@contextmanager
-def _no_garbage_collection() -> Iterator[None]:
-    """Parsing makes many objects and no cycles: looking for them again and again takes a fifth of its time."""
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            if not gc.get_freeze_count():
-                # All that is new becomes old at once, unseen; else the first collection would walk through it.
-                gc.freeze()
-                gc.unfreeze()
-            gc.enable()
 
 
 def _shown(problems: list[Problem]) -> list[Problem]:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.cursor import Cursor
-from sleec_runtime.language.keywords import PHRASE
+from sleec_runtime.language.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
 from sleec_runtime.language.resolve import Names, Side
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.model import And, Atom, Formula, Not, Operator, Or, Rational, Source, Span, Truth
@@ -84,6 +84,8 @@ class FormulaParser(Cursor):
             operand = self._unary()
             self.depth -= 1
             return Not(operand, self.span(first))
+        if kind in ("dotted", "digits"):
+            self.no_name("a condition", None)
         if kind != "number":
             self.expected("a condition", self._hint_at_condition(kind))
         return self._comparison(first, Side(self.number(), self.token_span(first)))
@@ -180,4 +182,6 @@ class FormulaParser(Cursor):
             return "a comparison has a name or a number on its left: UserAge < 18"
         if kind == ")":
             return "there is nothing in the parentheses, or a condition is missing before the closing one"
+        if kind == IN_WHICH_CASE or kind == "end" or kind in STATEMENTS:
+            return "say how things must be for this to apply, as in: UNLESS UserUndressed"
         return None

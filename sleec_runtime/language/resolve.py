@@ -7,12 +7,14 @@ when all uses are known. Both syntaxes share it.
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 from typing import NamedTuple
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.cursor import quoted
 from sleec_runtime.language.suggest import Suggester, nearest
 from sleec_runtime.model import (
+    NOWHERE,
     Atom,
     Comparison,
     Constant,
@@ -111,8 +113,6 @@ class Names:
             self.constants[name] = written[name][1]
         value = self.constants[name].value
         for link in chain:
-            from dataclasses import replace
-
             self.constants[link] = replace(written[link][1], value=value)
 
     def _undefined_constant(self, side: Side, known: Collection[str]) -> None:
@@ -309,7 +309,7 @@ class Names:
         values = _scale(owner) if owner else "low < high"
         if not isinstance(opposite.written, str) or opposite.written in self.constants:
             self._problem(
-                f"{_written(value)} is a value of a scale and {_written(opposite)} is a number: they cannot be compared",
+                f"{_written(value)} is a value of a scale and {_written(opposite)} a number: they cannot be compared",
                 opposite.span,
                 f"compare {quoted(owner.name) if owner else 'its measure'} with it",
             )
@@ -357,9 +357,9 @@ class Names:
     def _report_clashes(self) -> set[str]:
         clashing: set[str] = set()
         places: dict[str, dict[str, Span]] = {kind: {**self._used[kind], **self._declared[kind]} for kind in _KINDS}
-        places["measure"] = {name: self._measured.get(name, NOWHERE_YET) for name in (*self.inferred,)}
+        places["measure"] = {name: self._measured.get(name, NOWHERE) for name in (*self.inferred,)}
         for name in self.measures:
-            places["measure"][name] = self._named.get(name, NOWHERE_YET)
+            places["measure"][name] = self._named.get(name, NOWHERE)
         places["constant"] = {name: self._named[name] for name in self.constants if name in self._named}
         for one, other in _APART:
             for name in places[one].keys() & places[other].keys():
@@ -369,20 +369,33 @@ class Names:
         return clashing
 
     def _report_clash(self, name: str, one: str, one_span: Span, other: str, other_span: Span) -> None:
-        declared = {kind for kind in _KINDS if name in self._declared[kind]}
-        if name in self.measures:
-            declared.add("measure")  # type: ignore[arg-type]
-        later_is_one = one_span > other_span
-        if (one in declared) != (other in declared):
-            later_is_one = other in declared
-        here, span, there, place = (
-            (one, one_span, other, other_span) if later_is_one else (other, other_span, one, one_span)
-        )
+        """At the use that goes against a declaration, or at the later of two."""
+        declared = {one: self._declares(one, name), other: self._declares(other, name)}
+        at_one = one_span > other_span if declared[one] == declared[other] else declared[other]
+        here, span, there, place = (one, one_span, other, other_span) if at_one else (other, other_span, one, one_span)
         self._problem(
-            f"{quoted(name)} is {_as_what(here)} here, but {_as_what(there)} in line {self._line(place)}",
+            f"{quoted(name)} is {_role(here, declared[here])} here, and {_role(there, declared[there])} "
+            f"in line {self._line(place)}",
             span,
-            _how_to_mend(name, here, there),
+            self._how_to_part(name, here, there),
         )
+
+    def _declares(self, kind: str, name: str) -> bool:
+        if kind in _KINDS:
+            return name in self._declared[kind]
+        return name in self._named
+
+    def _how_to_part(self, name: str, here: str, there: str) -> str:
+        kinds = {here, there}
+        if kinds == {"condition", "measure"}:
+            measure = self.measures.get(name)
+            example = f">= {measure.values[-1]}" if measure and measure.values else "> 0"
+            return f"a measure is compared wherever it stands, as in: {name} {example}"
+        if kinds == {"condition", "obligation"}:
+            return "a condition says how things are, an obligation what is to be done: give the two different names"
+        if kinds == {"condition", "trigger"}:
+            return "a trigger is what happens, a condition how things are meanwhile: give the two different names"
+        return "give the two different names"
 
     def _line(self, span: Span) -> int:
         return self._source.place(span).line
@@ -390,8 +403,6 @@ class Names:
     def _problem(self, message: str, span: Span, hint: str | None) -> None:
         self._problems.append(Problem(message, span, hint))
 
-
-NOWHERE_YET = Span(0, 0)
 
 _APART = (
     ("condition", "measure"),
@@ -406,25 +417,11 @@ _APART = (
 """What a name cannot be at once. A trigger may be an obligation of another rule: it happens because it was due."""
 
 
-def _as_what(kind: str) -> str:
-    return {
-        "trigger": "a trigger",
-        "condition": "a condition, true or false,",
-        "obligation": "an obligation",
-        "measure": "a measure, with a value that is compared,",
-        "constant": "a constant",
-    }[kind]
-
-
-def _how_to_mend(name: str, here: str, there: str) -> str:
-    kinds = {here, there}
-    if kinds == {"condition", "measure"}:
-        return f"compare it wherever it stands, as in: {name} > 0; or give the two different names"
-    if kinds == {"condition", "obligation"}:
-        return "a condition says how things are, an obligation what is to be done; give the two different names"
-    if kinds == {"condition", "trigger"}:
-        return "a trigger is what happens, a condition how things are meanwhile; give the two different names"
-    return "give the two different names"
+def _role(kind: str, declared: bool) -> str:
+    article = "an" if kind == "obligation" else "a"
+    if declared:
+        return f"declared as {article} {kind}"
+    return "compared as a measure" if kind == "measure" else f"used as {article} {kind}"
 
 
 def _did_you_mean(name: str | None) -> str:

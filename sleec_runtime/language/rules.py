@@ -36,16 +36,17 @@ class RuleParser(DeclarationParser):
         try:
             opening = self._opening(first != at_when)
             end = self.at
-            self._end_of_clause("UNLESS or the next rule")
+            self._end_of_clause("AND, UNLESS or the next rule")
         except Abandon:
             self._recover()
         hedges: list[Clause] = []
         while self.kinds[self.at] == "UNLESS":
             self.begin_clause()
             try:
-                hedges.append(self._hedge())
+                hedge = self._hedge()
+                hedges.append(hedge)
                 end = self.at
-                self._end_of_clause("UNLESS or the next rule")
+                self._end_of_clause("AND, UNLESS or the next rule" if hedge.obligations else "AND, OR or IN WHICH CASE")
             except Abandon:
                 self._recover()
         if opening is None:
@@ -96,7 +97,11 @@ class RuleParser(DeclarationParser):
             while self.starts[self.at] < span.end:
                 self.at += 1
             if self.kinds[self.at] in PHRASE:
-                self._long_label(at)
+                keyword = self.keyword_meant(self.at, self.token_text(self.at), at)
+                if keyword in ("WHEN", "IF"):
+                    self.misspelt(self.at, keyword)
+                else:
+                    self._long_label(at)
             self.names.label(match[0], span)
             if self.kinds[self.at] not in ("WHEN", "IF"):
                 self.expected("WHEN after the label of the rule")
@@ -120,8 +125,8 @@ class RuleParser(DeclarationParser):
         self.at += 1
         at_trigger = self.at
         if self.kinds[at_trigger] != "word":
-            self.no_name("a trigger after WHEN", self._hint_at_trigger())
-        trigger = self.name("a trigger after WHEN") or self.expected("a trigger after WHEN")
+            self.no_name("a trigger", self._hint_at_trigger())
+        trigger = self.name("a trigger") or self.expected("a trigger")
         trigger_span = self.span(at_trigger)
         if not self.hurt:
             self.names.use("trigger", trigger, trigger_span)

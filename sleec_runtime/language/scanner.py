@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import re
 from array import array
-from dataclasses import dataclass
 from itertools import accumulate, compress
 from operator import sub
+from typing import NamedTuple
 
 from sleec_runtime.language.comments import Remark, attach
 from sleec_runtime.language.keywords import IN_WHICH_CASE, KEYWORDS
@@ -65,8 +65,7 @@ _KINDS = _Kinds(
 )
 
 
-@dataclass
-class Tokens:
+class Tokens(NamedTuple):
     """The tokens of a text: `kinds[i]` is a keyword, a punctuation mark or a kind in lower case, and the token is
     ``text[starts[i]:ends[i]]``. Three tokens of kind ``end`` close the sequence, so that one may look ahead.
 

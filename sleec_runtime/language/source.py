@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import sys
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import UnreadableFile
 from sleec_runtime.model import Source
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 STDIN = "-"
 _BYTE_ORDER_MARK = "\ufeff"
@@ -28,7 +32,7 @@ def read_source(path: str | Path) -> Source:
 
 
 def tidy(text: str) -> str:
-    """`text` without a byte order mark and with ``\\n`` for every lone ``\\r``, so that lines are counted as editors do.
+    """`text` without a byte order mark and with ``\\n`` for every lone ``\\r``, so that lines count as in an editor.
 
     ``\\r\\n`` stays: its ``\\n`` ends the line.
     """
@@ -41,11 +45,12 @@ def tidy(text: str) -> str:
 
 
 def _read_bytes(path: str | Path) -> tuple[str, bytes]:
-    if str(path) == STDIN:
+    name = os.fspath(path)
+    if name == STDIN:
         return "<stdin>", sys.stdin.buffer.read()
-    name = str(path)
     try:
-        return name, Path(path).read_bytes()
+        with open(name, "rb") as file:
+            return name, file.read()
     except FileNotFoundError:
         raise UnreadableFile(f"there is no file {name}", "check the spelling of its name and folder") from None
     except IsADirectoryError:
@@ -64,7 +69,8 @@ def _decode(data: bytes, name: str) -> str:
             raise UnreadableFile(f"{name} is saved as UTF-16, not as UTF-8", "save it again as UTF-8") from None
         line = data.count(b"\n", 0, error.start) + 1
         raise UnreadableFile(
-            f"{name} is not UTF-8 text: line {line} holds the byte 0x{data[error.start]:02x} (byte {error.start + 1} of the file)",
+            f"{name} is not UTF-8 text: line {line} holds the byte 0x{data[error.start]:02x}"
+            f" (byte {error.start + 1} of the file)",
             "save it again as UTF-8; most editors offer this under 'Save as'",
         ) from None
     nul = text.find("\0")
