@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.cursor import quoted
-from sleec_runtime.language.suggest import Suggester, nearest
+from sleec_runtime.language.suggest import Suggester
 from sleec_runtime.model import (
     NOWHERE,
     Atom,
@@ -60,6 +60,7 @@ class Names:
         self._named: dict[str, Span] = {}
         self._scales: dict[str, list[str]] = {}
         self._labels: dict[str, Span] = {}
+        self._nearest = Suggester().nearest
         self._refs: dict[str, MeasureRef] = {}
 
     # Declarations ---------------------------------------------------------------------------------------------
@@ -121,7 +122,7 @@ class Names:
         if name in self.measures:
             message, hint = f"{quoted(name)} is a measure, not a constant", "a constant is a number or another constant"
         else:
-            message, hint = f"there is no constant {quoted(name)}", _did_you_mean(nearest(name, known))
+            message, hint = f"there is no constant {quoted(name)}", _did_you_mean(self._nearest(name, known))
         self._problem(message, side.span, hint or f"write a number, or define it: CONSTANT {name} = 18")
 
     def check_scales(self) -> None:
@@ -296,7 +297,7 @@ class Names:
     def _problem_of_wrong_value(self, measure: Measure, side: Side) -> None:
         owners = self._scales.get(str(side.written))
         of_other = f": it is a value of {quoted(owners[0])}" if owners else ""
-        near = None if owners else nearest(str(side.written), measure.values)
+        near = None if owners else self._nearest(str(side.written), measure.values)
         self._problem(
             f"{_written(side)} is no value of {quoted(measure.name)}{of_other}",
             side.span,
@@ -321,7 +322,7 @@ class Names:
                 "compare it with a number",
             )
         else:
-            near = nearest(opposite.written, self.measures)
+            near = self._nearest(opposite.written, self.measures)
             self._problem(
                 f"{_written(opposite)} is compared with a value of a scale, but no scale is declared for it",
                 opposite.span,
@@ -341,11 +342,10 @@ class Names:
                 for name, span in self._used[kind].items():
                     if name not in self._declared[kind] and name not in clashing:
                         unknown.append((span, name, kind))
-        suggester = Suggester()
         for index, (span, name, kind) in enumerate(sorted(unknown)):
             # Only what can be shown is worth a search for the nearest name.
-            near = suggester.nearest(name, self._declared[kind]) if index < MAX_PROBLEMS else None
-            first = min(self._declared[kind].values())
+            near = self._nearest(name, self._declared[kind]) if index < MAX_PROBLEMS else None
+            first = next(iter(self._declared[kind].values()))
             article = "an" if kind == "obligation" else "a"
             self._problem(
                 f"{quoted(name)} is not declared as {article} {kind}",

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable
 from sleec_runtime.language.keywords import KEYWORDS
 
 # Comparing every unknown name with every known one is quadratic; past this many comparisons nothing is suggested.
-_BUDGET = 200_000
+_BUDGET = 50_000
 
 
 class Suggester:
@@ -77,6 +77,12 @@ def _plain(name: str) -> str:
 def edits(one: str, other: str, enough: int) -> int:
     """How many letters to insert, delete, replace or swap with their neighbour to turn `one` into `other`; counting
     stops at `enough`."""
+    shortest = min(len(one), len(other))
+    same = next((i for i in range(shortest) if one[i] != other[i]), shortest)
+    one, other = one[same:], other[same:]
+    shortest -= same
+    same = next((i for i in range(shortest) if one[-1 - i] != other[-1 - i]), shortest)
+    one, other = one[: len(one) - same], other[: len(other) - same]
     before: list[int] = []
     row = list(range(len(other) + 1))
     for i, letter in enumerate(one, 1):

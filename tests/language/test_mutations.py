@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.strategies import rulesets
 
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, print_ruleset
 from sleec_runtime.language.keywords import KEYWORDS
 from sleec_runtime.model import Ruleset
+from tests.strategies import rulesets
 
 PAPER = (Path(__file__).parents[2] / "rulesets" / "household.sleec").read_text(encoding="utf-8")
 PIECES = [

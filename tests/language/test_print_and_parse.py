@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from hypothesis import given, settings
-from tests.strategies import rulesets
 
 from sleec_runtime.language import parse, print_ruleset
 from sleec_runtime.model import Ruleset
+from tests.strategies import rulesets
 
 
 @given(rulesets(exotic=True, max_depth=3))
