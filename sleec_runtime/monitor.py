@@ -63,6 +63,7 @@ class Monitor:
         self._sleec = sleec
         self._on_difference = on_difference
         self._watch = tuple(watch)
+        self._watched: dict[int, object] = {}
         self._on = ExitStack()
 
     def start(self) -> Monitor:
@@ -70,15 +71,24 @@ class Monitor:
         with self._sleec.held() as snapshot, ExitStack() as undo:
             self._sleec.attach(self)
             undo.callback(self._sleec.detach, self)
-            robots = {id(robot): robot for robot in (*self._sleec.bound_objects(), *self._watch)}
-            for robot in robots.values():
-                undo.enter_context(watched(robot, snapshot.program.whole.obligations))
+            self._watch_with(undo, (*self._sleec.bound_objects(), *self._watch), snapshot.program.whole.obligations)
             self._on = undo.pop_all()
         return self
+
+    def watch(self, robots: Iterable[object], obligations: Iterable[str]) -> None:
+        """Sees the executions of `robots` too, which were bound since."""
+        self._watch_with(self._on, robots, obligations)
+
+    def _watch_with(self, until: ExitStack, robots: Iterable[object], obligations: Iterable[str]) -> None:
+        for robot in robots:
+            if id(robot) not in self._watched:
+                until.enter_context(watched(robot, obligations))
+                self._watched[id(robot)] = robot
 
     def stop(self) -> None:
         """Dispatches under way are still looked at."""
         self._on.close()
+        self._watched.clear()
 
     def __enter__(self) -> Monitor:
         return self.start()

@@ -88,6 +88,7 @@ class Sleec:
             for target in targets:
                 labels = self._instance.bind(target)
                 self._plan_anew(labels)
+            self._watch_bound()
 
     def unbind(self, *labels: str) -> None:
         """Takes their methods from rules. Dispatches under way finish with them. Raises UnknownLabel."""
@@ -283,7 +284,12 @@ class Sleec:
         known = {name: value for name, value in before.conditions.items() if name in program.vocabulary}
         after = Snapshot.first(program, known, before.number + 1)
         self._instance = instance
+        self._watch_bound()
         self._publish(before, after, program.ruleset.rules)
+
+    def _watch_bound(self) -> None:
+        if self._monitor is not None:
+            self._monitor.watch(self.bound_objects(), self._snapshot.program.whole.obligations)
 
     def _publish(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         self._snapshot = after

@@ -78,8 +78,9 @@ class Snapshot:
         """The context in which only `known` is reported. O(size of the rules). Raises as `Program.checked` does."""
         initial: Chunks[Value | None] = Chunks.of([None] * len(program.numbers))
         values = initial.replaced(program.checked(known))
-        conditions = Conditions(program.numbers, values)
-        cells = (Cell(tuple(_outcome(program, rule, conditions) for rule in rules)) for rules in program.cells)
+        situation = _situation(program, values)
+        reading = program.ruleset.reading
+        cells = (Cell(tuple(walk(rule, situation, reading) for rule in rules)) for rules in program.cells)
         return cls(program, values, Chunks.of(cells), object(), number)
 
     @property
@@ -110,14 +111,14 @@ class Snapshot:
         if not values:
             return self, ()
         after = self._values.replaced(values)
-        conditions = Conditions(program.numbers, after)
+        situation = _situation(program, after)
         names = [name for name in changes if program.numbers[name] in values]
         concerned = dict.fromkeys(place for name in names for place in program.mentions.get(name, ()))
         outcomes: dict[int, list[Outcome]] = {}
         for cell, position in concerned:
             if cell not in outcomes:
                 outcomes[cell] = list(self._cells[cell].outcomes)
-            outcomes[cell][position] = _outcome(program, program.cells[cell][position], conditions)
+            outcomes[cell][position] = walk(program.cells[cell][position], situation, program.ruleset.reading)
         cells = self._cells.replaced({cell: Cell(tuple(of_cell)) for cell, of_cell in outcomes.items()})
         mark = self.mark if program.situational.isdisjoint(names) else object()
         rules = tuple(program.cells[cell][position] for cell, position in concerned)
@@ -130,7 +131,8 @@ class Snapshot:
         return Snapshot(self.program, self._values, cells, self.mark, self.number)
 
 
-def _outcome(program: Program, rule: Rule, conditions: Conditions) -> Outcome:
-    absent = None if program.strict else False
-    situation = Situation(Context(frozenset((rule.trigger,)), conditions), program.measures, absent)
-    return walk(rule, situation, program.ruleset.reading)
+def _situation(program: Program, values: Chunks[Value | None]) -> Situation:
+    """What rules are decided in. No triggers: a rule is asked what it says if its own occurs, and its conditions speak
+    of none."""
+    context = Context(frozenset(), Conditions(program.numbers, values))
+    return Situation(context, program.measures, None if program.strict else False)

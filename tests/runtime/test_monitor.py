@@ -162,6 +162,18 @@ def test_a_callback_that_raises_stops_the_caller(sleec: Sleec) -> None:
         sleec.trigger_all(["a"])
 
 
+def test_it_sees_what_is_bound_while_it_is_on(sleec: Sleec) -> None:
+    found: list[Difference] = []
+    with Monitor(sleec, found.append):
+        robot = hand_that_does(sleec, "open", "say")
+        sleec.trigger("a")
+        sleec.unbind("r1")
+        hand_that_does(sleec, "open")
+        sleec.trigger("a")
+    assert [difference.missing for difference in found] == [("Say",)]
+    assert vars(robot) == {}
+
+
 def test_it_leaves_no_trace(sleec: Sleec) -> None:
     robot = hand_that_does(sleec)
     monitor = Monitor(sleec, print).start()

@@ -1,0 +1,21 @@
+"""The guide's examples, run as the one program that they are."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+GUIDE = Path("docs/runtime.md")
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```$", GUIDE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+
+
+def test_the_examples_of_the_guide_run(capsys: pytest.CaptureFixture[str]) -> None:
+    program: dict[str, object] = {}
+    for block in blocks("python"):
+        exec(compile(block, str(GUIDE), "exec"), program)
+    assert capsys.readouterr().out == "".join(blocks("text"))
