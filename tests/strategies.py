@@ -7,6 +7,7 @@ features off, or make it smaller, where a property is slow to check.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 
 from hypothesis import strategies as st
@@ -24,13 +25,16 @@ from sleec_runtime.model import (
     Declaration,
     Exclusive,
     Formula,
+    Kind,
     Measure,
     MeasureRef,
     Never,
     Not,
     Number,
     Obligation,
+    Operator,
     Or,
+    Reading,
     Rule,
     Ruleset,
     ScaleValue,
@@ -67,6 +71,7 @@ INTEGERS = ("Attempts", "Visitors")
 SCALES = ("Risk", "Pain", "Trust")
 SCALE_VALUES = (("low", "middle", "high"), ("never", "sometimes"), ("low", "high", "very high", "worst"))
 DOMAINS = ("hospital", "household", "the day ward")
+_OPERATORS: tuple[Operator, ...] = ("<", "<=", "=", "!=", ">=", ">")
 _VALUES: tuple[int | Fraction, ...] = (0, 1, 2, 18, -3, Fraction(73, 2), Fraction(-1, 4), Fraction(1, 1000), 10**20)
 
 
@@ -101,7 +106,7 @@ def rulesets(
     labels: bool = True,
     exotic: bool = False,
     comments: bool = False,
-    readings: Sequence[str] = READINGS,
+    readings: Sequence[Reading] = READINGS,
 ) -> Ruleset:
     """Valid rulesets of `min_rules` to `max_rules` rules with up to `max_hedges` hedges in each chain.
 
@@ -128,7 +133,7 @@ def rulesets(
         statements = [draw(_commented(statement)) for statement in statements]
     return Ruleset(
         statements=tuple(statements),
-        reading=draw(st.sampled_from(readings)),  # type: ignore[arg-type]
+        reading=draw(st.sampled_from(readings)),
         inferred=_inferred(statements, known),
         closing_comments=draw(_comment_lines()) if comments else (),
     )
@@ -178,8 +183,7 @@ def _comparisons(draw: st.DrawFn, known: _Vocabulary) -> Comparison:
         constants = [Number(constant.value, constant.name) for constant in known.constants.values()]
         right = draw(st.sampled_from([*map(Number, _VALUES), *constants, *constants]))
     sides = (right, left) if draw(st.booleans()) else (left, right)
-    operator = draw(st.sampled_from(("<", "<=", "=", "!=", ">=", ">")))
-    return Comparison(sides[0], operator, sides[1])
+    return Comparison(sides[0], draw(st.sampled_from(_OPERATORS)), sides[1])
 
 
 # Rules ----------------------------------------------------------------------------------------------------
@@ -298,9 +302,9 @@ def _constraints(
     conditions = [st.builds(Atom, st.just("condition"), st.sampled_from(sorted(used)))] if used else []
     situations = [st.builds(Atom, st.just("trigger"), st.sampled_from(only_triggers))] if only_triggers else []
     for _ in range(draw(st.integers(0, 2))):
-        parts = [draw(formulas(st.one_of(obligation, *conditions, *situations), max_depth))]
-        found.append(Never(And((draw(obligation), parts[0])), draw(where)))
-    for _ in range(draw(st.integers(0, 1))):
+        rest = draw(formulas(st.one_of(obligation, *conditions, *situations), max_depth))
+        found.append(Never(And((draw(obligation), rest)), draw(where)))
+    if draw(st.booleans()):
         found.append(Assume(draw(formulas(st.one_of(trigger, leaf), max_depth)), draw(where)))
     return found
 
@@ -310,7 +314,7 @@ def _declarations(draw: st.DrawFn, statements: list[Statement]) -> list[Statemen
     """Declarations of whole kinds: of every name that is used, and maybe of one that is not."""
     ruleset = Ruleset(tuple(statements))
     found: list[Statement] = []
-    every: tuple[tuple[str, frozenset[str], str], ...] = (
+    every: tuple[tuple[Kind, frozenset[str], str], ...] = (
         ("trigger", ruleset.triggers, "SpareTrigger"),
         ("condition", ruleset.conditions, "SpareCondition"),
         ("obligation", ruleset.obligations, "SpareObligation"),
@@ -319,18 +323,17 @@ def _declarations(draw: st.DrawFn, statements: list[Statement]) -> list[Statemen
         chosen = sorted(names) + ([spare] if draw(st.booleans()) else [])
         if chosen and draw(st.integers(0, 2)) == 0:
             cut = draw(st.integers(0, len(chosen)))
-            for part in (chosen[:cut], chosen[cut:]):
-                if part:
-                    found.append(Declaration(kind, tuple(part)))  # type: ignore[arg-type]
+            parts = (tuple(chosen[:cut]), tuple(chosen[cut:]))
+            found += [Declaration(kind, part) for part in parts if part]
     return found
 
 
 def _inferred(statements: Sequence[Statement], known: _Vocabulary) -> tuple[Measure, ...]:
     compared: set[str] = set()
     for statement in statements:
-        own = formulas_of(statement) if isinstance(statement, Rule) else ()
+        own = list(formulas_of(statement)) if isinstance(statement, Rule) else []
         if isinstance(statement, (Never, Assume)):
-            own = (statement.formula,)
+            own = [statement.formula]
         for formula in own:
             for leaf in leaves(formula):
                 if isinstance(leaf, Comparison):
@@ -352,8 +355,6 @@ def _comments() -> st.SearchStrategy[Comments]:
 
 @st.composite
 def _commented(draw: st.DrawFn, statement: Statement) -> Statement:
-    from dataclasses import replace
-
     statement = replace(statement, comments=draw(_comments()))
     if not isinstance(statement, Rule):
         return statement
@@ -366,8 +367,6 @@ def _commented(draw: st.DrawFn, statement: Statement) -> Statement:
 
 @st.composite
 def _commented_clause(draw: st.DrawFn, clause: Clause) -> Clause:
-    from dataclasses import replace
-
     return replace(
         clause,
         comments=draw(_comments()),

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sleec_runtime.errors import LanguageError
+from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language import parse, print_ruleset
 from sleec_runtime.language.keywords import KEYWORDS
 from sleec_runtime.model import Ruleset
@@ -39,15 +39,20 @@ PIECES = [
 
 def parses_or_complains(text: str) -> None:
     start = time.perf_counter()
+    ruleset: Ruleset | None = None
+    problems: tuple[Problem, ...] = ()
     try:
         ruleset = parse(text)
     except LanguageError as error:
-        assert error.problems
-        for problem in error.problems:
-            assert 0 <= problem.span.start <= problem.span.end <= len(error.source.text)
-            assert len(problem.message) < 500
-    else:
+        problems = error.problems
+        length = len(error.source.text)
+    if ruleset is not None:
         assert parse(print_ruleset(ruleset)) == ruleset
+    else:
+        assert problems
+    for problem in problems:
+        assert 0 <= problem.span.start <= problem.span.end <= length
+        assert len(problem.message) < 500
     assert time.perf_counter() - start < 5
 
 

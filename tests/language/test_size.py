@@ -8,7 +8,7 @@ import pytest
 
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, print_ruleset
-from sleec_runtime.model import And
+from sleec_runtime.model import And, Obligation
 
 
 def many_rules(count: int) -> str:
@@ -53,7 +53,10 @@ def test_too_deep(before: str, deep: str, count: int) -> None:
 
 def test_deep_enough() -> None:
     deep = "(" * 99 + "a OR b" + ")" * 99
-    assert parse(f"WHEN T AND c AND {deep} THEN O UNLESS {'NOT ' * 100} a IN WHICH CASE {'(' * 100}P{')' * 100}")
+    (rule,) = parse(
+        f"WHEN T AND c AND {deep} THEN O UNLESS {'NOT ' * 100} a IN WHICH CASE {'(' * 100}P{')' * 100}"
+    ).rules
+    assert rule.hedges[0].obligations == (Obligation("P"),)
 
 
 def test_deep_chains_print_and_parse() -> None:

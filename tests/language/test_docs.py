@@ -1,0 +1,30 @@
+"""Every example of docs/language.md is what the page says it is."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from sleec_runtime.errors import LanguageError
+from sleec_runtime.language import parse, print_ruleset
+
+PAGE = (Path(__file__).parents[2] / "docs" / "language.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^```(sleec(?:-bad)?)\n(.*?)^```$", PAGE, flags=re.MULTILINE | re.DOTALL)
+
+
+@pytest.mark.parametrize("text", [text for kind, text in BLOCKS if kind == "sleec"])
+def test_good_examples_parse(text: str) -> None:
+    ruleset = parse(text)
+    assert parse(print_ruleset(ruleset)) == ruleset
+
+
+@pytest.mark.parametrize("text", [text for kind, text in BLOCKS if kind == "sleec-bad"])
+def test_bad_examples_are_refused(text: str) -> None:
+    with pytest.raises(LanguageError):
+        parse(text)
+
+
+def test_the_page_has_examples_of_both() -> None:
+    assert {kind for kind, _ in BLOCKS} == {"sleec", "sleec-bad"}
