@@ -104,6 +104,7 @@ class Done:
         program = self._snapshot.program
         lines = [f"{' and '.join(self.triggers)}, in the context of change {self.change}:"]
         for rule, outcome in outcomes_of(self._snapshot, self.triggers):
+            assert not isinstance(outcome, Undetermined), "refused before it ran"
             lines.append(outcome_in_words(rule, outcome, conditions))
         if len(lines) == 1:
             where = "" if program.domain is None else f" in the domain {program.domain}"

@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from sleec_runtime.conflicts import Conflict
-from sleec_runtime.evaluation import Decision, Outcome, Step, Undetermined
+from sleec_runtime.evaluation import Decision, Step
 from sleec_runtime.language.printer import print_formula, print_number
 from sleec_runtime.model import Comparison, Exclusive, Formula, Rule, Value, leaves, measures_of
 
 
-def outcome_in_words(rule: Rule, outcome: Outcome, conditions: Mapping[str, Value]) -> str:
+def outcome_in_words(rule: Rule, outcome: Decision | None, conditions: Mapping[str, Value]) -> str:
     """A few lines on what one rule says and why."""
     if outcome is None:
         return f"{rule.label}: nothing, because its guard is false"
-    if isinstance(outcome, Undetermined):
-        return f"{rule.label}: undetermined, because nobody reported {', '.join(outcome.missing)}"
     return decision_in_words(outcome, conditions)
 
 

@@ -50,7 +50,7 @@ class Instance:
         self._labels: dict[str, None] = {}
         self._methods: dict[str, Method] = {}
         self._callables: dict[str, Callable[..., Any]] = {}
-        self._variants: dict[tuple[str, int], Variant | None] = {}
+        self._variants: dict[tuple[str, int], tuple[Clause, Variant | None]] = {}
         self.admit(ruleset)
 
     def copied(self) -> Instance:
@@ -67,7 +67,7 @@ class Instance:
     def admit(self, ruleset: Ruleset) -> None:
         """Makes the rules of `ruleset` and their layers known, so that methods can be written for them."""
         self.layers.admit(ruleset)
-        self._labels.update(dict.fromkeys(rule.label for rule in ruleset.rules))
+        self._labels = {**self._labels, **dict.fromkeys(rule.label for rule in ruleset.rules)}
 
     def known(self, label: str) -> str:
         """`label`, if a rule has it. Raises UnknownLabel."""
@@ -152,16 +152,20 @@ class Instance:
         has no variant for a clause that obliges something: the base must not run in its place.
         """
         # The same dictionary throughout: bind() puts another in its place, and what is found for the methods of before
-        # must not go into that.
+        # must not go into that. Nor must a dispatch that is still under the rules of before a replace() leave its
+        # clause to those of after.
         variants = self._variants
         key = (rule.label, number)
-        if key not in variants:
-            method = self._methods.get(rule.label)
-            if method is None:
-                variants[key] = self._composed(rule, number, clause)
-            else:
-                variants[key] = self._written(rule, number, clause, method)
-        return variants[key]
+        known = variants.get(key)
+        if known is not None and known[0] is clause:
+            return known[1]
+        method = self._methods.get(rule.label)
+        if method is None:
+            variant = self._composed(rule, number, clause)
+        else:
+            variant = self._written(rule, number, clause, method)
+        variants[key] = clause, variant
+        return variant
 
     def objects(self) -> list[object]:
         """The objects that methods are bound to, once each."""
@@ -235,7 +239,7 @@ class Instance:
 
     def _forget(self, labels: Iterable[str]) -> None:
         gone = frozenset(labels)
-        self._variants = {key: variant for key, variant in self._variants.items() if key[0] not in gone}
+        self._variants = {key: known for key, known in tuple(self._variants.items()) if key[0] not in gone}
 
 
 def _of_class(name: str, instance: object, owner: type) -> Method:

@@ -43,11 +43,10 @@ class Layers(Mapping[str, RuleLayer]):
 
     def admit(self, ruleset: Ruleset) -> None:
         """Makes the layers of `ruleset` known. Those whose names are known already stay the objects that they are."""
-        for rule in ruleset.rules:
-            for number, _ in enumerate(rule.clauses()):
-                name = rule.layer(number)
-                if name is not None and name not in self._layers:
-                    self._layers[name] = RuleLayer(name)
+        names = (rule.layer(number) for rule in ruleset.rules for number, _ in enumerate(rule.clauses()))
+        added = {name: RuleLayer(name) for name in names if name is not None and name not in self._layers}
+        # Another dictionary, so that a thread that goes through the layers is not disturbed.
+        self._layers = {**self._layers, **added}
 
     def of(self, name: str | None) -> RuleLayer | None:
         """The layer of that name; None stands for ε."""

@@ -161,7 +161,8 @@ class Sensors:
     def crisp(self, readings: Mapping[str, object]) -> dict[str, Value | None]:
         """What the predicates make of `readings`; a reading of None makes unknown what depends on it.
 
-        O(predicates of these sensors). Raises UnknownSensor and WrongType.
+        O(predicates of these sensors). Raises UnknownSensor, WrongType, and UnknownCondition for a condition that went
+        with a ruleset that was replaced.
         """
         vocabulary = self._sleec.vocabulary
         crisp: dict[str, Value | None] = {}
@@ -170,7 +171,11 @@ class Sensors:
                 raise UnknownSensor(sensor, self._by_sensor)
             number = None if reading is None else _number(sensor, reading, "a sensor value")
             for predicate in self._by_sensor[sensor]:
-                measure = vocabulary.get(predicate.condition)
+                if predicate.condition not in vocabulary:
+                    raise UnknownCondition(
+                        predicate.condition, vocabulary, "the ruleset was replaced by one without it"
+                    )
+                measure = vocabulary[predicate.condition]
                 crisp[predicate.condition] = None if number is None else predicate.crisp(number, measure)
         return crisp
 

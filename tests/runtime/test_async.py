@@ -187,3 +187,6 @@ def test_errors_come_out_after_all_variants() -> None:
     assert (seen.executed, seen.failed) == (["Fail", "Help"], ["Fail"])
     with pytest.raises(VariantsFailed):
         asyncio.run(sleec.trigger_async("b"))
+    sleec.implement({"Help": lambda: 1 // 0})
+    with pytest.raises(VariantsFailed, match=r"r1: RuntimeError.*r2: ZeroDivisionError"):
+        asyncio.run(sleec.trigger_async("a"))

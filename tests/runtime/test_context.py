@@ -78,6 +78,7 @@ def test_who_holds_a_context_keeps_it() -> None:
     assert dict(sleec.conditions) == {"UserUndressed": True}
     assert sleec.conditions["UserUndressed"] is True
     assert "UserDistressed" not in sleec.conditions
+    assert len(sleec.conditions) == 1
     assert repr(sleec.conditions) == "Conditions({'UserUndressed': True})"
     with pytest.raises(KeyError):
         sleec.conditions["UserDistressed"]

@@ -9,6 +9,7 @@ import pytest
 
 from sleec_runtime import Sensors, Sleec
 from sleec_runtime.errors import SleecError, UnknownCondition, WrongType
+from sleec_runtime.language import parse
 from sleec_runtime.predicates import Direct, Fuzzy, Predicate, Scale, Threshold, UnknownSensor, trapezoid, triangle
 from tests.runtime.robots import running
 
@@ -88,6 +89,13 @@ def test_a_predicate_must_fit_what_it_decides(sleec: Sleec, predicates: list[Pre
     with pytest.raises(SleecError) as refusal:
         Sensors(sleec, *predicates)
     assert words in str(refusal.value)
+
+
+def test_a_predicate_of_a_condition_that_is_gone_is_refused(sleec: Sleec) -> None:
+    sensors = Sensors(sleec, Scale("Risk", "radar", [1, 2]))
+    sleec.replace(parse("RULE r WHEN a THEN o"))
+    with pytest.raises(UnknownCondition, match="replaced"):
+        sensors.update({"radar": 1})
 
 
 def test_what_predicates_are_made_of_is_checked(sleec: Sleec) -> None:

@@ -6,6 +6,7 @@ import pytest
 
 import sleec_runtime
 from sleec_runtime import Sleec, errors
+from sleec_runtime.dispatch import plan, run
 from sleec_runtime.language import parse
 from tests.runtime.robots import CURTAINS, Log, listing_2, running
 
@@ -92,6 +93,18 @@ def test_new_rules_come_with_their_code() -> None:
     sleec.update({"Night": True})
     sleec.trigger("Knock")
     assert robot.taken() == ["Whisper"]
+
+
+def test_a_late_plan_of_the_old_rules_leaves_nothing_to_the_new_ones() -> None:
+    """A thread may have read the old context, and make its plan when the new rules are in force."""
+    sleec = running("RULE r1 WHEN a THEN First")
+    log = Log()
+    sleec.implement({"First": lambda: log.do("First")})
+    old = sleec._snapshot
+    sleec.replace(parse("RULE r1 WHEN a THEN Second"), implement={"Second": lambda: log.do("Second")})
+    run(plan(old, ("a",), sleec._instance), old, (), {})
+    sleec.trigger("a")
+    assert log.taken() == ["First", "Second"]
 
 
 def test_what_had_no_code_before_may_stay_without() -> None:
