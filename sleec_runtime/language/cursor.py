@@ -73,7 +73,6 @@ class Cursor:
         self.depth = 0
         self.deepest = 0
         self.hurt = False
-        self._phrase = (0, 0)
 
     # Places ---------------------------------------------------------------------------------------------------
 
@@ -107,9 +106,9 @@ class Cursor:
         raise Abandon
 
     def expected(self, what: str, hint: str | None = None) -> NoReturn:
-        """Gives up because the token at hand is not `what`. The cause may stand a little earlier: a keyword that the
-        phrase before it has swallowed, because it was not in capitals."""
-        self._blame_phrase()
+        """Gives up because the token at hand is not `what`. The cause may stand just before it: a keyword that is
+        not in capitals, and was taken for a word of a phrase."""
+        self._blame_word_before()
         at = self.at
         kind = self.kinds[at]
         if kind == "word":
@@ -207,17 +206,13 @@ class Cursor:
             self.expected(what, "AND joins conditions and obligations; commas stand in lists of declarations only")
         self.expected(what)
 
-    def _blame_phrase(self) -> None:
-        first, behind = self._phrase
-        if behind != self.at:
-            return
-        for token in range(first + 1, behind):
-            keyword = self.token_text(token).upper()
-            if keyword in KEYWORDS and self.kinds[token] == "word":
-                self.at = token
-                self.misspelt(token, keyword)
-                self.hurt = True
-                raise Abandon
+    def _blame_word_before(self) -> None:
+        token = self.at - 1
+        if token >= 0 and self.kinds[token] == "word" and self.token_text(token).upper() in KEYWORDS:
+            self.at = token
+            self.misspelt(token, self.token_text(token).upper())
+            self.hurt = True
+            raise Abandon
 
     # Names ----------------------------------------------------------------------------------------------------
 
@@ -287,7 +282,6 @@ class Cursor:
             self.at += 1
         if not words:
             return ""
-        self._phrase = (first, self.at)
         if camel and len(words) > 1:
             self._two_names(first, words)
         name = " ".join(words)

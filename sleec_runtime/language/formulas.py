@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from sleec_runtime.errors import Problem
+from sleec_runtime.language.comparisons import Comparisons
 from sleec_runtime.language.cursor import Cursor
 from sleec_runtime.language.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
 from sleec_runtime.language.resolve import Names, Side
@@ -34,6 +35,7 @@ class FormulaParser(Cursor):
     def __init__(self, source: Source, tokens: Tokens, problems: list[Problem], names: Names) -> None:
         super().__init__(source, tokens, problems)
         self.names = names
+        self._compare = Comparisons(names).comparison
         self.leaf: Callable[[str, Span], Atom] = names.condition
 
     def formula(self) -> Formula:
@@ -139,7 +141,7 @@ class FormulaParser(Cursor):
             )
         if self.hurt:
             return Truth(True, span)
-        return self.names.comparison(left, operator, right, span)
+        return self._compare(left, operator, right, span)
 
     def side(self, what: str, hint: str) -> Side:
         first = self.at

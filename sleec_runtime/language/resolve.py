@@ -16,18 +16,12 @@ from sleec_runtime.language.suggest import Suggester
 from sleec_runtime.model import (
     NOWHERE,
     Atom,
-    Comparison,
     Constant,
     Kind,
     Measure,
-    MeasureRef,
-    Number,
-    Operator,
     Rational,
-    ScaleValue,
     Source,
     Span,
-    Term,
 )
 
 MAX_PROBLEMS = 100
@@ -56,12 +50,11 @@ class Names:
         self._problems = problems
         self._declared: dict[Kind, dict[str, Span]] = {kind: {} for kind in _KINDS}
         self._used: dict[Kind, dict[str, Span]] = {kind: {} for kind in _KINDS}
-        self._measured: dict[str, Span] = {}
+        self.compared: dict[str, Span] = {}
         self._named: dict[str, Span] = {}
-        self._scales: dict[str, list[str]] = {}
+        self.scales: dict[str, list[str]] = {}
         self._labels: dict[str, Span] = {}
-        self._nearest = Suggester().nearest
-        self._refs: dict[str, MeasureRef] = {}
+        self.nearest = Suggester().nearest
 
     # Declarations ---------------------------------------------------------------------------------------------
 
@@ -75,13 +68,13 @@ class Names:
         seen: dict[str, Span] = {}
         for value, span in zip(measure.values, value_spans):
             if value in seen:
-                self._problem(
+                self.problem(
                     f"the scale of {quoted(measure.name)} names {quoted(value)} twice",
                     span,
                     "each value of a scale has one place in it",
                 )
-            elif value not in self._scales or measure.name not in self._scales[value]:
-                self._scales.setdefault(value, []).append(measure.name)
+            elif value not in self.scales or measure.name not in self.scales[value]:
+                self.scales.setdefault(value, []).append(measure.name)
             seen.setdefault(value, span)
 
     def declare_constants(self, written: dict[str, tuple[Side, Constant]]) -> dict[str, Constant]:
@@ -105,9 +98,9 @@ class Names:
         if name in chain and name not in self.constants:
             side, _ = written[name]
             circle = list(chain)[list(chain).index(name) :]
-            self._problem(
+            self.problem(
                 f"the constant {quoted(name)} is defined by itself"
-                + (f", by way of {', '.join(quoted(other) for other in circle[1:])}" if len(circle) > 1 else ""),
+                + (f", by way of {', '.join(quoted(other) for other in circle[1:4])}" if len(circle) > 1 else ""),
                 side.span,
                 "give one of them a number",
             )
@@ -122,15 +115,15 @@ class Names:
         if name in self.measures:
             message, hint = f"{quoted(name)} is a measure, not a constant", "a constant is a number or another constant"
         else:
-            message, hint = f"there is no constant {quoted(name)}", _did_you_mean(self._nearest(name, known))
-        self._problem(message, side.span, hint or f"write a number, or define it: CONSTANT {name} = 18")
+            message, hint = f"there is no constant {quoted(name)}", did_you_mean(self.nearest(name, known))
+        self.problem(message, side.span, hint or f"write a number, or define it: CONSTANT {name} = 18")
 
     def check_scales(self) -> None:
         """A value of a scale must not be called like a measure or a constant: a comparison could mean either."""
-        for value, owners in self._scales.items():
+        for value, owners in self.scales.items():
             if value in self._named:
                 measure = self.measures.get(owners[0])
-                self._problem(
+                self.problem(
                     f"{quoted(value)} is a value of the scale of {quoted(owners[0])} and the name of another "
                     f"{'measure' if value in self.measures else 'constant'} (line {self._line(self._named[value])})",
                     measure.span if measure else self._named[value],
@@ -140,7 +133,7 @@ class Names:
     def label(self, label: str, span: Span) -> None:
         first = self._labels.setdefault(label, span)
         if first is not span:
-            self._problem(
+            self.problem(
                 f"there are two rules {quoted(label)}; the first is in line {self._line(first)}",
                 span,
                 "give each rule a label of its own",
@@ -150,7 +143,7 @@ class Names:
         """Rules without a label are called by their number, which no other rule may have for its label."""
         for label, span in labels.items():
             if label in self._labels:
-                self._problem(
+                self.problem(
                     f"{quoted(label)} is also the name of the rule in line {self._line(span)}, which has no label",
                     self._labels[label],
                     "give one of them another label",
@@ -160,7 +153,7 @@ class Names:
         """Whether a measure or constant may have this name; if not, that is reported."""
         first = self._named.setdefault(name, span)
         if first is not span:
-            self._problem(
+            self.problem(
                 f"{quoted(name)} is declared twice; the first time in line {self._line(first)}",
                 span,
                 "delete or rename one of them",
@@ -185,7 +178,7 @@ class Names:
         if self._is("trigger", name):
             return self._atom("trigger", name, span)
         if self._is("obligation", name) and not self._is("condition", name):
-            self._problem(
+            self.problem(
                 f"{quoted(name)} is an obligation, and ASSUME speaks of situations: of triggers and conditions",
                 span,
                 "to forbid something to the robot, write NEVER",
@@ -207,128 +200,6 @@ class Names:
     def _is(self, kind: Kind, name: str) -> bool:
         return name in self._declared[kind] or name in self._used[kind]
 
-    # Comparisons ----------------------------------------------------------------------------------------------
-
-    def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison:
-        """``left operator right`` with each side as what it is; whatever does not fit is reported."""
-        terms = self._term(left, right), self._term(right, left)
-        self._check_fit(left, terms[0], right, terms[1], span)
-        return Comparison(terms[0], operator, terms[1], span)
-
-    def _term(self, side: Side, opposite: Side) -> Term:
-        name = side.written
-        if not isinstance(name, str):
-            return Number(name)
-        other = self.measures.get(opposite.written) if isinstance(opposite.written, str) else None
-        if other is not None and name in other.values:
-            return ScaleValue(name, other.values.index(name))
-        constant = self.constants.get(name)
-        if constant is not None:
-            return Number(constant.value, name)
-        self._measured.setdefault(name, side.span)
-        if name not in self.measures and name not in self.inferred and not self._is_out_of_place(name, other):
-            self.inferred[name] = Measure(name, "number", declared=False, span=side.span)
-        ref = self._refs.get(name)
-        if ref is None:
-            ref = self._refs[name] = MeasureRef(name)
-        return ref
-
-    def _is_out_of_place(self, name: str, other: Measure | None) -> bool:
-        """Whether an undeclared name opposite `other` cannot be a number measure, which `_check_fit` reports."""
-        return name in self._scales or (other is not None and other.kind == "scale")
-
-    def _check_fit(self, left: Side, one: Term, right: Side, two: Term, span: Span) -> None:
-        if isinstance(one, MeasureRef) and isinstance(two, MeasureRef):
-            self._check_measures(left, right, span)
-        elif isinstance(one, MeasureRef) and isinstance(two, Number):
-            self._check_number(left, right)
-        elif isinstance(two, MeasureRef) and isinstance(one, Number):
-            self._check_number(right, left)
-        elif isinstance(one, Number) and isinstance(two, Number):
-            self._problem(
-                f"{_written(left)} and {_written(right)} are both fixed numbers, so the answer is always the same",
-                span,
-                "compare a measure with a number, or write true or false",
-            )
-
-    def _check_number(self, name: Side, number: Side) -> None:
-        measure = self.measures.get(str(name.written))
-        if measure is not None and measure.kind == "scale":
-            self._problem(
-                f"{_written(name)} is a scale and {_written(number)} is a number: they cannot be compared",
-                number.span,
-                f"compare it with one of its values: {_scale(measure)}",
-            )
-        elif measure is None and str(name.written) in self._scales:
-            self._problem_of_stray_value(name, number)
-
-    def _check_measures(self, left: Side, right: Side, span: Span) -> None:
-        one, two = self._measure(left), self._measure(right)
-        if one is None and two is None:
-            self._problem(
-                f"{_written(left)} and {_written(right)} are both values of a scale, so the answer is always the same",
-                span,
-                "compare a measure with one of its values",
-            )
-        elif one is None or two is None:
-            measure, known, unknown = (one, left, right) if one is not None else (two, right, left)
-            assert measure is not None
-            if measure.kind == "scale":
-                self._problem_of_wrong_value(measure, unknown)
-            else:
-                self._problem_of_stray_value(unknown, known)
-        elif (one.kind == "scale") != (two.kind == "scale"):
-            scale, other, values = (left, right, one) if one.kind == "scale" else (right, left, two)
-            self._problem(
-                f"{_written(scale)} is a scale and {_written(other)} is a number: they cannot be compared",
-                span,
-                f"compare {_written(scale)} with one of its values: {_scale(values)}",
-            )
-        elif one.values != two.values:
-            self._problem(
-                f"{_written(left)} and {_written(right)} have different scales: {_scale(one)}, and {_scale(two)}",
-                span,
-                "only measures of the same scale can be compared with each other",
-            )
-
-    def _measure(self, side: Side) -> Measure | None:
-        return self.measures.get(str(side.written)) or self.inferred.get(str(side.written))
-
-    def _problem_of_wrong_value(self, measure: Measure, side: Side) -> None:
-        owners = self._scales.get(str(side.written))
-        of_other = f": it is a value of {quoted(owners[0])}" if owners else ""
-        near = None if owners else self._nearest(str(side.written), measure.values)
-        self._problem(
-            f"{_written(side)} is no value of {quoted(measure.name)}{of_other}",
-            side.span,
-            f"{_did_you_mean(near) + ' ' if near else ''}{quoted(measure.name)} can be {_scale(measure)}",
-        )
-
-    def _problem_of_stray_value(self, value: Side, opposite: Side) -> None:
-        """A value of a scale whose measure is not on the other side."""
-        owner = self.measures.get(self._scales[str(value.written)][0])
-        values = _scale(owner) if owner else "low < high"
-        if not isinstance(opposite.written, str) or opposite.written in self.constants:
-            self._problem(
-                f"{_written(value)} is a value of a scale and {_written(opposite)} a number: they cannot be compared",
-                opposite.span,
-                f"compare {quoted(owner.name) if owner else 'its measure'} with it",
-            )
-        elif opposite.written in self.measures:
-            self._problem(
-                f"{_written(opposite)} is a number, and {_written(value)} is a value of "
-                f"{quoted(owner.name) if owner else 'a scale'}: they cannot be compared",
-                value.span,
-                "compare it with a number",
-            )
-        else:
-            near = self._nearest(opposite.written, self.measures)
-            self._problem(
-                f"{_written(opposite)} is compared with a value of a scale, but no scale is declared for it",
-                opposite.span,
-                _did_you_mean(near) or f"declare it: MEASURE {opposite.written}: {values}",
-            )
-
     # The end --------------------------------------------------------------------------------------------------
 
     def finish(self) -> None:
@@ -344,20 +215,20 @@ class Names:
                         unknown.append((span, name, kind))
         for index, (span, name, kind) in enumerate(sorted(unknown)):
             # Only what can be shown is worth a search for the nearest name.
-            near = self._nearest(name, self._declared[kind]) if index < MAX_PROBLEMS else None
+            near = self.nearest(name, self._declared[kind]) if index < MAX_PROBLEMS else None
             first = next(iter(self._declared[kind].values()))
             article = "an" if kind == "obligation" else "a"
-            self._problem(
+            self.problem(
                 f"{quoted(name)} is not declared as {article} {kind}",
                 span,
-                _did_you_mean(near)
+                did_you_mean(near)
                 or f"this text declares its {kind}s (line {self._line(first)}); add it there: {kind.upper()} {name}",
             )
 
     def _report_clashes(self) -> set[str]:
         clashing: set[str] = set()
         places: dict[str, dict[str, Span]] = {kind: {**self._used[kind], **self._declared[kind]} for kind in _KINDS}
-        places["measure"] = {name: self._measured.get(name, NOWHERE) for name in (*self.inferred,)}
+        places["measure"] = {name: self.compared.get(name, NOWHERE) for name in (*self.inferred,)}
         for name in self.measures:
             places["measure"][name] = self._named.get(name, NOWHERE)
         places["constant"] = {name: self._named[name] for name in self.constants if name in self._named}
@@ -373,7 +244,7 @@ class Names:
         declared = {one: self._declares(one, name), other: self._declares(other, name)}
         at_one = one_span > other_span if declared[one] == declared[other] else declared[other]
         here, span, there, place = (one, one_span, other, other_span) if at_one else (other, other_span, one, one_span)
-        self._problem(
+        self.problem(
             f"{quoted(name)} is {_role(here, declared[here])} here, and {_role(there, declared[there])} "
             f"in line {self._line(place)}",
             span,
@@ -400,7 +271,7 @@ class Names:
     def _line(self, span: Span) -> int:
         return self._source.place(span).line
 
-    def _problem(self, message: str, span: Span, hint: str | None) -> None:
+    def problem(self, message: str, span: Span, hint: str | None) -> None:
         self._problems.append(Problem(message, span, hint))
 
 
@@ -424,15 +295,5 @@ def _role(kind: str, declared: bool) -> str:
     return "compared as a measure" if kind == "measure" else f"used as {article} {kind}"
 
 
-def _did_you_mean(name: str | None) -> str:
+def did_you_mean(name: str | None) -> str:
     return f"did you mean {quoted(name)}?" if name else ""
-
-
-def _scale(measure: Measure) -> str:
-    if len(measure.values) > 8:
-        return " < ".join((*measure.values[:4], "...", measure.values[-1]))
-    return " < ".join(measure.values)
-
-
-def _written(side: Side) -> str:
-    return quoted(side.written if isinstance(side.written, str) else str(side.written))
