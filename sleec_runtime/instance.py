@@ -94,23 +94,27 @@ class Instance:
 
         return decorator
 
-    def bind(self, target: object) -> tuple[str, ...]:
-        """Makes the marked methods of `target` those of their rules: all of them, or none. Returns the labels.
+    def bind(self, targets: Iterable[object]) -> tuple[str, ...]:
+        """Makes the marked methods of `targets` those of their rules: all of them, or none. Returns the labels.
 
-        `target` is an object, a class (for its static and class methods), a module, or one function. Raises Unbindable
-        if nothing in it is marked, AlreadyBound for a rule that has a method.
+        A target is an object, a class (for its static and class methods), a module, or one function. Raises Unbindable
+        if nothing in one is marked, AlreadyBound for a second method of a rule.
         """
-        found = dict(self._marked(target))
-        if not found:
-            raise Unbindable(
-                f"nothing in {target!r} is marked as the method of a rule", 'mark methods with @sleec.rule("label")'
-            )
-        for label, method in found.items():
-            if label in self._methods:
-                raise AlreadyBound(
-                    f"rule {label} has the method {self._methods[label].name}, and {method.name} would be a second",
-                    f"unbind({label!r}) first",
+        found: dict[str, Method] = {}
+        for target in targets:
+            marked = tuple(self._marked(target))
+            if not marked:
+                raise Unbindable(
+                    f"nothing in {target!r} is marked as the method of a rule", 'mark methods with @sleec.rule("label")'
                 )
+            for label, method in marked:
+                earlier = found.get(label) or self._methods.get(label)
+                if earlier is not None:
+                    raise AlreadyBound(
+                        f"rule {label} has the method {earlier.name}, and {method.name} would be a second",
+                        f"unbind({label!r}) first, or mark one of them only",
+                    )
+                found[label] = method
         self._methods.update(found)
         self._forget(found)
         return tuple(found)
@@ -218,15 +222,19 @@ class Instance:
         if isinstance(target, (types.FunctionType, LayeredMethod)):
             return [(label, _function(target)) for label in self._notes(target)]
         if isinstance(target, types.ModuleType):
-            return [(label, _function(a)) for a in vars(target).values() for label in self._notes(a)]
+            # One function may have two names.
+            functions = {id(attribute): attribute for attribute in vars(target).values()}.values()
+            return [(label, _function(function)) for function in functions for label in self._notes(function)]
         owner = target if isinstance(target, type) else type(target)
         instance = None if isinstance(target, type) else target
-        found: dict[str, Method] = {}
-        for base in owner.__mro__:
-            for name, attribute in vars(base).items():
-                for label in self._notes(attribute):
-                    found.setdefault(label, _of_class(name, instance, owner))
-        return found.items()
+        # An override may be marked again.
+        found = {
+            (label, name): None
+            for base in owner.__mro__
+            for name, attribute in vars(base).items()
+            for label in self._notes(attribute)
+        }
+        return [(label, _of_class(name, instance, owner)) for label, name in found]
 
     def _notes(self, attribute: object) -> list[str]:
         """The labels that one definition of a method is marked with, on itself or on one of its variants."""

@@ -79,15 +79,13 @@ class Sleec:
         return self._instance.mark(label)
 
     def bind(self, *targets: object) -> None:
-        """Makes the marked methods of objects, classes, modules or functions those of their rules.
+        """Makes the marked methods of objects, classes, modules or functions those of their rules: all, or none.
 
         A method's variants are read here, so bind when all are there. Raises Unbindable if a target has no marked
-        method, AlreadyBound if a rule has a method.
+        method, AlreadyBound for a second method of a rule.
         """
         with self._lock:
-            for target in targets:
-                labels = self._instance.bind(target)
-                self._plan_anew(labels)
+            self._plan_anew(self._instance.bind(targets))
             self._watch_bound()
 
     def unbind(self, *labels: str) -> None:
@@ -203,8 +201,7 @@ class Sleec:
         with self._lock:
             instance = self._instance.copied()
             instance.admit(whole)
-            for target in bind:
-                instance.bind(target)
+            instance.bind(bind)
             if implement is not None:
                 instance.implement(implement, whole.obligations)
             self._install(Program(whole, self.domain, self._strict), instance)

@@ -143,6 +143,16 @@ def test_binding_is_all_or_nothing() -> None:
 
     sleec.bind(one)
 
+    class Twice:
+        @sleec.rule("r2")
+        def two(self) -> None: ...
+
+        @sleec.rule("r2")
+        def too(self) -> None: ...
+
+    with pytest.raises(errors.AlreadyBound, match="rule r2 has the method two, and too would be a second"):
+        sleec.bind(Twice())
+
     class Both:
         @sleec.rule("r2")
         def two(self) -> None: ...
@@ -152,4 +162,8 @@ def test_binding_is_all_or_nothing() -> None:
 
     with pytest.raises(errors.AlreadyBound):
         sleec.bind(Both())
+    sleec.unbind("r1")
+    with pytest.raises(errors.AlreadyBound, match="one of them only"):
+        sleec.bind(Both(), one)
+    sleec.bind(one)
     assert list(sleec.missing()) == ["r2"]

@@ -144,6 +144,18 @@ def test_a_plain_override_is_another_base(sleec: Sleec) -> None:
     assert answers(sleec, robot) == {**EXPECTED, **default}
 
 
+def test_an_override_may_be_marked_again(sleec: Sleec) -> None:
+    class Again(curtain_class(sleec)):  # type: ignore[misc]
+        @sleec.rule("dress_assist")
+        @cop.around(sleec.layers["dress_assist.hc2"])
+        def open_curtains_request(self, message):
+            self.do("Warn")
+
+    robot = Again()
+    sleec.bind(robot)
+    assert answers(sleec, robot) == {**EXPECTED, (True, True): ["Warn"]}
+
+
 def test_an_inherited_method_is_bound_to_the_object_of_the_subclass(sleec: Sleec) -> None:
     class Same(curtain_class(sleec)):  # type: ignore[misc]
         pass
@@ -171,6 +183,7 @@ def request(message): log.do("WarnUser"); log.do("OpenCurtains")
 """,
         vars(module),
     )
+    vars(module)["another_name"] = module.request
     sleec.bind(module)
     assert answers(sleec, log) == EXPECTED
     sleec.unbind("dress_assist")
