@@ -1,13 +1,15 @@
-"""Hypothesis profiles: `ci` (the default) repeats exactly; `long`, chosen by HYPOTHESIS_PROFILE, searches on."""
+"""Hypothesis profiles, chosen by HYPOTHESIS_PROFILE: `ci` (the default) repeats exactly, `long` searches on."""
 
 from __future__ import annotations
 
 import os
 
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, Phase, settings
 
 settings.register_profile(
     "ci", derandomize=True, deadline=None, print_blob=True, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.register_profile("long", settings.get_profile("ci"), derandomize=False, max_examples=2000)
+# A mutant that is found is found; the smallest example of it is of no use.
+settings.register_profile("mutants", settings.get_profile("ci"), phases=[Phase.explicit, Phase.generate])
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
