@@ -104,7 +104,7 @@ class RuleParser(DeclarationParser):
                     self._long_label(at)
             self.names.label(match[0], span)
             if self.kinds[self.at] not in ("WHEN", "IF"):
-                self.expected("WHEN after the label of the rule")
+                self.expected("WHEN after the label of the rule", "as in: RULE dress_assist WHEN trigger THEN response")
             return match[0], span
         except Abandon:
             self.skip(STATEMENTS)

@@ -28,7 +28,7 @@ def nearest(name: str, known: Iterable[str]) -> str | None:
     Capitals, underscores and blanks count for little: `user_undressed` is near `UserUndressed`.
     """
     plain = _plain(name)
-    best, least = None, max(1, min(3, len(plain) // 3)) + 1
+    best, least = None, min(3, len(plain) // 3) + 1
     for candidate in known:
         other = _plain(candidate)
         if abs(len(other) - len(plain)) < least and candidate != name:
@@ -44,11 +44,13 @@ def near_keyword(word: str) -> str | None:
     Short keywords are near only to themselves with two letters swapped or one doubled (`ADN`, `ORR`), because `ER` or
     `ICU` in a phrase is no misspelling.
     """
+    if word in _SLIPS:
+        return _SLIPS[word]
     for keyword in _KEYWORDS:
         if abs(len(keyword) - len(word)) > 2:
             continue
         if len(keyword) <= 4:
-            if _swapped(word, keyword) or _doubled(word, keyword) or (word in _KNOWN_SLIPS.get(keyword, ())):
+            if _swapped(word, keyword) or _doubled(word, keyword):
                 return keyword
         elif edits(word, keyword, 3) <= (1 if len(keyword) < 7 else 2):
             return keyword
@@ -56,7 +58,12 @@ def near_keyword(word: str) -> str | None:
 
 
 _KEYWORDS = sorted(KEYWORDS, key=lambda keyword: (-len(keyword), keyword))
-_KNOWN_SLIPS = {"THEN": ("THN", "TEN", "HEN", "THENN"), "WHEN": ("WEN", "WHN", "WHENEVER"), "RULE": ("RUL",)}
+_SLIPS = {
+    **dict.fromkeys(("THN", "TEN", "HEN"), "THEN"),
+    **dict.fromkeys(("WEN", "WHN", "WHENEVER"), "WHEN"),
+    **dict.fromkeys(("ELSE", "EXCEPT"), "UNLESS"),
+}
+"""Words in capitals that people write for a keyword, though their letters are not near it."""
 
 
 def _swapped(word: str, keyword: str) -> bool:
