@@ -73,6 +73,10 @@ class Measures:
         """(x, y) to the variable of ``x <= y``."""
         self._seen: dict[str, None] = {}
 
+    def mention(self, measure: str) -> None:
+        """Make sure that `decode` gives a value to this measure."""
+        self._seen[measure] = None
+
     def literal(self, comparison: Comparison) -> int:
         """The literal that is true exactly when the comparison holds."""
         self._seen.update(dict.fromkeys(measures_of(comparison)))

@@ -23,8 +23,9 @@ def place(
 
     A cut ``(x, c, inclusive, literal)`` says ``x < c`` (``x <= c`` if inclusive) where the literal is positive and the
     opposite where it is negative; an order ``(x, y, literal)`` says ``x <= y`` or ``x > y`` likewise. Returns the
-    literals of a contradiction if there are no such values. Difference constraints by Bellman-Ford, O(n·m): a strict
-    bound between two whole numbers is tightened to whole, any other is strict by a step small enough for all chains.
+    literals of a minimal contradiction if there are no such values. Difference constraints: a strict bound between two
+    whole numbers is one of at least 1, any other is strict by a step small enough for all chains. O(n·m), and O(n·m²)
+    for a contradiction.
     """
     from fractions import Fraction
 
@@ -32,8 +33,17 @@ def place(
     for _, value, _, _ in cuts:
         fine /= Fraction(value).denominator
     # Whole steps read better where they fit; the fine one decides.
-    placed = _potentials(integral, _edges(integral, cuts, orders, Fraction(1)))
-    return placed if isinstance(placed, dict) else _potentials(integral, _edges(integral, cuts, orders, fine))
+    for step in (Fraction(1), fine):
+        edges = _edges(integral, cuts, orders, step)
+        values = _potentials(integral, edges)
+        if values is not None:
+            return values
+    needed = edges
+    for edge in edges:
+        without = [kept for kept in needed if kept is not edge]
+        if _potentials(integral, without) is None:
+            needed = without
+    return [literal for *_, literal in needed]
 
 
 def _edges(
@@ -62,36 +72,25 @@ def _edges(
 
 
 def _potentials(
-    integral: Mapping[str, bool], edges: list[tuple[str, str, Fraction, int]]
-) -> dict[str, Rational] | list[int]:
+    integral: Mapping[str, bool], edges: Sequence[tuple[str, str, Fraction, int]]
+) -> dict[str, Rational] | None:
+    """The greatest values that keep every edge, or None where there are none (Bellman-Ford, whole where they must)."""
     from fractions import Fraction
     from math import floor
 
     whole = {**integral, _ZERO: True}
     distance = dict.fromkeys(whole, Fraction(0))
-    reached_by: dict[str, tuple[str, int]] = {}
-    changed = None
     # A shortest walk repeats a node at most once: a number may be lowered again through a whole one.
     for _ in range(2 * len(whole) + 1):
-        changed = None
-        for x, y, weight, literal in edges:
+        changed = False
+        for x, y, weight, _literal in edges:
             bound = distance[x] + weight
             if whole[y]:
                 bound = Fraction(floor(bound))
             if bound < distance[y]:
                 distance[y] = bound
-                reached_by[y] = (x, literal)
-                changed = y
-        if changed is None:
+                changed = True
+        if not changed:
             values = {name: distance[name] - distance[_ZERO] for name in integral}
             return {name: int(v) if v.denominator == 1 else v for name, v in values.items()}
-    assert changed is not None
-    node = changed
-    for _ in whole:
-        node = reached_by[node][0]
-    start, literals = node, []
-    while True:
-        node, literal = reached_by[node]
-        literals.append(literal)
-        if node == start:
-            return literals
+    return None

@@ -8,7 +8,7 @@ smaller one exists.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from sleec_runtime.model import And, Comparison, Formula, Not, Or, Truth, Value, measures_of
 from sleec_verify.cnf import Encoder
@@ -17,15 +17,17 @@ from sleec_verify.finding import Witness
 from sleec_verify.solver import MiniSat, Solver, Undecided
 
 
-def smallest_situation(cones: Cones, formula: Formula) -> Witness | None:
+def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = ()) -> Witness | None:
     """A situation of fewest names that makes `formula` (over triggers, conditions and measures) true, or None.
 
-    Taking all that it does not name as false (Definition 1) is a situation that the assumptions allow.
+    The measures of `valued` get a value whether the formula needs it or not. Taking all that it does not name as false (Definition 1) is a situation that the assumptions allow.
 
     Raises `Undecided` where the solver did not decide.
     """
     rails = _Rails(cones)
     rails.encoder.clauses.append([rails.known(formula, True)])
+    for measure in valued:
+        rails.require_value(measure)
     wanted = set(names_in(formula))
     for assumption in cones.assumptions:
         if not wanted.isdisjoint(names_in(assumption.formula)) or not _holds_of_nothing(assumption.formula):
@@ -57,6 +59,10 @@ class _Rails:
         if name not in self._mentioned:
             self._mentioned[name] = self.encoder.fresh()
         return self._mentioned[name]
+
+    def require_value(self, measure: str) -> None:
+        self.encoder.measures.mention(measure)
+        self.encoder.clauses.append([self._measure(measure)])
 
     def _compared(self, comparison: Comparison, value: bool) -> int:
         literal = self.encoder.measures.literal(comparison)

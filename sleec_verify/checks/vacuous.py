@@ -8,7 +8,7 @@ from sleec_runtime.model import Atom, Obligation
 from sleec_verify.checks.base import Check, FindingKind, listed, literals_of
 from sleec_verify.checks.conflict import all_clashes
 from sleec_verify.clashes import Clash
-from sleec_verify.cone import Cones
+from sleec_verify.cone import Cones, names_of_rule
 from sleec_verify.equation import conjunction
 from sleec_verify.finding import Finding
 from sleec_verify.question import Question
@@ -35,10 +35,16 @@ def _vacuous(cones: Cones) -> Iterator[Finding]:
             f"{rule.label} can be triggered, but never without a conflict",
             rule.label_span if rule.labelled else rule.span,
             rules=(rule.label, *others),
-            witness=smallest_situation(cones, conjunction(triggered)),
+            # Whatever the measures are there is a conflict, but each must be something.
+            witness=smallest_situation(cones, conjunction(triggered), _measures(cones, group)),
             note=f"it always meets {listed(others)}" if others else None,
             help="the findings of the conflict check say what is at odds; no situation is left in which to keep it",
         )
+
+
+def _measures(cones: Cones, group: Sequence[int]) -> set[str]:
+    named = {name for position in group for _, name in names_of_rule(cones.rules[position])}
+    return named & set(cones.ruleset.measures)
 
 
 def _vacuous_among(
