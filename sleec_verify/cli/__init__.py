@@ -24,13 +24,19 @@ def main() -> NoReturn:
         # A file's name, or a terminal, may be of an encoding that cannot say what is to be written.
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
-    sys.exit(run(sys.argv[1:]))
+    try:
+        code = run(sys.argv[1:])
+    except KeyboardInterrupt:  # before there was anything to interrupt
+        code = INTERRUPTED
+    # Nothing is left to do, and taking 100,000 rules apart one by one before the end would take its time.
+    os._exit(code)
 
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command line with these arguments; the exit code."""
     from click.exceptions import Abort, ClickException
 
+    from sleec_verify.cli import exits
     from sleec_verify.cli.commands import sleec_verify
 
     try:
@@ -42,9 +48,10 @@ def run(arguments: Sequence[str]) -> int:
     except (KeyboardInterrupt, Abort):
         code = INTERRUPTED
     except BrokenPipeError:
-        # Whoever read this has seen enough. What is left in the buffer goes nowhere, also at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        code = BROKEN_PIPE
+        code = BROKEN_PIPE  # whoever read this has seen enough
+    except OSError as error:
+        _tell(f"the output cannot be written: {error.strerror}")
+        code = exits.UNUSABLE
     except Exception as error:  # noqa: BLE001
         code = _unexpected(error, "--traceback" in arguments)
     return int(code)
@@ -66,10 +73,13 @@ def _unexpected(error: Exception, traceback: bool) -> int:
         if isinstance(error, Undecided):
             return exits.UNKNOWN
     else:
-        print(
+        _tell(
             f"sleec-verify failed: {type(error).__name__}: {error}\n"
             "This is a mistake in sleec-verify, not in your rules. Please report it with the ruleset and the command;\n"
-            "`sleec-verify --traceback …` shows where it happened.",
-            file=sys.stderr,
+            "`sleec-verify --traceback …` shows where it happened."
         )
     return exits.UNUSABLE
+
+
+def _tell(message: str) -> None:
+    print(message, file=sys.stderr, flush=True)

@@ -147,11 +147,29 @@ def test_traceback_on_demand(cli: Cli) -> None:
 
 
 def test_main_exits_with_the_code(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    codes: list[int] = []
+    monkeypatch.setattr("os._exit", codes.append)
+    monkeypatch.setattr("gc.set_threshold", lambda *_: None)
     monkeypatch.setattr("sys.argv", ["sleec-verify", "rules", "SLEEC000"])
-    with pytest.raises(SystemExit) as exited:
-        main()
-    assert exited.value.code == 2
+    main()
+    assert codes == [2]
     assert "no finding code" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")
+def test_full_disk_is_told(clash: str) -> None:
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([*COMMAND, "check", clash], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 2
+    assert done.stderr == "the output cannot be written: No space left on device\n"
+
+
+def test_closed_pipe_has_its_own_code(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    def closed(*_: object) -> None:
+        raise BrokenPipeError
+
+    monkeypatch.setattr("sleec_verify.checks.run_checks", closed)
+    assert cli("check", "a.sleec", files={"a.sleec": RULES}) == (141, "", "")
 
 
 def test_progress_bar_on_a_terminal(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
