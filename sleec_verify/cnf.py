@@ -30,7 +30,7 @@ from sleec_verify.measures import Measures
 
 Key = tuple[str, ...]
 """What a variable stands for: ``("trigger", name)``, ``("condition", name)``, ``("obligation", name)``,
-``("below", measure, cut)``, ``("at-most", measure, measure)`` or ``("prefix", label, number)``."""
+``("below", measure, cut)`` or ``("at-most", measure, measure)``."""
 
 
 class Encoder:
@@ -42,6 +42,9 @@ class Encoder:
     def __init__(self, measures: Mapping[str, Measure], missing: frozenset[str] = frozenset()) -> None:
         """`missing` are measures without a value: a comparison with one of them is false."""
         self._missing = missing
+        self.described: dict[int, tuple[str, str]] = {}
+        """Literals to what part of a rule they stand for: ``("prefix", "label.i")`` is C0 ∧ … ∧ Ci, ``("guard",
+        "label.i")`` the guard of clause i (``label.i.j`` in a chain nested in clause i)."""
         self.clauses: list[list[int]] = []
         self.variables: dict[Key, int] = {}
         self.top = 0
@@ -131,22 +134,22 @@ class Encoder:
         if rule.guard is not None:
             triggered = self.both(triggered, self.literal(rule.guard))
         guards: list[int] = []
-        decides = self._split(triggered, rule.hedges, reading)
-        for clause, literal in zip((rule.default, *rule.hedges), decides):
-            self._descend(literal, clause, reading, guards)
+        decides = self._split(triggered, rule.hedges, reading, rule.label)
+        for number, (clause, literal) in enumerate(zip((rule.default, *rule.hedges), decides)):
+            self._descend(literal, clause, reading, guards, f"{rule.label}.{number}" if clause.hedges else "")
         return guards
 
-    def _descend(self, decides: int, clause: Clause, reading: Reading, guards: list[int]) -> None:
+    def _descend(self, decides: int, clause: Clause, reading: Reading, guards: list[int], path: str) -> None:
         """Append the guards of a clause that decides in its own chain when `decides`, and of the chain inside it."""
         if not clause.hedges:
             guards.append(decides)
             return
-        first, *rest = self._split(decides, clause.hedges, reading)
+        first, *rest = self._split(decides, clause.hedges, reading, path)
         guards.append(first)
-        for nested, literal in zip(clause.hedges, rest):
-            self._descend(literal, nested, reading, guards)
+        for number, (nested, literal) in enumerate(zip(clause.hedges, rest), 1):
+            self._descend(literal, nested, reading, guards, f"{path}.{number}")
 
-    def _split(self, active: int, hedges: Sequence[Clause], reading: Reading) -> list[int]:
+    def _split(self, active: int, hedges: Sequence[Clause], reading: Reading, path: str) -> list[int]:
         """Which member of a chain decides while `active`: a literal for the default, then one for each hedge."""
         conditions = [self.literal(hedge.condition) for hedge in hedges if hedge.condition is not None]
         if reading == "priority":
@@ -154,9 +157,12 @@ class Encoder:
             for i in reversed(range(len(conditions) - 1)):
                 conditions[i] = self.any_of([conditions[i], conditions[i + 1]])
         decides, prefix = [], active
-        for condition in conditions:
-            decides.append(self.both(prefix, -condition))
+        for number, condition in enumerate(conditions):
+            guard = self.both(prefix, -condition)
+            decides.append(guard)
             prefix = self.both(prefix, condition)
+            self.described.setdefault(guard, ("guard", f"{path}.{number}"))
+            self.described.setdefault(prefix, ("prefix", f"{path}.{number + 1}"))
         decides.append(prefix)
         return decides
 

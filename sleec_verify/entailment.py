@@ -104,9 +104,10 @@ class Definition1:
         return frozenset(Obligation(named[abs(v)], v < 0) for v in literals if abs(v) in named)
 
     def facts(self, context: Context) -> Callable[[int], bool]:
-        """The truth, in `context`, of the literals in `guards` and `formulas`. One propagation."""
-        _, literals = self._solver.propagate(self._encoder.assumptions(context))
-        return set(literals).__contains__
+        """The truth, in `context`, of the literals in `guards` and `formulas`, until the next question."""
+        found = self._solver.solve([-self._in_force, *self._encoder.assumptions(context)])
+        assert found, "without the rules in force, every context is a model"
+        return self._solver.holds
 
 
 def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Entailment:

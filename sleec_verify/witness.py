@@ -28,7 +28,7 @@ def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = (
     rails.encoder.clauses.append([rails.known(formula, True)])
     for measure in valued:
         rails.require_value(measure)
-    wanted = set(names_in(formula))
+    wanted = set(names_in(formula)) if cones.assumptions else set()
     for assumption in cones.assumptions:
         if not wanted.isdisjoint(names_in(assumption.formula)) or not _holds_of_nothing(assumption.formula):
             wanted.update(names_in(assumption.formula))
@@ -45,6 +45,7 @@ class _Rails:
         self.encoder = Encoder(cones.ruleset.measures)
         self._rails: dict[Name, tuple[int, int]] = {}
         self._mentioned: dict[Name, int] = {}
+        self._known: dict[tuple[int, bool], int] = {}
 
     def _rails_of(self, name: Name) -> tuple[int, int]:
         rails = self._rails.get(name)
@@ -71,6 +72,13 @@ class _Rails:
 
     def known(self, formula: Formula, value: bool) -> int:
         """A literal that is true only if what is known gives `formula` this value."""
+        # Equation 1 written out repeats the conditions, as the same objects.
+        seen = self._known.get((id(formula), value))
+        if seen is None:
+            seen = self._known[id(formula), value] = self._build(formula, value)
+        return seen
+
+    def _build(self, formula: Formula, value: bool) -> int:
         if isinstance(formula, Not):
             return self.known(formula.operand, not value)
         if isinstance(formula, (And, Or)):

@@ -14,15 +14,16 @@ from sleec_verify.finding import ClauseRef, Finding, Witness
 from sleec_verify.question import Question
 from sleec_verify.witness import smallest_situation
 
-MOST = 1_000
-"""How many causes are listed. A ruleset with more has one problem, not a thousand."""
+MOST, MOST_PER_RULE = 1_000, 3
+"""How many causes are listed: so many, and so many more for each rule. Contradicting clauses multiply, and a ruleset
+with more has one problem, not millions."""
 
 Cause = tuple[Place, ...]
 """A minimal set of clauses that clash, in the order of the text."""
 
 
 class Enough(Exception):
-    """`MOST` causes are found and there may be more."""
+    """As many causes are found as are listed, and there may be more."""
 
 
 def all_clashes(cones: Cones) -> list[Clash]:
@@ -43,6 +44,7 @@ def _conflicts(cones: Cones) -> Iterator[Finding]:
     causes: dict[Cause, list[tuple[Clash, Witness]]] = {}
     found = all_clashes(cones)
     parts = _Parts(found)
+    most = MOST + MOST_PER_RULE * len(cones.rules)
     try:
         for clash in found:
             for cause in _covers(cones, clash):
@@ -52,8 +54,8 @@ def _conflicts(cones: Cones) -> Iterator[Finding]:
                 witness = smallest_situation(cones, situation)
                 assert witness is not None, "the cause is possible"
                 causes.setdefault(cause, []).append((clash, witness))
-                if len(causes) > MOST:
-                    raise Enough(f"the first {MOST} causes are listed; there may be more")
+                if len(causes) >= most:
+                    raise Enough(f"the first {most} causes are listed; there may be more")
     finally:
         yield from (_finding(cones, cause, shown) for cause, shown in sorted(causes.items()))
 

@@ -22,22 +22,18 @@ def _vacuous(cones: Cones) -> Iterator[Finding]:
     for clash in all_clashes(cones):
         by_literal.setdefault(min(clash.literals, key=str, default=None), []).append(clash)
     for position, rule in enumerate(cones.rules):
-        group = cones.together_with(rule.trigger)
-        if not _vacuous_among(cones, position, group, by_literal):
+        others = _always_met(cones, position, by_literal)
+        if others is None:
             continue
-        for other in list(group):
-            rest = [kept for kept in group if kept != other]
-            if other != position and _vacuous_among(cones, position, rest, by_literal):
-                group = rest
-        others = [cones.rules[other].label for other in group if other != position]
+        labels = [cones.rules[other].label for other in others]
         triggered = [Atom("trigger", rule.trigger), *([] if rule.guard is None else [rule.guard])]
         yield VACUOUS_CONFLICT.finding(
             f"{rule.label} can be triggered, but never without a conflict",
             rule.label_span if rule.labelled else rule.span,
-            rules=(rule.label, *others),
+            rules=(rule.label, *labels),
             # Whatever the measures are there is a conflict, but each must be something.
-            witness=smallest_situation(cones, conjunction(triggered), _measures(cones, group)),
-            note=f"it always meets {listed(others)}" if others else None,
+            witness=smallest_situation(cones, conjunction(triggered), _measures(cones, [position, *others])),
+            note=f"it always meets {listed(labels)}" if labels else None,
             help="the findings of the conflict check say what is at odds; no situation is left in which to keep it",
         )
 
@@ -47,24 +43,36 @@ def _measures(cones: Cones, group: Sequence[int]) -> set[str]:
     return named & set(cones.ruleset.measures)
 
 
-def _vacuous_among(
-    cones: Cones, position: int, group: Sequence[int], by_literal: dict[Obligation | None, list[Clash]]
-) -> bool:
+def _always_met(cones: Cones, position: int, by_literal: dict[Obligation | None, list[Clash]]) -> list[int] | None:
+    """A minimal set of other rules with which the rule conflicts wherever it is triggered, or None if it can be kept
+    somewhere, or is triggered nowhere."""
+    group = cones.together_with(cones.rules[position].trigger)
     due = {literal for other in group for literal in literals_of(cones.clauses[other])}
-    relevant = [c for literal in (None, *due) for c in by_literal.get(literal, ()) if c.literals <= due]
-    if not relevant:
-        return False
+    clashes = [c for literal in (None, *due) for c in by_literal.get(literal, ()) if c.literals <= due]
+    if not clashes:
+        return None
     with Question(cones) as question:
         encoder = question.encoder
-        literals = question.due(group, due)
-        for clash in relevant:
+        # A rule speaks only if it is let in, so that the solver's core names the rules that matter.
+        let_in = {other: encoder.fresh() for other in group if other != position}
+        literals = encoder.due(
+            (clause, encoder.both(guard, let_in[other]) if other != position else guard)
+            for other in group
+            for clause, guard in zip(cones.clauses[other], question.guards(other))
+        )
+        for clash in clashes:
             question.require(*(-literals[o] for o in clash.literals), -encoder.literal(clash.situation))
-        kept = encoder.any_of(question.guards(position))
-        question.require(kept)
-        if question.ask():
-            return False
+        triggered = encoder.any_of(question.guards(position))
+        if question.ask(triggered, *let_in.values()):
+            return None
+        core = set(question.core())
+        needed = [other for other, literal in let_in.items() if literal in core]
+        for other in list(needed):
+            without = [kept for kept in needed if kept != other]
+            if not question.ask(triggered, *(let_in[kept] for kept in without)):
+                needed = without
     with Question(cones) as question:
-        return question.ask(question.encoder.any_of(question.guards(position)))
+        return needed if question.ask(question.encoder.any_of(question.guards(position))) else None
 
 
 VACUOUS_CONFLICT = Check(

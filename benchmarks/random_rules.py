@@ -1,0 +1,34 @@
+"""Random rulesets of a given size, as text: three hedges a rule, names drawn from vocabularies that grow with it."""
+
+from __future__ import annotations
+
+import random
+
+
+def random_rules(count: int, hedges: int = 3, seed: int = 0, names_per_rule: float = 1.0) -> str:
+    """`count` rules of `hedges` hedges. There are ``count * names_per_rule`` triggers, conditions and obligations to
+    draw from (ten at least), and a tenth of the responses forbid."""
+    draw = random.Random(seed)
+    names = max(10, int(count * names_per_rule))
+
+    def condition() -> str:
+        shape = draw.random()
+        one, other = (f"Condition{draw.randrange(names)}" for _ in range(2))
+        if shape < 0.6:
+            return one
+        if shape < 0.8:
+            return f"NOT {one}"
+        if shape < 0.95:
+            return f"{one} {draw.choice(('AND', 'OR'))} {other}"
+        return f"Measure{draw.randrange(names)} {draw.choice(('<', '>='))} {draw.randrange(10)}"
+
+    def response() -> str:
+        name = f"Obligation{draw.randrange(names)}"
+        return f"NOT {name}" if draw.random() < 0.1 else name
+
+    rules = []
+    for number in range(count):
+        lines = [f"RULE r{number}", f"WHEN Trigger{draw.randrange(names)} THEN {response()}"]
+        lines += [f"UNLESS {condition()} IN WHICH CASE {response()}" for _ in range(hedges)]
+        rules.append("\n".join(lines))
+    return "\n\n".join(rules) + "\n"
