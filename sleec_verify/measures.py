@@ -12,7 +12,7 @@ little room for integers. `Measures.decode` then returns the refusal as a clause
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from itertools import permutations
+from itertools import pairwise, permutations
 from typing import TYPE_CHECKING, NamedTuple, Union
 
 from sleec_runtime.model import (
@@ -155,7 +155,7 @@ class Measures:
                     self._add([-self._ordered(x, y), -self._ordered(y, z), self._ordered(x, z)])
         for cuts in self.cuts.values():
             in_order = [cuts[cut] for cut in sorted(cuts)]
-            for lower, higher in zip(in_order, in_order[1:]):
+            for lower, higher in pairwise(in_order):
                 self._add([-lower, higher])
 
     def _graph(self) -> dict[_Node, set[_Node]]:
@@ -174,7 +174,7 @@ class Measures:
                 join(name, _Constant(cut.value))
                 values.add(cut.value)
         in_order = sorted(values)
-        for low, high in zip(in_order, in_order[1:]):
+        for low, high in pairwise(in_order):
             join(_Constant(low), _Constant(high))
         return graph
 

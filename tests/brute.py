@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
 
 from sleec_runtime.model import (
     And,
@@ -185,10 +185,10 @@ def _values(ruleset: Ruleset, name: str) -> list[object]:
     points = sorted(constants) or [0]
     if measure.kind == "integer":
         return sorted({int(p // 1) + d for p in points for d in (-2, -1, 0, 1, 2)})
-    between = [Fraction(a + b) / 2 for a, b in zip(points, points[1:])]
+    between = [Fraction(a + b) / 2 for a, b in pairwise(points)]
     if compared:
         # Two or three numbers compared with one another need as many places between two constants.
-        between = [a + Fraction((b - a) * k, 4) for a, b in zip(points, points[1:]) for k in (1, 2, 3)]
+        between = [a + Fraction((b - a) * k, 4) for a, b in pairwise(points) for k in (1, 2, 3)]
         return [points[0] - 2, points[0] - 1, *points, *between, points[-1] + 1, points[-1] + 2]
     return [points[0] - 1, *points, *between, points[-1] + 1]
 

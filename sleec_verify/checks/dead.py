@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
-from sleec_verify.checks.base import Check, FindingKind, Scope, clause_name
+from sleec_verify.checks.base import Check, FindingKind, clause_name
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
 from sleec_verify.question import Question

@@ -15,9 +15,9 @@ from sleec_runtime.model import (
     leaves,
 )
 from sleec_verify.checks.base import Check, FindingKind, clause_name
+from sleec_verify.checks.names import constants_used, mentions, names_used
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
-from sleec_verify.checks.names import constants_used, mentions, names_used
 
 
 def _unused(cones: Cones) -> Iterator[Finding]:
