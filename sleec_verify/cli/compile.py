@@ -9,11 +9,10 @@ import click
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
 from sleec_verify.cli.output import write
+from sleec_verify.compilation import FORMS, compile_to
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading
-
-FORMS = ("sympy", "latex", "cnf", "dimacs", "smtlib", "json")
 
 
 @click.command(
@@ -31,8 +30,6 @@ def command(path: str, form: str, domain: str | None, reading: Reading | None) -
     sympy and latex are for people: the guards and implications of Equation 1. cnf, dimacs, smtlib and json are for
     solvers: clauses, linear in the size of the rules, with a map from variables to names.
     """
-    from sleec_verify.compilation import compile_to
-
     text = compile_to(one_ruleset(path, reading, domain), form, domain)
     write((text if text.endswith("\n") else text + "\n",))
     return exits.HOLDS
