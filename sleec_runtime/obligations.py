@@ -29,11 +29,17 @@ class Recording:
     obligation by another implementation of the same one, as an override that calls `super` does, is executed once.
     """
 
-    def __init__(self, outer: Recording | None = None, apart: bool = False) -> None:
+    def __init__(
+        self,
+        outer: Recording | None = None,
+        apart: bool = False,
+        on_execution: Callable[[str], object] | None = None,
+    ) -> None:
         self.executed: list[str] = []
         self.failed: list[str] = []
         self.outer = outer
         self.apart = apart
+        self.on_execution = on_execution
         self._under_way: set[str] = set()
 
     @contextmanager
@@ -46,6 +52,8 @@ class Recording:
         self.executed.append(name)
         try:
             with nullcontext() if self.outer is None else self.outer.executing(name):
+                if self.on_execution is not None:
+                    self.on_execution(name)
                 yield
         except BaseException:
             self.failed.append(name)
@@ -58,14 +66,17 @@ _recording: ContextVar[Recording | None] = ContextVar("sleec_recording", default
 
 
 @contextmanager
-def recording(apart: bool = False) -> Iterator[Recording]:
+def recording(apart: bool = False, on_execution: Callable[[str], object] | None = None) -> Iterator[Recording]:
     """Records what is executed within. Recordings nest: an outer one sees what an inner one sees, except that those
     kept `apart` do not report to each other, so that each dispatch can be looked at for itself.
+
+    `on_execution` is called with each name as its execution begins: a test does there what may happen meanwhile, and
+    what it raises, the implementation raises.
     """
     outer = _recording.get()
     while apart and outer is not None and outer.apart:
         outer = outer.outer
-    inner = Recording(outer, apart)
+    inner = Recording(outer, apart, on_execution)
     token = _recording.set(inner)
     try:
         yield inner

@@ -1,0 +1,125 @@
+"""What is due in a context, by Equation 1 and the solver: the side of the comparison that runs nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from sleec_runtime.model import Assume, Context, Exclusive, Never, Obligation, Rule, Ruleset
+from sleec_verify.clashes import Clash, clashes
+from sleec_verify.entailment import Definition1
+
+_KEPT = 512
+"""Compiled sets of triggers that are kept. A suite asks of the same few again and again."""
+
+
+@dataclass(frozen=True)
+class Active:
+    """A clause that is active, with its layer (None is the rule's ε) and all that it obliges."""
+
+    rule: str
+    clause: int
+    layer: str | None
+    obligations: tuple[Obligation, ...]
+
+
+@dataclass(frozen=True)
+class Expected:
+    """What Definition 1 says of one context.
+
+    `due` is in the order of the rules and of their clauses, a name once for each rule that asks for it. In a
+    `conflict` nothing is due. `possible` is False where the context breaks an assumption: it does not count.
+    """
+
+    active: tuple[Active, ...]
+    due: tuple[str, ...]
+    prohibited: tuple[str, ...]
+    conflict: bool
+    possible: bool
+
+
+class Oracle:
+    """The rules of one domain, compiled for each set of triggers when it is first asked about.
+
+    `whole` is the ruleset with all domains: what it names can occur and be reported in any of them. Raises `Undecided`
+    where the constraints are too entangled to say what can be done together.
+    """
+
+    def __init__(self, whole: Ruleset, domain: str | None = None) -> None:
+        self.whole = whole
+        self.domain = domain
+        self.ruleset = whole if domain is None else whole.in_domain(domain)
+        forbidding = (c for c in self.ruleset.constraints if isinstance(c, (Exclusive, Never)))
+        self.clashes = clashes(forbidding)
+        self.assumptions = [c.formula for c in self.ruleset.constraints if isinstance(c, Assume)]
+        self._by_trigger: dict[str, list[Rule]] = {}
+        for rule in self.ruleset.rules:
+            self._by_trigger.setdefault(rule.trigger, []).append(rule)
+        self._position = {rule.label: position for position, rule in enumerate(self.ruleset.rules)}
+        self._compiled: dict[tuple[frozenset[str], frozenset[str]], _Compiled] = {}
+
+    def rules_of(self, triggers: Iterable[str]) -> list[Rule]:
+        """The rules in force of these triggers, in their order."""
+        rules = [rule for trigger in triggers for rule in self._by_trigger.get(trigger, ())]
+        return sorted(rules, key=lambda rule: self._position[rule.label])
+
+    def clashes_among(self, literals: Iterable[Obligation]) -> list[Clash]:
+        """The clashes that can come of these literals, with those that a situation makes by itself."""
+        known = frozenset(literals)
+        return [clash for clash in self.clashes if clash.literals <= known]
+
+    def expected(self, context: Context) -> Expected:
+        """Definition 1 in `context`; two propagations."""
+        return self._ready(context).expected(context)
+
+    def possible(self, context: Context) -> bool:
+        """Whether `context` keeps the assumptions."""
+        return not self.assumptions or self.expected(context).possible
+
+    def _ready(self, context: Context) -> _Compiled:
+        missing = frozenset(name for name in self.whole.measures if context.conditions.get(name) is None)
+        key = context.triggers, missing
+        ready = self._compiled.get(key)
+        if ready is None:
+            if len(self._compiled) >= _KEPT:
+                self._compiled.clear()
+            ready = self._compiled[key] = _Compiled(self, self.rules_of(context.triggers), missing)
+        return ready
+
+
+class _Compiled:
+    def __init__(self, oracle: Oracle, rules: list[Rule], missing: frozenset[str]) -> None:
+        self._clauses = {rule.label: list(rule.clauses()) for rule in rules}
+        literals = {o for clauses in self._clauses.values() for clause in clauses for o in clause.obligations}
+        self._clashes = oracle.clashes_among(literals)
+        labels = [label for clash in self._clashes for label in clash.labels]
+        self._assumed = len(oracle.assumptions)
+        self._definition = Definition1(oracle.ruleset, rules, [*oracle.assumptions, *labels], missing)
+
+    def expected(self, context: Context) -> Expected:
+        definition = self._definition
+        true = definition.facts(context)
+        truths = [true(literal) for literal in definition.formulas]
+        active = tuple(
+            Active(rule.label, number, rule.layer(number), self._clauses[rule.label][number].obligations)
+            for rule, guards in definition.guards
+            if rule.label in self._clauses
+            for number, guard in enumerate(guards)
+            if true(guard)
+        )
+        possible = all(truths[: self._assumed])
+        entailed = definition.entailed(context)
+        if entailed is None or self._clash(entailed, iter(truths[self._assumed :])):
+            return Expected(active, (), (), True, possible)
+        due = tuple(o.name for one in active for o in one.obligations if not o.negated)
+        if set(due) != {o.name for o in entailed if not o.negated}:
+            raise AssertionError(f"the guards and Equation 1 disagree in {context}: a bug in sleec-verify")
+        return Expected(active, due, tuple(sorted(o.name for o in entailed if o.negated)), False, possible)
+
+    def _clash(self, entailed: frozenset[Obligation], labels: Iterable[bool]) -> bool:
+        truth_of = iter(labels)
+        return any(
+            # Every label's truth is consumed, whatever the literals.
+            all([next(truth_of) for _ in clash.labels]) and clash.literals <= entailed
+            for clash in self._clashes
+        )
