@@ -41,7 +41,7 @@ def measure(turns: int = TURNS) -> tuple[float, float]:
 
 def main() -> None:
     for package in (sleec_runtime, sleec_verify, click, pysat):
-        compileall.compile_dir(Path(package.__file__).parent, quiet=1)
+        compileall.compile_dir(Path(str(package.__file__)).parent, quiet=1)
     empty, check = measure()
     print(f"python -c pass              {empty * 1000:7.1f} ms")
     print(f"sleec-verify check, 8 rules {check * 1000:7.1f} ms   {check / empty:.1f} times (at most {BOUND})")
