@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 from sleec_runtime.model import Assume, Context, Exclusive, Never, Obligation, Rule, Ruleset
 from sleec_verify.clashes import Clash, clashes
@@ -116,10 +117,7 @@ class _Compiled:
             raise AssertionError(f"the guards and Equation 1 disagree in {context}: a bug in sleec-verify")
         return Expected(active, due, tuple(sorted(o.name for o in entailed if o.negated)), False, possible)
 
-    def _clash(self, entailed: frozenset[Obligation], labels: Iterable[bool]) -> bool:
-        truth_of = iter(labels)
-        return any(
-            # Every label's truth is consumed, whatever the literals.
-            all([next(truth_of) for _ in clash.labels]) and clash.literals <= entailed
-            for clash in self._clashes
-        )
+    def _clash(self, entailed: frozenset[Obligation], truths: Iterator[bool]) -> bool:
+        """Whether some clash is all due here; `truths` are those of its labels and of the next ones', in order."""
+        situations = [all(list(islice(truths, len(clash.labels)))) for clash in self._clashes]
+        return any(here and clash.literals <= entailed for clash, here in zip(self._clashes, situations))

@@ -109,7 +109,9 @@ def size(given: Sequence[Given]) -> int:
 
 def contexts(given: Sequence[Given], triggers: frozenset[str]) -> Iterator[Context]:
     """Every context over these values, those with the fewest facts first, so that what fails first is smallest."""
-    places = sorted(product(*(range(len(values)) for _, values in given)), key=lambda chosen: len(chosen) - chosen.count(0))
+    places = sorted(
+        product(*(range(len(values)) for _, values in given)), key=lambda chosen: len(chosen) - chosen.count(0)
+    )
     for chosen in places:
         facts = {name: values[place] for (name, values), place in zip(given, chosen)}
         yield Context(triggers, {name: value for name, value in facts.items() if value is not None})

@@ -94,7 +94,7 @@ class Bench:
     def running(self) -> Iterator[Running]:
         """A new subject, watched until the end of the block."""
         subject = self.subject()
-        objects = getattr(subject, "bound_objects", list)()
+        objects: list[object] = getattr(subject, "bound_objects", list)()
         with ExitStack() as stack:
             for robot in {id(robot): robot for robot in (*objects, *self.watch)}.values():
                 stack.enter_context(watched(robot, self.oracle().whole.obligations))
@@ -142,7 +142,7 @@ class Running:
         return Context(frozenset(triggers), dict(self.known))
 
     def observe(self, triggers: Iterable[str], on_execution: Callable[[str], object] | None = None) -> Observed:
-        """What the subject does if these occur now. `on_execution` is called in the midst, as each obligation begins."""
+        """What the subject does if these occur now. `on_execution` is called as each obligation begins."""
         names = tuple(sorted(triggers))
         arguments = self._arguments(names) if callable(self._arguments) else self._arguments
         error: BaseException | None = None

@@ -1,0 +1,139 @@
+"""Every rule in every context that it can tell apart."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import islice
+from typing import NamedTuple
+
+from sleec_runtime.model import Context, Formula, Never, Rule, formulas_of
+from sleec_verify.clashes import Constraint
+from sleec_verify.conformance.failure import Nonconformance, difference
+from sleec_verify.conformance.oracle import Expected, Oracle
+from sleec_verify.conformance.possible import Assumptions
+from sleec_verify.conformance.regions import LIMIT, Given, contexts, givens, size
+from sleec_verify.conformance.subject import Bench, Running
+from sleec_verify.report.words import context_text
+
+SAMPLED = 500
+"""Contexts of a rule that has too many for all."""
+
+
+class Group(NamedTuple):
+    """Rules of one trigger that are gone through together, and the values of what decides them."""
+
+    trigger: str
+    rules: tuple[Rule, ...]
+    given: list[Given]
+
+    @property
+    def whole(self) -> bool:
+        """Whether every context is gone through."""
+        return size(self.given) <= LIMIT
+
+
+def groups(oracle: Oracle, labels: frozenset[str] | None = None, unreported: bool = True) -> list[Group]:
+    """The rules (those of `labels`, or all, whatever their domain) by their triggers: together with what constraints on
+    them look at, if there are not too many contexts for that; else each rule by itself."""
+    by_trigger: dict[str, list[Rule]] = {}
+    for rule in oracle.whole.rules:
+        if labels is None or rule.label in labels:
+            by_trigger.setdefault(rule.trigger, []).append(rule)
+    found: list[Group] = []
+    for trigger, rules in by_trigger.items():
+        formulas = [formula for rule in rules for formula in formulas_of(rule)]
+        for tried in ([*formulas, *_forbidding(oracle, rules)], formulas):
+            given = givens(tried, oracle.whole.measures, unreported)
+            if size(given) <= LIMIT:
+                found.append(Group(trigger, tuple(rules), given))
+                break
+        else:
+            for rule in rules:
+                given = givens(list(formulas_of(rule)), oracle.whole.measures, unreported)
+                found.append(Group(trigger, (rule,), given))
+    return found
+
+
+def _forbidding(oracle: Oracle, rules: Sequence[Rule]) -> list[Formula]:
+    names = {o.name for rule in rules for clause in rule.clauses() for o in clause.obligations}
+    touching = (clash for clash in oracle.clashes if any(literal.name in names for literal in clash.literals))
+    origins: dict[Constraint, None] = {origin: None for clash in touching for origin in clash.origins}
+    return [origin.formula for origin in origins if isinstance(origin, Never)]
+
+
+def situations(group: Group, oracle: Oracle, assumptions: Assumptions) -> Iterator[tuple[Context, Expected]]:
+    """The contexts of a group that the assumptions allow, smallest first, and what is due in each. Where there are too
+    many, some of them, at random but always the same."""
+    names = {group.trigger, *(name for name, _ in group.given)}
+    for context in _chosen(group):
+        expected = oracle.expected(context)
+        if not expected.possible:
+            completed = assumptions.nearest(context, names)
+            if completed is None:
+                continue
+            context, expected = completed, oracle.expected(completed)
+        yield context, expected
+
+
+def _chosen(group: Group) -> Iterator[Context]:
+    triggers = frozenset({group.trigger})
+    if group.whole:
+        return contexts(group.given, triggers)
+    from random import Random
+
+    dice = Random(group.trigger)
+    facts = ({name: dice.choice(values) for name, values in group.given} for _ in range(SAMPLED))
+    return (Context(triggers, {n: v for n, v in chosen.items() if v is not None}) for chosen in facts)
+
+
+def each_rule(bench: Bench, labels: frozenset[str] | None = None) -> int:
+    """Compares what is executed with what is due, for every rule in every context. Returns the number of contexts.
+
+    Raises Nonconformance for the smallest situation of the first rule that is wrong.
+    """
+    oracle = bench.oracle()
+    assumptions = Assumptions(oracle.ruleset)
+    count = 0
+    with bench.running() as running:
+        for group in groups(oracle, labels):
+            previous: Context | None = None
+            for context, expected in situations(group, oracle, assumptions):
+                failure = tried(running, context, expected)
+                if failure is not None:
+                    raise _with_what_led_to_it(bench, failure, previous)
+                previous = context
+                count += 1
+    return count
+
+
+def tried(running: Running, context: Context, expected: Expected | None = None) -> Nonconformance | None:
+    """Leads the subject into `context` and lets its triggers occur; what is wrong with what it did."""
+    if expected is None:
+        expected = running.oracle.expected(context)
+    running.enter(context)
+    observed = running.observe(context.triggers)
+    what = difference(context, expected, observed, running.oracle.whole)
+    return None if what is None else Nonconformance(context, expected, observed, what)
+
+
+def first_contexts(oracle: Oracle, assumptions: Assumptions, most: int) -> Iterator[list[tuple[Context, Expected]]]:
+    """For each group, some contexts in which it does something: the smallest for each set of active clauses."""
+    for group in groups(oracle, unreported=False):
+        seen: dict[tuple[object, ...], tuple[Context, Expected]] = {}
+        for context, expected in islice(situations(group, oracle, assumptions), 4 * SAMPLED):
+            if expected.due and not expected.conflict:
+                seen.setdefault(expected.active, (context, expected))
+            if len(seen) == most:
+                break
+        yield list(seen.values())
+
+
+def _with_what_led_to_it(bench: Bench, failure: Nonconformance, previous: Context | None) -> Nonconformance:
+    """The failure as it is on a new subject, or with what went before where a new subject does well."""
+    with bench.running() as fresh:
+        alone = tried(fresh, failure.context, failure.expected)
+    if alone is not None or previous is None:
+        return alone or failure
+    return failure.after(
+        [context_text(previous), "(a new instance does well in this situation: something stayed behind)"]
+    )

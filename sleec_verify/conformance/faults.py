@@ -1,0 +1,76 @@
+"""What happens when an implementation raises: it comes out, the other rules are served, and nothing stays behind."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from sleec_runtime.errors import VariantsFailed
+from sleec_runtime.model import Context
+from sleec_verify.conformance.exhaustive import first_contexts, tried
+from sleec_verify.conformance.failure import Nonconformance
+from sleec_verify.conformance.oracle import Expected
+from sleec_verify.conformance.possible import Assumptions
+from sleec_verify.conformance.subject import Bench, Running
+
+MOST = 8
+"""Contexts a group of rules: one for each set of active clauses, which is one a clause where a trigger has one rule."""
+
+
+class Provoked(Exception):
+    """What the test has an implementation raise."""
+
+
+def raised_on(bench: Bench) -> int:
+    """Lets each execution in turn raise. Raises Nonconformance where the exception is swallowed, where what it should
+    not stop is not done, or where the next trigger suffers. Returns the number of dispatches that raised."""
+    oracle = bench.oracle()
+    count = 0
+    with bench.running() as running:
+        for found in first_contexts(oracle, Assumptions(oracle.ruleset), MOST):
+            for context, expected in found:
+                for place in range(len(expected.due)):
+                    _provoke(running, context, expected, place)
+                    count += 1
+    return count
+
+
+def _provoke(running: Running, context: Context, expected: Expected, place: int) -> None:
+    provoked = Provoked(f"raised by the conformance test in {expected.due[place]}")
+    begun = 0
+
+    def on_execution(name: str) -> None:
+        nonlocal begun
+        begun += 1
+        if begun == place + 1:
+            raise provoked
+
+    running.enter(context)
+    observed = running.observe(context.triggers, on_execution)
+    due = _still_due(expected, place)
+    what = None
+    if not _came_out(provoked, observed.error):
+        what = f"swallowed an exception of {expected.due[place]}, or raised another: {observed.error!r}"
+    elif observed.executed != due:
+        what = f"when {expected.due[place]} raised, executed something else than what was still to be done"
+    if what is not None:
+        raise Nonconformance(context, replace(expected, due=due), observed, what)
+    failure = tried(running, context, expected)
+    if failure is not None:
+        raise failure.after([f"the same, where {expected.due[place]} raised an exception"])
+
+
+def _came_out(provoked: Provoked, error: BaseException | None) -> bool:
+    if isinstance(error, VariantsFailed):
+        return any(each is provoked for _, each in error.errors)
+    return error is provoked
+
+
+def _still_due(expected: Expected, place: int) -> tuple[str, ...]:
+    """What is executed if the execution at `place` raises: the rest of its own rule is not, all other rules are."""
+    due: list[str] = []
+    position = 0
+    for active in expected.active:
+        names = [o.name for o in active.obligations if not o.negated]
+        due += names[: place - position + 1] if position <= place < position + len(names) else names
+        position += len(names)
+    return tuple(due)

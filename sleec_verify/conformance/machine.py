@@ -1,0 +1,106 @@
+"""A Hypothesis state machine: changes and triggers in any order, and triggers and changes in the midst of triggers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from typing import Any
+
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, rule
+
+from sleec_runtime.model import Context, Value
+from sleec_verify.conformance import strategies
+from sleec_verify.conformance.failure import Nonconformance, difference
+from sleec_verify.conformance.subject import Bench, Observed
+from sleec_verify.report.words import context_text, value_text
+
+
+def state_machine(bench: Bench) -> type[RuleBasedStateMachine]:
+    """The machine for one bench; its `TestCase` is a test, and `run_state_machine_as_test` runs it."""
+    oracle = bench.oracle()
+    ruleset = oracle.ruleset
+    triggers = sorted(oracle.whole.triggers)
+    some = st.lists(st.sampled_from(triggers), min_size=1, max_size=3, unique=True) if triggers else st.just([])
+    contexts = strategies.contexts(ruleset)
+    changes = strategies.changes(ruleset)
+
+    class Changes(RuleBasedStateMachine):
+        """One subject, and what it was told and asked."""
+
+        def __init__(self) -> None:
+            super().__init__()
+            self._open = ExitStack()
+            self._running = self._open.enter_context(bench.running())
+            self._steps: list[str] = []
+
+        @rule(changes=changes)
+        def change(self, changes: dict[str, Value | None]) -> None:
+            """Something changes, and something else is no longer known."""
+            self._steps.append(f"change: {_changes_text(changes)}")
+            self._running.change(changes)
+
+        @rule(context=contexts)
+        def enter(self, context: Context) -> None:
+            """A situation that the assumptions allow, as one change; and what it triggers."""
+            self._running.enter(context)
+            self._steps.append(f"change to: {context_text(Context(frozenset(), context.conditions))}")
+            self._trigger(sorted(context.triggers))
+
+        @rule(names=some)
+        def trigger(self, names: Sequence[str]) -> None:
+            """One or several triggers occur."""
+            self._trigger(names)
+
+        @rule(outer=some, inner=some, changes=changes)
+        def trigger_within_a_trigger(
+            self, outer: Sequence[str], inner: Sequence[str], changes: dict[str, Value | None]
+        ) -> None:
+            """While the first obligation of a trigger is executed, the context changes and another trigger occurs."""
+            failures: list[Nonconformance] = []
+            inside = False
+
+            def meanwhile(name: str) -> None:
+                nonlocal inside
+                if not inside:
+                    inside = True
+                    self._steps.append(
+                        f"trigger {', '.join(outer)}; while {name} is executed: {_changes_text(changes)}"
+                    )
+                    self._running.change(changes)
+                    failures.extend(self._compared(inner, self._running.here(inner), None))
+
+            here = self._running.here(outer)
+            observed = self._running.observe(outer, meanwhile)
+            for failure in (*failures, *self._compared(outer, here, observed)):
+                raise failure
+
+        def _trigger(self, names: Sequence[str]) -> None:
+            for failure in self._compared(names, self._running.here(names), None):
+                raise failure
+            self._steps.append(f"trigger {', '.join(names)}")
+
+        def _compared(self, names: Sequence[str], context: Context, observed: Observed | None) -> list[Nonconformance]:
+            """What is wrong with what was observed; if nothing was yet, the triggers occur now."""
+            if observed is None:
+                observed = self._running.observe(names)
+            expected = oracle.expected(context)
+            what = difference(context, expected, observed, oracle.whole)
+            return [] if what is None else [Nonconformance(context, expected, observed, what, list(self._steps))]
+
+        def teardown(self) -> None:
+            self._open.close()
+
+    return Changes
+
+
+def run_machine(bench: Bench, settings: Any) -> None:
+    """Runs the machine. Raises the smallest Nonconformance that Hypothesis finds."""
+    from hypothesis.stateful import run_state_machine_as_test
+
+    run_state_machine_as_test(state_machine(bench), settings=settings)
+
+
+def _changes_text(changes: Mapping[str, Value | None]) -> str:
+    facts = (f"{name} is {'not known' if value is None else value_text(value)}" for name, value in changes.items())
+    return ", ".join(facts) or "nothing changes"

@@ -1,0 +1,176 @@
+"""The ready test, as one function for pytest and one for everything else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from sleec_runtime.errors import SleecError
+from sleec_runtime.model import Reading, Ruleset
+from sleec_verify.conformance.failure import Nonconformance
+from sleec_verify.conformance.subject import Arguments, Bench, Factory
+
+if TYPE_CHECKING:
+    import hypothesis
+
+Part = Callable[[Bench, int], object]
+
+
+def _each_rule(bench: Bench, examples: int) -> object:
+    from sleec_verify.conformance.exhaustive import each_rule
+
+    return each_rule(bench)
+
+
+def _together(bench: Bench, examples: int) -> None:
+    from hypothesis import given
+
+    from sleec_verify.conformance.exhaustive import tried
+    from sleec_verify.conformance.strategies import contexts
+
+    @_settings(examples)
+    @given(contexts(bench.oracle().ruleset))
+    def any_context(context: Any) -> None:
+        # A new instance each time: what one example leaves behind is the business of the part `changes`.
+        with bench.running() as running:
+            failure = tried(running, context)
+        if failure is not None:
+            raise failure
+
+    any_context()
+
+
+def _changes(bench: Bench, examples: int) -> None:
+    from sleec_verify.conformance.machine import run_machine
+
+    run_machine(bench, _settings(max(1, examples // 4)))
+
+
+def _whole_changes(bench: Bench, examples: int) -> object:
+    from sleec_verify.conformance.atomic import whole_changes
+
+    return whole_changes(bench)
+
+
+def _exceptions(bench: Bench, examples: int) -> object:
+    from sleec_verify.conformance.faults import raised_on
+
+    return raised_on(bench)
+
+
+def _replacement(bench: Bench, examples: int) -> object:
+    from sleec_verify.conformance.replacing import replaced
+
+    return replaced(bench)
+
+
+def _threads(bench: Bench, examples: int) -> object:
+    from sleec_verify.conformance.threads import in_threads
+
+    return in_threads(bench)
+
+
+PARTS: dict[str, Part] = {
+    "each-rule": _each_rule,
+    "together": _together,
+    "changes": _changes,
+    "whole-changes": _whole_changes,
+    "exceptions": _exceptions,
+    "replacement": _replacement,
+    "threads": _threads,
+}
+"""What the ready test consists of, in the order in which it runs."""
+
+
+class UnknownPart(SleecError):
+    """A part of the ready test that does not exist."""
+
+
+def check_conformance(
+    make: Factory,
+    ruleset: Ruleset | str | Path | None = None,
+    *,
+    domain: str | None = None,
+    reading: Reading | None = None,
+    parts: Iterable[str] | None = None,
+    watch: Iterable[object] = (),
+    arguments: Arguments = (),
+    examples: int = 100,
+) -> None:
+    """Runs the ready test. Raises Nonconformance for the smallest thing that is wrong, and SleecError where it cannot
+    be run. The arguments are those of `conformance_test`."""
+    bench = _bench(make, ruleset, domain, reading, watch, arguments)
+    for name in _chosen(parts):
+        PARTS[name](bench, examples)
+
+
+def conformance_test(
+    make: Factory,
+    ruleset: Ruleset | str | Path | None = None,
+    *,
+    domain: str | None = None,
+    reading: Reading | None = None,
+    parts: Iterable[str] | None = None,
+    watch: Iterable[object] = (),
+    arguments: Arguments = (),
+    examples: int = 100,
+) -> Callable[[str], None]:
+    """A test for pytest, an item for each of `PARTS`: that what is executed is what the rules oblige.
+
+    `make` makes a new instance each time, with the robot's code bound. `ruleset`, a value or a file, is what it must
+    obey, in `domain` and `reading`; left out, they are the instance's own. `watch` are objects and modules that
+    implement obligations and are not bound. `arguments` are given to each trigger; a function of the triggers may
+    choose them. `examples` is how much of the random parts to run, `parts` which parts.
+
+    Raises UnknownPart. Nothing is loaded or made before the test runs.
+    """
+    import pytest
+
+    chosen = _chosen(parts)
+    watched = tuple(watch)
+
+    @pytest.mark.parametrize("part", chosen)
+    def test_conformance(part: str) -> None:
+        __tracebackhide__ = True
+        try:
+            PARTS[part](_bench(make, ruleset, domain, reading, watched, arguments), examples)
+        except (Nonconformance, SleecError) as error:
+            message = str(error)
+        else:
+            return
+        pytest.fail(message, pytrace=False)
+
+    return test_conformance
+
+
+def _chosen(parts: Iterable[str] | None) -> list[str]:
+    if parts is None:
+        return list(PARTS)
+    chosen = list(parts)
+    for name in chosen:
+        if name not in PARTS:
+            raise UnknownPart(f"the conformance test has no part {name!r}", f"it has {', '.join(PARTS)}")
+    return chosen
+
+
+def _bench(
+    make: Factory,
+    ruleset: Ruleset | str | Path | None,
+    domain: str | None,
+    reading: Reading | None,
+    watch: Iterable[object],
+    arguments: Arguments,
+) -> Bench:
+    if isinstance(ruleset, (str, Path)):
+        from sleec_runtime.language import load
+
+        ruleset = load(ruleset)
+    return Bench(make, ruleset, domain, reading, tuple(watch), arguments)
+
+
+def _settings(examples: int) -> hypothesis.settings:
+    from hypothesis import HealthCheck, settings
+
+    # How long an example takes is the robot's affair, and a ruleset may well make large ones.
+    return settings(max_examples=examples, deadline=None, suppress_health_check=list(HealthCheck))

@@ -1,0 +1,97 @@
+"""Many threads against one changing context: what each trigger does is due in some whole context."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+
+from sleec_runtime.model import Context
+from sleec_verify.conformance.atomic import justified_by_one
+from sleec_verify.conformance.exhaustive import tried
+from sleec_verify.conformance.failure import Nonconformance
+from sleec_verify.conformance.possible import Assumptions
+from sleec_verify.conformance.subject import Bench, Running
+from sleec_verify.conformance.telling import Pair, pairs
+
+THREADS = 4
+DISPATCHES = 300
+PAIRS = 3
+"""Pairs of contexts that are fought over, the most telling first."""
+
+
+def in_threads(bench: Bench) -> int:
+    """Raises Nonconformance where a thread does what no whole context calls for, or does not see the context that
+    another has made. Returns the number of dispatches."""
+    oracle = bench.oracle()
+    found = pairs(oracle, Assumptions(oracle.ruleset))[:PAIRS]
+    for pair in found:
+        with bench.running() as running, _hasty_threads():
+            for context in (pair.before, pair.after):
+                _handed_over(running, context)
+            _fought_over(running, pair)
+    return len(found) * THREADS * DISPATCHES
+
+
+def _handed_over(running: Running, context: Context) -> None:
+    """What one thread reports, another acts upon."""
+    running.enter(context)
+    failures: list[Nonconformance] = []
+
+    def work() -> None:
+        failure = tried(running, context)
+        if failure is not None:
+            failures.append(failure.after(["the context was reported by another thread"]))
+
+    _all_run([threading.Thread(target=work)])
+    for failure in failures:
+        raise failure
+
+
+def _fought_over(running: Running, pair: Pair) -> None:
+    failures: list[Nonconformance] = []
+    finished = threading.Event()
+    running.enter(pair.before)
+
+    def work() -> None:
+        for _ in range(DISPATCHES):
+            if failures:
+                return
+            try:
+                observed = running.observe(pair.triggers)
+                if observed.executed not in pair.due or observed.error is not None:
+                    justified_by_one(pair, observed, running, "while another thread changed the context to and fro")
+            except Nonconformance as failure:
+                failures.append(failure)
+
+    def change() -> None:
+        while not finished.is_set():
+            running.enter(pair.after)
+            running.enter(pair.before)
+
+    changer = threading.Thread(target=change)
+    changer.start()
+    _all_run([threading.Thread(target=work) for _ in range(THREADS)])
+    finished.set()
+    changer.join()
+    for failure in failures[:1]:
+        raise failure
+
+
+def _all_run(threads: Sequence[threading.Thread]) -> None:
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+
+@contextmanager
+def _hasty_threads() -> Iterator[Callable[[], float]]:
+    """Threads take turns every few microseconds instead of milliseconds."""
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        yield sys.getswitchinterval
+    finally:
+        sys.setswitchinterval(interval)
