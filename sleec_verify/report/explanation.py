@@ -26,7 +26,8 @@ def render(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pale
     for rule in triggered:
         if rule.label in decided:
             yield from _decided(ruleset, context, decided[rule.label], palette)
-        elif rule.guard is not None:
+        else:
+            assert rule.guard is not None, "a rule without a guard decides wherever it is triggered"
             yield from _guarded(ruleset, context, rule, rule.guard, palette)
     if not triggered:
         yield "No rule is triggered.\n\n"

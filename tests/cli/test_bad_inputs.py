@@ -52,6 +52,11 @@ def test_no_ruleset_is_exit_2_with_a_message(name: str, tmp_path: Path, capfd: p
     assert path.read_bytes() == INPUTS[name]
 
 
+def test_file_name_that_cannot_be(capfd: pytest.CaptureFixture[str]) -> None:
+    assert run(["check", "x" * 300]) == 2
+    assert capfd.readouterr().err == f"error: {'x' * 300} cannot be read: File name too long\n"
+
+
 @pytest.mark.parametrize("depth", [200, 5000])
 def test_deep_nesting_is_read_or_refused(depth: int, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "deep.sleec"

@@ -158,7 +158,8 @@ def test_unknown_exits_with_3_and_findings_with_1() -> None:
 def test_a_list_that_was_cut_says_so() -> None:
     finding = Finding("conflict", "SLEEC101", "error", "they clash", Span(0, 13))
     cut = outcome(CheckResult("conflict", Refuted((finding,)), 1.0, "the first 1000 are listed"))
-    assert "the first 1000 are listed" in "".join(renderer("full")([cut], PLAIN))
+    for name in FORMATS:
+        assert "the first 1000 are listed" in "".join(renderer(name)([cut], PLAIN))
     (check,) = json.loads("".join(renderer("json")([cut], PLAIN)))["rulesets"][0]["checks"]
     assert (check["verdict"], check["reason"]) == ("refuted", "the first 1000 are listed")
 

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from sleec_verify.cli import main
+from sleec_verify.solver import Undecided
 from tests.cli.conftest import Cli
 
 RULES = "WHEN Rung THEN OpenDoor\nUNLESS Night IN WHICH CASE AskWho\n"
@@ -154,6 +155,27 @@ def test_main_exits_with_the_code(monkeypatch: pytest.MonkeyPatch, capsys: pytes
     main()
     assert codes == [2]
     assert "no finding code" in capsys.readouterr().err
+
+
+def test_interruption_before_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(_: object) -> None:
+        raise KeyboardInterrupt
+
+    codes: list[int] = []
+    monkeypatch.setattr("os._exit", codes.append)
+    monkeypatch.setattr("gc.set_threshold", lambda *_: None)
+    monkeypatch.setattr("sleec_verify.cli.run", interrupt)
+    main()
+    assert codes == [130]
+
+
+def test_question_that_was_given_up_is_unknown(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    def give_up(*_: object) -> None:
+        raise Undecided("too entangled to say")
+
+    monkeypatch.setattr("sleec_verify.entailment.entail", give_up)
+    ran = cli("entail", "a.sleec", files={"a.sleec": RULES})
+    assert ran == (3, "", "error: too entangled to say\n")
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")
