@@ -399,10 +399,7 @@ class Ruleset:
         """The declared names of each kind; an empty set for a kind that the text does not declare."""
         return {
             kind: frozenset(
-                name
-                for s in self.statements
-                if isinstance(s, Declaration) and s.kind == kind
-                for name in s.names
+                name for s in self.statements if isinstance(s, Declaration) and s.kind == kind for name in s.names
             )
             for kind in ("trigger", "condition", "obligation")
         }

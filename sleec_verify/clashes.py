@@ -23,7 +23,11 @@ from sleec_verify.solver import Undecided
 Constraint = Exclusive | Never
 
 LIMIT = 5_000
-"""How many sets may be formed from constraints that are tied to one another before the question is given up."""
+"""How many cases a NEVER may have, and how many sets constraints that are tied to one another may rule out, before
+the question is given up."""
+
+STEPS = 20_000
+"""How many resolvents may be formed for one group of constraints before the question is given up."""
 
 
 class TooEntangled(Undecided):
@@ -144,12 +148,13 @@ def _saturated(terms: list[Clash]) -> list[Clash]:
     found: list[Clash] = []
     by_literal: dict[Obligation | None, list[Clash]] = {}
     queue = deque(terms)
+    steps = 0
     while queue:
         clash = queue.popleft()
         if any(o.subsumes(clash) for literal in (None, *clash.literals) for o in by_literal.get(literal, ())):
             continue
         found.append(clash)
-        if len(found) > LIMIT:
+        if len(found) > LIMIT or steps > STEPS:
             raise TooEntangled("the constraints rule out more combinations than can be listed")
         for literal in clash.literals or (None,):
             by_literal.setdefault(literal, []).append(clash)
@@ -157,6 +162,7 @@ def _saturated(terms: list[Clash]) -> list[Clash]:
             for other in by_literal.get(opposite(literal), ()):
                 resolvent = (clash.literals - {literal}) | (other.literals - {opposite(literal)})
                 if not any(opposite(o) in resolvent for o in resolvent):
+                    steps += 1
                     origins = tuple(dict.fromkeys(clash.origins + other.origins))
                     queue.append(Clash(resolvent, clash.labels | other.labels, origins))
     return found

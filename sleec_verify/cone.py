@@ -49,6 +49,16 @@ def names_in(formula: Formula) -> Iterator[Name]:
                 yield "condition", measure
 
 
+def obligations_in(constraint: Exclusive | Never) -> Iterator[str]:
+    """The obligations that a constraint speaks of, repeats included."""
+    if isinstance(constraint, Exclusive):
+        yield from constraint.names
+    else:
+        for leaf in leaves(constraint.formula):
+            if isinstance(leaf, Atom) and leaf.kind == "obligation":
+                yield leaf.name
+
+
 def names_of_rule(rule: Rule) -> Iterator[Name]:
     """The trigger, conditions and measures that decide a rule."""
     yield "trigger", rule.trigger
@@ -104,6 +114,29 @@ class Cones:
     @cached_property
     def constraints(self) -> list[Exclusive | Never]:
         return [c for c in self.ruleset.constraints if not isinstance(c, Assume)]
+
+    @cached_property
+    def _constraints_by_obligation(self) -> dict[str, list[int]]:
+        index: dict[str, list[int]] = {}
+        for position, constraint in enumerate(self.constraints):
+            for name in set(obligations_in(constraint)):
+                index.setdefault(name, []).append(position)
+        return index
+
+    def constraints_about(self, obligations: Iterable[str]) -> list[Exclusive | Never]:
+        """The constraints that share obligations with these names, directly or through one another, in the order of
+        the text."""
+        found: set[int] = set()
+        seen = set(obligations)
+        open_names = list(seen)
+        while open_names:
+            for position in self._constraints_by_obligation.get(open_names.pop(), ()):
+                if position not in found:
+                    found.add(position)
+                    fresh = set(obligations_in(self.constraints[position])) - seen
+                    seen |= fresh
+                    open_names += fresh
+        return [self.constraints[position] for position in sorted(found)]
 
     @cached_property
     def _assumptions_by_name(self) -> dict[Name, list[int]]:

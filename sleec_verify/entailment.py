@@ -103,6 +103,14 @@ class Definition1:
         named = self._obligations
         return frozenset(Obligation(named[abs(v)], v < 0) for v in literals if abs(v) in named)
 
+    def entails(self, context: Context, obligation: Obligation) -> bool | None:
+        """Whether Definition 1 entails one literal in `context`: no model of the rules and the context makes it
+        false. To the letter, so true of everything where the rules contradict themselves. None if undecided."""
+        variable = self._encoder.variables.get(("obligation", obligation.name))
+        refuted = [] if variable is None else [variable if obligation.negated else -variable]
+        answer = self._solver.solve([self._in_force, *self._encoder.assumptions(context), *refuted])
+        return None if answer is None else not answer
+
     def facts(self, context: Context) -> Callable[[int], bool]:
         """The truth, in `context`, of the literals in `guards` and `formulas`, until the next question."""
         found = self._solver.solve([-self._in_force, *self._encoder.assumptions(context)])

@@ -1,4 +1,4 @@
-"""What a check says: verdicts and findings. Checks make them, renderers show them, and neither does the other's work."""
+"""What a check says: verdicts and findings. Checks make them, renderers show them; neither does the other's work."""
 
 from __future__ import annotations
 

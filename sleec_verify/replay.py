@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from sleec_runtime.conflicts import conflict
 from sleec_runtime.evaluation import broken_assumptions, decide
-from sleec_runtime.model import READINGS, Context, Rule, Ruleset
-from sleec_verify.cone import Cones
+from sleec_runtime.model import READINGS, Context, Never, Rule, Ruleset
+from sleec_verify.cone import Cones, names_in, names_of_rule
 from sleec_verify.finding import Finding
 
 
@@ -19,14 +19,23 @@ def replays(cones: Cones, finding: Finding) -> bool:
         return True
     context = finding.witness.context()
     possible = not broken_assumptions(cones.ruleset, context)
-    return possible and _CLAIMS[finding.check](_triggered(cones, context), finding, context)
+    return possible and _CLAIMS[finding.check](_about(cones, finding, context), finding, context)
 
 
-def _triggered(cones: Cones, context: Context) -> Ruleset:
-    """The ruleset with only the rules that the context triggers; the others oblige nothing there."""
-    rules = {position for trigger in context.triggers for position in cones.by_trigger.get(trigger, ())}
-    kept = (*cones.ruleset.constraints, *cones.ruleset.measures.values(), *(cones.rules[p] for p in sorted(rules)))
-    return replace(cones.ruleset, statements=kept, inferred=())
+def _about(cones: Cones, finding: Finding, context: Context) -> Ruleset:
+    """The ruleset with only the rules that the context triggers, as the others oblige nothing there, the constraints
+    that can concern what they oblige, and the measures of both."""
+    positions = {position for trigger in context.triggers for position in cones.by_trigger.get(trigger, ())}
+    rules = [cones.rules[position] for position in sorted(positions)]
+    obliged = {o.name for p in positions for clause in cones.clauses[p] for o in clause.obligations}
+    # Constraints can break by themselves where a NEVER and another leave nothing to do.
+    alone = not finding.clauses
+    constraints = cones.constraints if alone else cones.constraints_about({*obliged, *finding.obligations})
+    named = {name for rule in rules for _, name in names_of_rule(rule)}
+    named.update(n for c in constraints if isinstance(c, Never) for _, n in names_in(c.formula))
+    measures = cones.ruleset.measures
+    kept = tuple(measures[name] for name in sorted(named) if name in measures)
+    return replace(cones.ruleset, statements=(*constraints, *rules), inferred=kept)
 
 
 def _conflicts(ruleset: Ruleset, finding: Finding, context: Context) -> bool:

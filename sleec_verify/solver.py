@@ -6,12 +6,15 @@ A solver says yes, no, or None where it gave up: unknown is an answer, never an 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from threading import current_thread, main_thread
 from types import TracebackType
-from typing import Any, Protocol
+from typing import Protocol
+
+import pysolvers
 
 from sleec_runtime.errors import SleecError
 
-CONFLICT_BUDGET = 2_000_000
+CONFLICT_BUDGET = 500_000
 """Conflicts after which a question is given up. Questions about rules that people write need a few dozen."""
 
 
@@ -48,22 +51,33 @@ class Solver(Protocol):
 
 
 class MiniSat:
-    """MiniSat 2.2 by python-sat: the quickest to set up and to take down, and most questions are small."""
+    """MiniSat 2.2 by python-sat: the quickest to set up and to take down, and most questions are small.
+
+    python-sat's module of C functions is called directly: its class for each of its twenty solvers takes longer to
+    import than eight rules take to check, and as long to call as a small question takes to answer.
+    """
 
     def __init__(self, clauses: Iterable[Sequence[int]] = ()) -> None:
-        from pysat.solvers import Minisat22
-
-        self._solver: Any = Minisat22(bootstrap_with=clauses)
-        self._solver.conf_budget(CONFLICT_BUDGET)
+        self._solver = pysolvers.minisat22_new()
+        pysolvers.minisat22_cbudget(self._solver, CONFLICT_BUDGET)
+        # Signals reach the main thread only, and only there may the solver set its handler.
+        self._interruptible = int(current_thread() is main_thread())
         self._model: list[int] = []
+        self.add(clauses)
 
     def add(self, clauses: Iterable[Sequence[int]]) -> None:
-        self._solver.append_formula(clauses)
+        add, solver = pysolvers.minisat22_add_cl, self._solver
+        for clause in clauses:
+            add(solver, clause)
 
     def solve(self, assumptions: Sequence[int] = ()) -> bool | None:
-        answer: bool | None = self._solver.solve_limited(assumptions)
+        try:
+            answer: bool | None = pysolvers.minisat22_solve_lim(self._solver, assumptions, self._interruptible, 0)
+        except pysolvers.error:
+            # The solver's own handler took the Ctrl-C.
+            raise KeyboardInterrupt from None
         if answer:
-            self._model = self._solver.get_model()
+            self._model = pysolvers.minisat22_model(self._solver) or []
         return answer
 
     def holds(self, literal: int) -> bool:
@@ -73,14 +87,23 @@ class MiniSat:
         return true == (literal > 0)
 
     def core(self) -> list[int]:
-        return self._solver.get_core() or []
+        return pysolvers.minisat22_core(self._solver) or []
 
     def propagate(self, assumptions: Sequence[int]) -> tuple[bool, list[int]]:
-        consistent, literals = self._solver.propagate(assumptions)
-        return consistent, literals
+        consistent, literals = pysolvers.minisat22_propagate(self._solver, assumptions, 0, self._interruptible)
+        return consistent, literals or []
 
     def __enter__(self) -> MiniSat:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
-        self._solver.delete()
+        self.close()
+
+    def __del__(self) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Give back the memory. Nothing can be asked afterwards."""
+        if self._solver is not None:
+            pysolvers.minisat22_del(self._solver)
+            self._solver = None

@@ -20,7 +20,8 @@ from sleec_verify.solver import MiniSat, Solver, Undecided
 def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = ()) -> Witness | None:
     """A situation of fewest names that makes `formula` (over triggers, conditions and measures) true, or None.
 
-    The measures of `valued` get a value whether the formula needs it or not. Taking all that it does not name as false (Definition 1) is a situation that the assumptions allow.
+    The measures of `valued` get a value whether the formula needs it or not. Taking all that the situation does not
+    name as false (Definition 1) gives one that the assumptions allow.
 
     Raises `Undecided` where the solver did not decide.
     """

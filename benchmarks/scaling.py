@@ -1,0 +1,58 @@
+"""How `check` grows: time and memory of 1,000, 10,000 and 100,000 random rules of three hedges, each in a process of
+its own, all checks included. Linear growth is asked for: 100,000 rules at most 13 times 10,000.
+
+Takes some minutes; ``python -m benchmarks.scaling 1000 5000`` measures other sizes.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from benchmarks.random_rules import random_rules
+
+SIZES = (1_000, 10_000, 100_000)
+BOUND = 1.3
+"""How much more than in proportion the largest step may cost."""
+
+# Runs the command and then says what it cost, from the operating system's own account of it.
+MEASURE = """
+import resource, subprocess, sys
+subprocess.run([sys.executable, "-m", "sleec_verify", "check", "--format", "json", sys.argv[1]], stdout=subprocess.DEVNULL)
+used = resource.getrusage(resource.RUSAGE_CHILDREN)
+print(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
+"""
+
+
+def cost(count: int) -> tuple[float, float]:
+    """Processor seconds and peak MiB of a check of `count` rules."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "rules.sleec"
+        path.write_text(random_rules(count), encoding="utf-8")
+        output = subprocess.run(
+            [sys.executable, "-c", MEASURE, str(path)], check=True, capture_output=True, text=True
+        ).stdout
+    seconds, memory = map(float, output.split())
+    return seconds, memory
+
+
+def main(sizes: tuple[int, ...] = SIZES) -> None:
+    before: tuple[int, float, float] | None = None
+    worst = 0.0
+    for count in sizes:
+        seconds, memory = cost(count)
+        line = f"{count:>8,} rules: {seconds:8.2f} s {memory:8.0f} MiB"
+        if before is not None:
+            rules, time, space = before
+            worst = seconds / time / (count / rules)
+            line += f"   {seconds / time:5.1f} times the time and {memory / space:5.1f} times the memory"
+            line += f" for {count / rules:g} times the rules"
+        print(line, flush=True)
+        before = count, seconds, memory
+    print(f"last step: {worst:.2f} of proportional (at most {BOUND})")
+
+
+if __name__ == "__main__":
+    main(tuple(map(int, sys.argv[1:])) or SIZES)
