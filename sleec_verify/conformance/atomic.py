@@ -6,11 +6,10 @@ from collections.abc import Callable, Iterator, Mapping
 
 from sleec_runtime.model import Context
 from sleec_verify.conformance.exhaustive import tried
-from sleec_verify.conformance.failure import Nonconformance, difference
+from sleec_verify.conformance.failure import Nonconformance, difference, situation_text
 from sleec_verify.conformance.possible import Assumptions
 from sleec_verify.conformance.subject import Bench, Observed, Running
 from sleec_verify.conformance.telling import Pair, pairs
-from sleec_verify.report.words import context_text
 
 PAIRS = 12
 
@@ -56,7 +55,7 @@ def justified_by_one(pair: Pair, observed: Observed, running: Running, when: str
             observed,
             f"{when}, did what neither the context before calls for nor the one after",
             [
-                f"a change to: {context_text(pair.after)}",
+                f"a change to: {situation_text(pair.after)}",
                 f"where this is due: {', '.join(expected[1].due) or 'nothing'}",
             ],
         )

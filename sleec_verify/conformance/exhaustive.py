@@ -8,12 +8,11 @@ from typing import NamedTuple
 
 from sleec_runtime.model import Context, Formula, Never, Rule, formulas_of
 from sleec_verify.clashes import Constraint
-from sleec_verify.conformance.failure import Nonconformance, difference
+from sleec_verify.conformance.failure import Nonconformance, difference, situation_text
 from sleec_verify.conformance.oracle import Expected, Oracle
 from sleec_verify.conformance.possible import Assumptions
 from sleec_verify.conformance.regions import LIMIT, Given, contexts, givens, size
 from sleec_verify.conformance.subject import Bench, Running
-from sleec_verify.report.words import context_text
 
 SAMPLED = 500
 """Contexts of a rule that has too many for all."""
@@ -42,8 +41,9 @@ def groups(oracle: Oracle, labels: frozenset[str] | None = None, unreported: boo
     found: list[Group] = []
     for trigger, rules in by_trigger.items():
         formulas = [formula for rule in rules for formula in formulas_of(rule)]
-        for tried in ([*formulas, *_forbidding(oracle, rules)], formulas):
-            given = givens(tried, oracle.whole.measures, unreported)
+        constrained = [*formulas, *_forbidding(oracle, rules)]
+        for considered, near in ((constrained, True), (formulas, True), (formulas, False)):
+            given = givens(considered, oracle.whole.measures, unreported, near)
             if size(given) <= LIMIT:
                 found.append(Group(trigger, tuple(rules), given))
                 break
@@ -135,5 +135,5 @@ def _with_what_led_to_it(bench: Bench, failure: Nonconformance, previous: Contex
     if alone is not None or previous is None:
         return alone or failure
     return failure.after(
-        [context_text(previous), "(a new instance does well in this situation: something stayed behind)"]
+        [situation_text(previous), "(a new instance does well in this situation: something stayed behind)"]
     )

@@ -63,6 +63,11 @@ def difference(context: Context, expected: Expected, observed: Observed, ruleset
     return "; ".join(parts) or None
 
 
+def situation_text(context: Context) -> str:
+    """A context in words; what is false in it goes without saying."""
+    return context_text(Context(context.triggers, {n: v for n, v in context.conditions.items() if v is not False}))
+
+
 def _total(context: Context, ruleset: Ruleset) -> bool:
     return context.conditions.keys() >= ruleset.conditions | ruleset.measures.keys()
 
@@ -70,7 +75,7 @@ def _total(context: Context, ruleset: Ruleset) -> bool:
 def _lines(failure: Nonconformance) -> Iterator[str]:
     expected = failure.expected
     yield failure.what
-    yield f"  situation: {context_text(failure.context)}"
+    yield f"  situation: {situation_text(failure.context)}"
     yield f"  executed:  {_listed(failure.observed.executed)}"
     yield f"  due:       {'a refusal, because the rules conflict' if expected.conflict else _listed(expected.due)}"
     for active in expected.active:

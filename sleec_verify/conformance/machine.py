@@ -11,9 +11,9 @@ from hypothesis.stateful import RuleBasedStateMachine, rule
 
 from sleec_runtime.model import Context, Value
 from sleec_verify.conformance import strategies
-from sleec_verify.conformance.failure import Nonconformance, difference
+from sleec_verify.conformance.failure import Nonconformance, difference, situation_text
 from sleec_verify.conformance.subject import Bench, Observed
-from sleec_verify.report.words import context_text, value_text
+from sleec_verify.report.words import value_text
 
 
 def state_machine(bench: Bench) -> type[RuleBasedStateMachine]:
@@ -44,7 +44,7 @@ def state_machine(bench: Bench) -> type[RuleBasedStateMachine]:
         def enter(self, context: Context) -> None:
             """A situation that the assumptions allow, as one change; and what it triggers."""
             self._running.enter(context)
-            self._steps.append(f"change to: {context_text(Context(frozenset(), context.conditions))}")
+            self._steps.append(f"change to: {situation_text(Context(frozenset(), context.conditions))}")
             self._trigger(sorted(context.triggers))
 
         @rule(names=some)

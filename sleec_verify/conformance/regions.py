@@ -28,6 +28,8 @@ from sleec_runtime.model import (
 LIMIT = 2**16
 """Contexts that a test goes through one by one; a rule with more is sampled. Sixteen conditions are within it."""
 
+BESIDE = Fraction(1, 1000)
+
 Given = tuple[str, tuple["Value | None", ...]]
 """A condition or measure and its values, the plainest first: False, or None for "not reported"."""
 
@@ -88,17 +90,32 @@ def values_of(measure: Measure, formulas: Sequence[Formula]) -> tuple[Value, ...
     return tuple(number_values(measure.kind, constants(formulas).get(measure.name, ()), max(1, len(group))))
 
 
-def givens(formulas: Sequence[Formula], measures: Mapping[str, Measure], unreported: bool = True) -> list[Given]:
+def beside(measure: Measure, formulas: Sequence[Formula]) -> tuple[Rational, ...]:
+    """Numbers just beside those that `measure` is compared with, in regions that `values_of` has: they tell whether
+    something is rounded on the way to the rules."""
+    if measure.kind != "number":
+        return ()
+    bounds = sorted(constants(formulas).get(measure.name, ()))
+    return tuple(Fraction(bound) + side for bound in bounds for side in (-BESIDE, BESIDE))
+
+
+def givens(
+    formulas: Sequence[Formula], measures: Mapping[str, Measure], unreported: bool = True, near: bool = False
+) -> list[Given]:
     """What `formulas` speak of, with the values to try: conditions, then measures, by name.
 
-    `unreported` adds that a measure has no value, in which case whatever compares with it is false.
+    `unreported` adds that a measure has no value, in which case whatever compares with it is false; `near` adds the
+    numbers `beside` the bounds.
     """
     atoms = {leaf.name for f in formulas for leaf in leaves(f) if isinstance(leaf, Atom) and leaf.kind == "condition"}
     compared = sorted({name for comparison in _comparisons(formulas) for name in measures_of(comparison)})
     none: tuple[None, ...] = (None,) if unreported else ()
     return [
         *((name, (False, True)) for name in sorted(atoms)),
-        *((name, (*none, *values_of(measures[name], formulas))) for name in compared),
+        *(
+            (name, (*none, *values_of(measures[name], formulas), *(beside(measures[name], formulas) if near else ())))
+            for name in compared
+        ),
     ]
 
 
