@@ -14,7 +14,6 @@ import time
 from pathlib import Path
 
 import click
-import pysat
 
 import sleec_runtime
 import sleec_verify
@@ -40,7 +39,7 @@ def measure(turns: int = TURNS) -> tuple[float, float]:
 
 
 def main() -> None:
-    for package in (sleec_runtime, sleec_verify, click, pysat):
+    for package in (sleec_runtime, sleec_verify, click):
         compileall.compile_dir(Path(str(package.__file__)).parent, quiet=1)
     empty, check = measure()
     print(f"python -c pass              {empty * 1000:7.1f} ms")

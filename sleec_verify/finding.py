@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, NamedTuple, Union
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Context, Span, Value
+    from sleec_runtime.model import Context, Source, Span, Value
 
 Severity = Literal["error", "warning", "note"]
 SEVERITIES: tuple[Severity, ...] = ("error", "warning", "note")
@@ -43,7 +43,8 @@ class Witness:
 class Finding:
     """One thing that a check found.
 
-    `span` is the place to look at first; `related` are further places with a word on each. `obligations` are those
+    `span` is the place to look at first; `related` are further places with a word on each. They are places of `source`,
+    or of the text of the rules where that is None. `obligations` are those
     at odds or concerned. `domains` are the domains in which it holds, if the ruleset has any.
     """
 
@@ -60,6 +61,7 @@ class Finding:
     help: str | None = None
     related: tuple[tuple[Span, str], ...] = ()
     domains: tuple[str, ...] = ()
+    source: Source | None = None
 
 
 @dataclass(frozen=True)
@@ -98,12 +100,3 @@ class CheckResult:
     @property
     def findings(self) -> tuple[Finding, ...]:
         return () if isinstance(self.verdict, Proved) else self.verdict.findings
-
-
-@dataclass(frozen=True)
-class Report:
-    """All that `check` says of one ruleset file: `results` in the order of the checks."""
-
-    path: str
-    results: tuple[CheckResult, ...]
-    extra: Mapping[str, object] = field(default_factory=dict)

@@ -3,7 +3,7 @@ but its values. Slow, short, and written to be obviously right."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations, pairwise, product
 
@@ -25,6 +25,7 @@ from sleec_runtime.model import (
     Ruleset,
     ScaleValue,
     Truth,
+    Value,
     formulas_of,
     leaves,
 )
@@ -165,7 +166,7 @@ def contexts(ruleset: Ruleset) -> Iterator[Context]:
                     yield context
 
 
-def _values(ruleset: Ruleset, name: str) -> list[object]:
+def _values(ruleset: Ruleset, name: str) -> Sequence[Value]:
     measure = ruleset.measures[name]
     if measure.kind == "scale":
         return list(measure.values)

@@ -21,6 +21,7 @@ from sleec_runtime.model import (
     Rule,
     Ruleset,
     ScaleValue,
+    Statement,
     Truth,
 )
 
@@ -78,12 +79,12 @@ def small_rulesets(draw, measures=False, constraints=True, assumptions=True, rul
         default = Clause(None, draw(responses), draw(st.lists(plain, max_size=1).map(tuple)) if nested else ())
         guard = draw(st.one_of(st.none(), st.none(), conditions))
         found.append(Rule(f"r{number}", draw(st.sampled_from(TRIGGERS)), guard, default, draw(chain)))
-    statements = list(MEASURES if measures else ())
+    statements: list[Statement] = list(MEASURES if measures else ())
     if constraints:
+        tied = draw(st.sampled_from(OBLIGATIONS).map(lambda name: Atom("obligation", name)))
         obligations = st.sampled_from(OBLIGATIONS).map(lambda name: Atom("obligation", name))
-        never = _formula(st.one_of(obligations, obligations, leaves), 2).map(lambda f: And((f, draw_once)))
+        never = _formula(st.one_of(obligations, obligations, leaves), 2).map(lambda f: And((f, tied)))
         exclusive = st.lists(st.sampled_from(OBLIGATIONS), min_size=2, max_size=3, unique=True)
-        draw_once = draw(obligations)
         statements += [Exclusive(tuple(names)) for names in draw(st.lists(exclusive, max_size=1))]
         statements += [Never(formula) for formula in draw(st.lists(never, max_size=2))]
     if assumptions:

@@ -106,7 +106,7 @@ ALL = [check_conflicts, check_vacuous, check_dead, check_redundant, check_readin
 
 @pytest.mark.parametrize("check", ALL)
 def test_boolean_rulesets(check):
-    @settings(max_examples=200, deadline=None)
+    @settings(max_examples=120, deadline=None)
     @given(BOOLEAN)
     def compare(ruleset):
         check(ruleset)
@@ -116,7 +116,7 @@ def test_boolean_rulesets(check):
 
 @pytest.mark.parametrize("check", ALL)
 def test_rulesets_with_measures(check):
-    @settings(max_examples=100, deadline=None)
+    @settings(max_examples=50, deadline=None)
     @given(MEASURED)
     def compare(ruleset):
         check(ruleset)

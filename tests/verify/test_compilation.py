@@ -11,7 +11,6 @@ import z3
 from hypothesis import given, settings
 
 from sleec_runtime.language import parse
-from sleec_runtime.model import MeasureRef, Obligation
 from sleec_verify.compilation import FORMS, compile_to, symbol
 from sleec_verify.compilation.clauses import encoded, variable_names
 from tests import brute
@@ -145,11 +144,3 @@ def test_numbers_of_smtlib_are_exact():
     solver = z3.Solver()
     solver.from_string(text)
     assert solver.check() == z3.sat
-
-
-def test_a_measure_may_be_compared_with_itself_only_where_it_makes_sense():
-    (rule,) = parse("WHEN t AND x <= x THEN o").rules
-    assert rule.guard.left == rule.guard.right == MeasureRef("x")
-    encoder = encoded(parse("WHEN t AND x < x THEN o"))
-    assert ("obligation", "o") in encoder.variables
-    assert Obligation("o") == Obligation("o", False)

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sleec_runtime import evaluation
-from sleec_runtime.model import Atom, Comparison, Obligation, Ruleset
+from sleec_runtime.model import Atom, Comparison, Obligation, Ruleset, leaves
 from sleec_verify.compilation import symbol
 from sleec_verify.compilation.clauses import encoded
 from sleec_verify.compilation.formulas import Translator, lines
@@ -50,11 +50,12 @@ def by_sympy(ruleset: Ruleset, context) -> frozenset[Obligation] | None:
     import sympy
     from sympy.logic.inference import satisfiable
 
-    values = {}
-    for kind, names in (("trigger", ruleset.triggers), ("condition", ruleset.conditions)):
-        for name in names:
-            true = brute.value(Atom(kind, name), context)
-            values[sympy.Symbol(symbol(ruleset, kind, name))] = sympy.true if true else sympy.false
+    atoms = [Atom("trigger", name) for name in ruleset.triggers]
+    atoms += [Atom("condition", name) for name in ruleset.conditions]
+    values = {
+        sympy.Symbol(symbol(ruleset, atom.kind, atom.name)): sympy.true if brute.value(atom, context) else sympy.false
+        for atom in atoms
+    }
     formula = sympy.And(*(line.formula.subs(values) for line in lines(ruleset)))
     if not satisfiable(formula):
         return None
@@ -169,5 +170,5 @@ def test_sympy_formulas_read_as_the_guards_do(ruleset):
     translate = Translator(ruleset)
     for rule in ruleset.rules:
         for _, guard, _ in implications(rule, ruleset.reading):
-            for leaf in brute.leaves(guard):
+            for leaf in leaves(guard):
                 assert isinstance(leaf, Comparison) or str(translate(leaf)) == leaf.name

@@ -55,7 +55,7 @@ UNLESS RiskLevel < r_low IN WHICH CASE AskToFinishFirst
 """
 
 
-def due(text: str, *triggers: str, reading: str | None = None, **conditions):
+def due(text, *triggers, reading=None, **conditions):
     ruleset = parse(text)
     if reading is not None:
         ruleset = ruleset.read_as(reading)

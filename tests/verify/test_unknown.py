@@ -9,6 +9,7 @@ from sleec_runtime.model import Context
 from sleec_verify import replay, solver
 from sleec_verify.checks import conflict, run_checks
 from sleec_verify.clashes import clashes
+from sleec_verify.cone import Cones
 from sleec_verify.entailment import entail
 from sleec_verify.finding import Proved, Refuted, Unknown
 from sleec_verify.solver import MiniSat, Undecided
@@ -46,7 +47,7 @@ def test_entail_does_not_guess_about_entangled_constraints():
 def test_a_never_of_too_many_cases_is_unknown():
     cases = " AND ".join(f"(A{n} OR B{n})" for n in range(13))
     with pytest.raises(Undecided):
-        clashes(parse(f"NEVER {cases}\nWHEN t THEN A0").constraints)
+        clashes(Cones(parse(f"NEVER {cases}\nWHEN t THEN A0")).constraints)
 
 
 def test_a_question_past_the_budget_is_unknown(monkeypatch):
@@ -82,6 +83,7 @@ def test_a_long_list_of_conflicts_says_that_it_is_cut(monkeypatch):
     (result,) = run_checks(parse("WHEN t THEN o\n" + "WHEN t THEN NOT o\n" * 5), ["conflict"])
     assert isinstance(result.verdict, Refuted)
     assert len(result.findings) == 2
+    assert result.reason is not None
     assert "first 2" in result.reason
 
 

@@ -1,0 +1,169 @@
+"""Single facts about the checks and the answers that the comparisons with brute force do not pin down."""
+
+from __future__ import annotations
+
+import pytest
+
+from sleec_runtime.language import parse
+from sleec_runtime.model import Context, Obligation
+from sleec_verify.checks import run_checks
+from sleec_verify.entailment import Definition1, entail
+from sleec_verify.finding import ClauseRef
+
+
+def found(text, check):
+    (result,) = run_checks(parse(text), [check])
+    return result.findings
+
+
+def test_definition_1_of_one_obligation():
+    definition = Definition1(parse("WHEN t THEN o AND NOT p\nWHEN u THEN p\nWHEN v THEN q"))
+    assert definition.entails(Context(frozenset("t")), Obligation("o"))
+    assert definition.entails(Context(frozenset("t")), Obligation("p", negated=True))
+    assert not definition.entails(Context(frozenset("t")), Obligation("p"))
+    assert not definition.entails(Context(frozenset("t")), Obligation("q"))
+    assert not definition.entails(Context(frozenset("t")), Obligation("nobody says this"))
+    assert definition.entails(Context(frozenset("tu")), Obligation("q")), "to the letter, a conflict entails everything"
+    assert definition.entailed(Context(frozenset("tu"))) is None
+
+
+SCALES = "MEASURE a: low < middle < high\nMEASURE b: low < middle < high\n"
+
+
+@pytest.mark.parametrize("operator", ["<", "<=", "=", "!=", ">=", ">"])
+def test_scales_compared_with_one_another(operator):
+    ruleset = parse(f"{SCALES}WHEN t THEN o UNLESS a {operator} b IN WHICH CASE p")
+    values = ("low", "middle", "high")
+    for rank, a in enumerate(values):
+        for other, b in enumerate(values):
+            holds = {
+                "<": rank < other,
+                "<=": rank <= other,
+                "=": rank == other,
+                "!=": rank != other,
+                ">=": rank >= other,
+                ">": rank > other,
+            }[operator]
+            answer = entail(ruleset, Context(frozenset("t"), {"a": a, "b": b}))
+            assert answer.obligations == (("p",) if holds else ("o",))
+
+
+def test_scales_compared_with_one_another_have_a_witness():
+    text = SCALES + "WHEN t AND a < b THEN o\nWHEN t AND b < high THEN NOT o"
+    (finding,) = found(text, "conflict")
+    assert finding.witness.conditions == {"a": "low", "b": "middle"}
+    assert not found(text.replace("b < high", "a >= b"), "conflict")
+
+
+def test_whole_numbers_between_numbers_have_room_or_not():
+    text = "MEASURE n: integer\nMEASURE x: integer\nWHEN t AND x < n AND n < {} THEN o\nWHEN t AND x > 3 THEN NOT o"
+    assert not found(text.format(5), "conflict")
+    (finding,) = found(text.format(6), "conflict")
+    assert finding.witness.conditions == {"n": 5, "x": 4}
+
+
+def test_a_value_between_two_near_constants_is_shown():
+    (finding,) = found("WHEN t AND x > 0.25 AND x < 0.26 THEN o AND NOT o", "conflict")
+    assert 0.25 < finding.witness.conditions["x"] < 0.26
+
+
+def test_everything_declared_and_unused_is_noted():
+    text = (
+        "TRIGGER t, u\nCONDITION c\nOBLIGATION o, p\nMEASURE m: number\nMEASURE n: number\n"
+        "CONSTANT k = 1\nCONSTANT l = k\nCONSTANT j = 2\nNEVER o AND p AND n > 1\nASSUME NOT (t AND n > l)\n"
+        "WHEN t THEN o"
+    )
+    messages = [finding.message for finding in found(text, "unused-name")]
+    assert messages == [
+        "the trigger u is declared and never used",
+        "the condition c is declared and never used",
+        "the measure m is declared and never used",
+        "the constant j is declared and never used",
+        "a constraint names p, but no rule obliges or forbids it",
+    ]
+
+
+def test_an_exclusive_of_what_nobody_obliges_is_noted():
+    (finding,) = found("EXCLUSIVE o, q\nWHEN t THEN o", "unused-name")
+    assert finding.code == "SLEEC502"
+    assert finding.obligations == ("q",)
+
+
+def test_a_name_of_two_kinds_names_the_rules_that_hold_it():
+    (finding,) = found("RULE a WHEN s THEN Alarm\nRULE b WHEN Alarm THEN c", "trigger-obligation")
+    assert finding.rules == ("a", "b")
+
+
+def test_one_finding_for_one_set_of_clauses_whatever_is_at_odds():
+    (finding,) = found("RULE a WHEN t THEN o AND p\nRULE b WHEN u THEN NOT o AND NOT p", "conflict")
+    assert finding.obligations == ("o", "p")
+    assert finding.clauses == (ClauseRef("a", 0), ClauseRef("b", 0))
+
+
+def test_a_rule_at_odds_with_itself():
+    (finding,) = found("RULE a WHEN t THEN o UNLESS c IN WHICH CASE (p AND NOT p)", "conflict")
+    assert finding.clauses == (ClauseRef("a", 1),)
+    assert finding.message == "hedge 1 of a cannot be kept: p is due and forbidden at once"
+
+
+def test_constraints_that_cannot_be_kept_whatever_the_rules_say():
+    text = "CONDITION c\nNEVER o AND c\nNEVER NOT o AND c\nWHEN t THEN p"
+    (finding,) = found(text, "conflict")
+    assert finding.rules == ()
+    assert finding.witness.conditions == {"c": True}
+    assert "lines 2" not in finding.message
+    assert "NEVER of line 2 and the NEVER of line 3" in finding.message
+
+
+def test_the_note_on_a_dead_hedge_says_which_kind_it_is():
+    (one,) = found("WHEN t THEN o UNLESS x < 1 AND x > 2 IN WHICH CASE p", "dead-hedge")
+    assert one.note == "its condition can never be true"
+    (two,) = found("WHEN t THEN o UNLESS a IN WHICH CASE p UNLESS NOT a IN WHICH CASE q", "dead-hedge")
+    assert two.note.startswith("its condition can be true")
+
+
+def test_a_redundant_rule_names_what_covers_it():
+    text = "RULE a WHEN t THEN o AND p\nRULE b WHEN t THEN o\nRULE c WHEN t THEN p\nRULE d WHEN t THEN o"
+    by_rule = {finding.rules[0]: finding.rules[1:] for finding in found(text, "redundant-rule")}
+    assert by_rule["b"] in {("a",), ("d",)}
+    assert set(by_rule) == {"a", "b", "c", "d"}
+    assert "c" in by_rule["a"]
+
+
+def test_the_reading_that_the_text_states_is_named():
+    text = "WHEN t THEN o UNLESS a IN WHICH CASE p UNLESS b IN WHICH CASE q"
+    (silent,) = found(text, "reading")
+    assert "READING cascade" in silent.help
+    (stated,) = found(f"READING priority\n{text}", "reading")
+    assert "the text says READING priority" in stated.help
+
+
+def test_what_decides_is_told_in_both_readings_and_in_nested_chains():
+    text = "RULE r WHEN t AND g THEN o UNLESS a IN WHICH CASE (p UNLESS b IN WHICH CASE q) UNLESS c IN WHICH CASE s"
+    context = Context(frozenset("t"), {"g": True, "a": True, "b": True})
+    (because,) = entail(parse(text), context).because
+    assert (because.clause, because.layer) == (2, "r.hc2")
+    assert [(d.clause, d.truth) for d in because.decisions] == [(None, True), (1, True), (2, True), (3, False)]
+    (because,) = entail(parse(f"READING priority\n{text}"), context).because
+    assert [(d.clause, d.truth) for d in because.decisions] == [(None, True), (1, True), (2, True), (3, False)]
+
+
+def test_a_chain_inside_the_default_decides_too():
+    text = "RULE r WHEN t THEN (o UNLESS b IN WHICH CASE q) UNLESS a IN WHICH CASE p"
+    (because,) = entail(parse(text), Context(frozenset("t"), {"b": True})).because
+    assert (because.clause, because.obligations) == (1, ("q",))
+    assert [(d.clause, d.truth) for d in because.decisions] == [(1, True), (2, False)]
+
+
+def test_a_situation_that_cannot_be_says_so():
+    answer = entail(parse("ASSUME NOT (t AND c)\nWHEN t THEN o"), Context(frozenset("t"), {"c": True}))
+    assert len(answer.broken_assumptions) == 1
+    assert answer.obligations == ("o",)
+
+
+def test_measures_that_matter_and_are_not_given_are_named():
+    answer = entail(
+        parse("WHEN t THEN o UNLESS x < 1 IN WHICH CASE p\nWHEN u AND y < 1 THEN q"), Context(frozenset("t"))
+    )
+    assert answer.missing == ("x",)
+    assert answer.obligations == ("o",)
