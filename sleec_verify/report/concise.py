@@ -15,15 +15,16 @@ if TYPE_CHECKING:
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """A line for each finding and each check without a verdict, in the order of the rulesets and their texts."""
     for outcome in checked(outcomes):
-        source = outcome.ruleset.source
+        rules = outcome.ruleset.source
         for finding in outcome.findings:
+            source = finding.source or rules
             place = source.place(finding.span)
             label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
             yield f"{source.path}:{place.line}:{place.column}: {label} {finding.message}\n"
         for name, why in outcome.unlisted:
-            yield f"{source.path}: {palette('note', f'note[{name}]')} {why}\n"
+            yield f"{rules.path}: {palette('note', f'note[{name}]')} {why}\n"
         for name, why in outcome.undecided:
-            yield f"{source.path}: {palette('unknown', f'unknown[{name}]')} {why}\n"
+            yield f"{rules.path}: {palette('unknown', f'unknown[{name}]')} {why}\n"
     counts = ", ".join(counted(number, severity) for severity, number in tally(outcomes).items())
     readings = sorted({outcome.ruleset.reading for outcome in checked(outcomes)})
     read_as = f" (reading {listed(readings)})" if readings else ""

@@ -22,7 +22,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     for outcome in checked(outcomes):
         source = outcome.ruleset.source
         for finding in outcome.findings:
-            yield from (line + "\n" for line in finding_lines(finding, source, palette))
+            yield from (line + "\n" for line in finding_lines(finding, finding.source or source, palette))
             yield "\n"
         for name, why in outcome.unlisted:
             yield f"{source.path}: {palette('note', f'note[{name}]')} {why}\n\n"

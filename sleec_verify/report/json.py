@@ -49,7 +49,7 @@ def _ruleset(outcome: Outcome) -> Json:
         "rules": len(ruleset.rules),
         "hedges": outcome.hedges,
         "checks": [_check(result) for result in outcome.results],
-        "findings": [finding_json(finding, ruleset.source) for finding in outcome.findings],
+        "findings": [finding_json(finding, finding.source or ruleset.source) for finding in outcome.findings],
     }
 
 
@@ -82,6 +82,7 @@ def finding_json(finding: Finding, source: Source) -> dict[str, Json]:
         "related": [{"span": span_json(span, source), "message": word} for span, word in finding.related],
         "note": finding.note,
         "help": finding.help,
+        **({} if finding.source is None else {"path": finding.source.path}),
     }
 
 

@@ -21,9 +21,9 @@ class Checked(NamedTuple):
 
     @property
     def findings(self) -> list[Finding]:
-        """All findings, in the order of the text; at one place, the gravest first."""
+        """All findings, in the order of the texts, that of the rules first; at one place, the gravest first."""
         found = (finding for result in self.results for finding in result.findings)
-        return sorted(found, key=lambda f: (f.span, SEVERITIES.index(f.severity), f.code))
+        return sorted(found, key=lambda f: (_path(f), f.span, SEVERITIES.index(f.severity), f.code))
 
     @property
     def undecided(self) -> list[tuple[str, str]]:
@@ -39,6 +39,10 @@ class Checked(NamedTuple):
     def hedges(self) -> int:
         """How many hedge clauses the rules have."""
         return sum(sum(1 for _ in rule.clauses()) - 1 for rule in self.ruleset.rules)
+
+
+def _path(finding: Finding) -> str:
+    return "" if finding.source is None else finding.source.path
 
 
 class Unusable(NamedTuple):

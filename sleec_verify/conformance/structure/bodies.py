@@ -1,0 +1,92 @@
+"""A variant against its clause: does it do exactly what the clause obliges, in order, for certain?"""
+
+from __future__ import annotations
+
+from sleec_runtime.model import Rule
+from sleec_runtime.obligations import snake_case
+from sleec_verify.checks.base import listed
+from sleec_verify.conformance.structure.methods import Variant
+from sleec_verify.conformance.structure.report import Findings, clause_name
+from sleec_verify.conformance.structure.trace import Call, Trace
+from sleec_verify.finding import ClauseRef
+
+
+def compare(findings: Findings, rule: Rule, number: int, variant: Variant, trace: Trace) -> None:
+    """Reports every difference between what a variant does and what clause `number` of its rule obliges."""
+    clause = tuple(rule.clauses())[number]
+    due = [literal.name for literal in clause.obligations if not literal.negated]
+    prohibited = {literal.name for literal in clause.obligations if literal.negated}
+    reference = ClauseRef(rule.label, number)
+    where = clause_name(rule, number)
+    note = findings.obliged(rule, number)
+    for node, file in trace.proceeds:
+        findings.add(
+            "proceed",
+            f"proceed() in a variant of {where} runs the base as well",
+            (file, node),
+            clause=reference,
+            note=note,
+            help="call what implements the obligations of the clause",
+        )
+    for doubt in trace.doubts:
+        findings.undecided(doubt.file, doubt.node, doubt.why)
+    left = list(due)
+    if len(set(due)) < len(due) and sorted(trace.executed) != sorted(due):
+        left = list(dict.fromkeys(due))  # named twice, and executed once
+    in_order: list[Call] = []
+    for call in trace.calls:
+        name = call.obligation
+        at = (call.file, call.node)
+        if name in prohibited:
+            message = f"{name} is executed, and {where} prohibits it"
+            findings.add("prohibited-obligation", message, at, clause=reference, obligations=(name,), note=note)
+        elif name not in due:
+            message = f"{name} is executed, and {where} does not oblige it"
+            findings.add("extra-obligation", message, at, clause=reference, obligations=(name,), note=note)
+        elif name not in left:
+            message = f"{name} is executed once more than {where} obliges it"
+            findings.add("extra-obligation", message, at, clause=reference, obligations=(name,), note=note)
+        else:
+            left.remove(name)
+            in_order.append(call)
+            if call.why is not None:
+                findings.add(
+                    "conditional-obligation",
+                    f"{name} may not be executed just once: its call is {call.why}",
+                    at,
+                    clause=reference,
+                    obligations=(name,),
+                    note=note,
+                    help="call it unconditionally; what decides is the rule's to say",
+                )
+    _order(findings, rule, number, in_order, due)
+    if left and not trace.doubts:
+        unfollowed = ", ".join(dict.fromkeys(trace.unfollowed))
+        findings.add(
+            "missing-obligation",
+            f"{listed(left)} {'is' if len(left) == 1 else 'are'} not executed, and {where} obliges "
+            f"{'it' if len(left) == 1 else 'them'}",
+            (variant.function.file, variant.function.node),
+            clause=reference,
+            obligations=tuple(left),
+            note=note,
+            help=f"if {unfollowed} executes it, name the folder that holds its code as the target"
+            if unfollowed
+            else f"call {listed(f'{snake_case(name)}()' for name in left)}",
+        )
+
+
+def _order(findings: Findings, rule: Rule, number: int, calls: list[Call], due: list[str]) -> None:
+    places = [due.index(call.obligation) for call in calls]
+    for before, after, call in zip(places, places[1:], calls[1:]):
+        if after < before:
+            findings.add(
+                "obligation-order",
+                f"{call.obligation} is executed after {due[before]}, and {clause_name(rule, number)} has it before",
+                (call.file, call.node),
+                clause=ClauseRef(rule.label, number),
+                obligations=(call.obligation, due[before]),
+                note=findings.obliged(rule, number),
+                help="swap the calls, or the obligations in the rule",
+            )
+            return

@@ -1,0 +1,228 @@
+"""A method against its rule: is there one variant for each clause, bound to its layer?"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from sleec_runtime.language.suggest import nearest
+from sleec_runtime.model import Rule
+from sleec_verify.conformance.structure.bodies import compare
+from sleec_verify.conformance.structure.methods import Method, Variant
+from sleec_verify.conformance.structure.program import Function
+from sleec_verify.conformance.structure.report import Findings, clause_name, expression
+from sleec_verify.conformance.structure.trace import Trace, Tracer
+from sleec_verify.conformance.structure.values import Layer, OwnLayer, Value
+from sleec_verify.finding import ClauseRef
+
+
+@dataclass(eq=False)
+class Unit:
+    """A variant with what it does. `wrong`, for one that stands for no clause: the kind of finding and its message."""
+
+    variant: Variant
+    trace: Trace
+    wrong: tuple[str, str] | None = None
+    hint: str | None = None
+
+
+@dataclass
+class MethodCheck:
+    """One method and one rule that it is for."""
+
+    method: Method
+    rule: Rule
+    labels: list[str]
+    layers: Mapping[str, tuple[str, int]]
+    tracer: Tracer
+    findings: Findings
+    by_hand: bool
+    """Whether the layers are activated globally, so that a hedge without a variant runs the base."""
+    units: dict[int, Unit] = field(default_factory=dict)
+    strays: list[Unit] = field(default_factory=list)
+    unknown_layers: bool = False
+
+    def run(self) -> None:
+        self._sort()
+        expected = {number: self._positive(number) for number, _ in enumerate(self.rule.clauses())}
+        missing = [number for number in expected if number not in self.units and self._needed(number)]
+        for unit in self.strays:
+            meant = self._meant(unit, missing, expected)
+            self._stray(unit, meant)
+            if meant is not None:
+                missing.remove(meant)
+                compare(self.findings, self.rule, meant, unit.variant, unit.trace)
+        self._missing(missing)
+        for number, unit in self.units.items():
+            other = self._clause_of(unit, number, expected)
+            if other is not None:
+                self._wrong_layer(unit, number, other)
+            else:
+                compare(self.findings, self.rule, number, unit.variant, unit.trace)
+
+    # Which variant is for which clause ------------------------------------------------------------------
+
+    def _sort(self) -> None:
+        """Gives each clause the variant that runs for it; the others are strays."""
+        for group in self.method.groups:
+            here: dict[int, Unit] = {}
+            for variant in group.variants:
+                if variant.kind in ("before", "after"):
+                    continue
+                number, wrong, hint = self._number(variant)
+                unit = Unit(variant, self._trace(variant, group.variants), wrong, hint)
+                if number is None:
+                    if wrong is not None:
+                        self.strays.append(unit)
+                elif number in here:
+                    # Of bases the first counts, of variants on a layer the last.
+                    stray = unit if variant.is_base else here[number]
+                    here[number] = here[number] if variant.is_base else unit
+                    again = f"{clause_name(self.rule, number)} has another variant, on line "
+                    line = getattr(here[number].variant.function.node, "lineno", 0)
+                    stray.wrong = ("duplicate-variant", again + f"{line}, and that is the one that runs")
+                    self.strays.append(stray)
+                else:
+                    here[number] = unit
+            for number, unit in here.items():
+                self.units.setdefault(number, unit)
+
+    def _number(self, variant: Variant) -> tuple[int | None, tuple[str, str] | None, str | None]:
+        """The clause that a variant stands for; or else what is wrong with its layer, and what may be meant."""
+        layer: Value | None = variant.layer
+        if variant.is_base:
+            return 0, None, None
+        if layer is None:
+            word = "is bound to no layer" if not variant.bare else f"has an @{variant.kind} that was not called"
+            return None, ("no-layer", f"this variant of {self.method.name} {word}"), None
+        if isinstance(layer, OwnLayer):
+            word = "is bound to a layer that is no rule's"
+            return None, ("unknown-layer", f"this variant of {self.method.name} {word}"), None
+        if not isinstance(layer, Layer):
+            self.unknown_layers = True
+            return None, None, None
+        if layer.name not in self.layers:
+            near = nearest(layer.name, [*(n for n in self._own_layers()), *self.layers])
+            hint = (
+                f"did you mean {near}?" if near else f"{self.rule.label} has {', '.join(self._own_layers()) or 'none'}"
+            )
+            return None, ("unknown-layer", f"the rules have no layer {layer.name}"), hint
+        label, number = self.layers[layer.name]
+        if label == self.rule.label:
+            return number, None, None
+        if label in self.labels:
+            return None, None, None  # of another rule that this method is for too
+        word = f"{layer.name} is a layer of rule {label}, and this is the method of {self.rule.label}"
+        return None, ("foreign-layer", word), None
+
+    def _own_layers(self) -> list[str]:
+        names = (self.rule.layer(number) for number, _ in enumerate(self.rule.clauses()))
+        return [name for name in names if name is not None]
+
+    def _trace(self, variant: Variant, around: list[Variant]) -> Trace:
+        """What a variant does with the advice of its layer: what stands below it in the text runs around it."""
+        trace = self._one(variant)
+        place = around.index(variant)
+        for advice in around[place + 1 :]:
+            same = (advice.layer is None and variant.layer is None) or (
+                advice.layer is not None and advice.layer == variant.layer
+            )
+            if advice.kind in ("before", "after") and same:
+                more = self._one(advice)
+                first, second = (more, trace) if advice.kind == "before" else (trace, more)
+                trace = Trace(
+                    first.calls + second.calls,
+                    first.doubts + second.doubts,
+                    first.proceeds + second.proceeds,
+                    first.unfollowed + second.unfollowed,
+                )
+        return trace
+
+    def _one(self, variant: Variant) -> Trace:
+        def inherited(reached: Function) -> Function | None:
+            for group in self.method.groups:
+                if reached.owner is not None and group.scope is reached.owner.inner:
+                    same = [v for v in group.variants if v.layer == variant.layer and v.kind in ("around", "base")]
+                    return same[-1].function if same else None
+            return None
+
+        return self.tracer.trace(variant.function, self.method.class_, inherited)
+
+    # What follows ---------------------------------------------------------------------------------------
+
+    def _positive(self, number: int) -> list[str]:
+        clause = tuple(self.rule.clauses())[number]
+        return list(dict.fromkeys(literal.name for literal in clause.obligations if not literal.negated))
+
+    def _needed(self, number: int) -> bool:
+        """Whether there must be a variant: where nothing is obliged, the dispatch runs nothing by itself, but under
+        global activation the base would run."""
+        return bool(self._positive(number)) or (number > 0 and self.by_hand)
+
+    def _meant(self, unit: Unit, missing: list[int], expected: dict[int, list[str]]) -> int | None:
+        """The clause without a variant that a stray is for: the one it is spelled like, or does the obligations of."""
+        if unit.hint is not None:
+            for number in missing:
+                if f"did you mean {self.rule.layer(number)}?" == unit.hint:
+                    return number
+        return next((number for number in missing if expected[number] == unit.trace.executed), None)
+
+    def _stray(self, unit: Unit, meant: int | None) -> None:
+        assert unit.wrong is not None, "a stray says what is wrong with it"
+        kind, message = unit.wrong
+        file, at = unit.variant.function.file, unit.variant.at
+        note = None
+        if meant is not None:
+            if kind == "duplicate-variant":
+                kind = "wrong-layer"
+            note = f"it does what {self.findings.obliged(self.rule, meant)}"
+        hint = unit.hint or (f"bind it by {expression(self.rule, meant)}" if meant is not None else None)
+        clause = None if meant is None else ClauseRef(self.rule.label, meant)
+        self.findings.add(kind, message, (file, at), rules=(self.rule.label,), clause=clause, note=note, help=hint)
+
+    def _missing(self, missing: list[int]) -> None:
+        if not missing:
+            return
+        first = self.method.variants[0]
+        if self.unknown_layers or any(group.lost for group in self.method.groups):
+            return  # each unknown layer, each lost variant is reported, and may be the one that is missing
+        if self.method.open and not self.method.marks and not any(v.is_base for v in self.method.variants):
+            self.findings.undecided(
+                first.function.file,
+                first.function.node,
+                f"the other variants of {self.method.name} may be inherited from a class that is not in the target",
+            )
+            return
+        for number in missing:
+            self.findings.add(
+                "missing-variant" if number else "missing-base",
+                f"{self.method.name}, the method of {self.rule.label}, has no variant for "
+                f"{clause_name(self.rule, number)}",
+                (first.function.file, first.function.node),
+                clause=ClauseRef(self.rule.label, number),
+                obligations=tuple(self._positive(number)),
+                note=self.findings.obliged(self.rule, number),
+                help=f"write one under {expression(self.rule, number)}",
+            )
+
+    def _clause_of(self, unit: Unit, number: int, expected: dict[int, list[str]]) -> int | None:
+        """The other clause that a variant does the obligations of, if that clause's own variant does not."""
+        executed = unit.trace.executed
+        if not executed or executed == expected[number] or any(call.why for call in unit.trace.calls):
+            return None
+        for other, names in expected.items():
+            own = self.units.get(other)
+            if names == executed and (own is None or own.trace.executed != names):
+                return other
+        return None
+
+    def _wrong_layer(self, unit: Unit, number: int, other: int) -> None:
+        self.findings.add(
+            "wrong-layer",
+            f"this variant is bound to {clause_name(self.rule, number)}, and does what "
+            f"{clause_name(self.rule, other)} obliges",
+            (unit.variant.function.file, unit.variant.at),
+            clause=ClauseRef(self.rule.label, number),
+            note=self.findings.obliged(self.rule, number),
+            help=f"bind it by {expression(self.rule, other)}",
+        )

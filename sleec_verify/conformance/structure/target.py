@@ -1,0 +1,185 @@
+"""From what was named as the target to the Python files that it means, each read and parsed, none of them run."""
+
+from __future__ import annotations
+
+import ast
+import os
+import re
+import sys
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from sleec_runtime.errors import LanguageError, Problem, SleecError, UnreadableFile
+from sleec_runtime.language.source import tidy
+from sleec_runtime.model import Source, Span
+
+SUFFIX = ".py"
+_HEAD = re.compile(r"(?:async\s+)?(?:def|class)\s+\w+")
+_NOT_THE_DEVELOPERS = {"__pycache__", "node_modules", "site-packages"}
+
+
+class NoTarget(SleecError):
+    """Nothing that could be read as Python: no such file, folder or module, or no Python in it."""
+
+
+class NotPython(LanguageError):
+    """A file that is no Python, with the place where it stops being one."""
+
+
+@dataclass(frozen=True, eq=False)
+class PythonFile:
+    """A file of the target. `parts` are the absolute path's, without the suffix: the module's name is their end."""
+
+    source: Source
+    tree: ast.Module
+    parts: tuple[str, ...]
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        starts = [0]
+        for line in self.source.text.split("\n"):
+            starts.append(starts[-1] + len(line) + 1)
+        return starts
+
+    def offset(self, line: int, column: int) -> int:
+        """The offset of a place as `ast` gives it: lines from 1, columns in bytes of UTF-8."""
+        start = self._line_starts[line - 1]
+        text = self.source.text[start : self._line_starts[line] - 1]
+        return start + (column if text.isascii() else len(text.encode()[:column].decode(errors="ignore")))
+
+    def span(self, node: ast.AST) -> Span:
+        """Where a node stands; of a definition, `def` and its name."""
+        start = self.offset(node.lineno, node.col_offset)  # type: ignore[attr-defined]
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+            head = _HEAD.match(self.source.text, start)
+            assert head is not None, "a definition begins with its keyword"
+            return Span(start, head.end())
+        return Span(start, self.offset(node.end_lineno, node.end_col_offset))  # type: ignore[attr-defined]
+
+
+def python_files(target: str) -> tuple[PythonFile, ...]:
+    """The files of a target: a file, a folder (every ``*.py`` below it), or a module's or package's name.
+
+    Raises:
+        NoTarget: there is no such thing, or no Python in it.
+        UnreadableFile: a file is forbidden, or not text in the encoding that it declares.
+        NotPython: a file does not parse.
+    """
+    paths = list(_paths(target))
+    if not paths:
+        raise NoTarget(f"there is no {SUFFIX} file below {target}", "name the folder that holds the robot's code")
+    return tuple(_read(path) for path in paths)
+
+
+def _paths(target: str) -> Iterator[str]:
+    if os.path.isdir(target):
+        yield from _below(target)
+    elif os.path.exists(target) or target.endswith(SUFFIX) or os.path.basename(target) != target:
+        yield target
+    else:
+        yield from _module(target)
+
+
+def _below(folder: str) -> Iterator[str]:
+    """Every Python file of the developer's own: hidden folders and virtual environments are left out."""
+    for parent, folders, names in os.walk(folder):
+        folders[:] = sorted(
+            name
+            for name in folders
+            if name not in _NOT_THE_DEVELOPERS
+            and not name.startswith(".")
+            and not os.path.exists(os.path.join(parent, name, "pyvenv.cfg"))
+        )
+        yield from (os.path.join(parent, name) for name in sorted(names) if name.endswith(SUFFIX))
+
+
+def _module(name: str) -> Iterator[str]:
+    """The files of a module on sys.path. Its parents are looked into, not imported, as importlib.util would."""
+    from importlib.machinery import PathFinder, SourceFileLoader
+
+    where = ["", *sys.path]
+    spec = None
+    for done, part in enumerate(name.split("."), 1):
+        try:
+            spec = PathFinder.find_spec(part, where)
+        except (ImportError, ValueError):
+            spec = None
+        if spec is None:
+            missing = ".".join(name.split(".")[:done])
+            raise NoTarget(
+                f"there is no file or folder {name}, and no module {missing} on sys.path",
+                "name a Python file or a folder, or set PYTHONPATH so that the module is found",
+            )
+        where = list(spec.submodule_search_locations or ())
+    assert spec is not None, "a name has at least one part"
+    if where:
+        for folder in where:
+            yield from _below(_shortest(folder))
+    elif isinstance(spec.loader, SourceFileLoader) and spec.origin is not None:
+        yield _shortest(spec.origin)
+    else:
+        raise NoTarget(f"module {name} has no Python source", "name the file or folder of its source")
+
+
+def _shortest(path: str) -> str:
+    """A path as people would write it from where they are."""
+    try:
+        relative = os.path.relpath(path)
+    except ValueError:  # another drive
+        return path
+    return path if relative.startswith(os.pardir) else relative
+
+
+def _read(path: str) -> PythonFile:
+    source = _source(path)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of the developer's escapes and the like
+            tree = ast.parse(source.text, path)
+    except SyntaxError as error:
+        raise NotPython(source, [_problem(source, error)]) from None
+    except (RecursionError, MemoryError):
+        raise UnreadableFile(f"{path} is nested too deeply to be read") from None
+    absolute = os.path.abspath(path).removesuffix(SUFFIX)
+    parts = tuple(part for part in absolute.split(os.sep) if part)
+    return PythonFile(source, tree, parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def _problem(source: Source, error: SyntaxError) -> Problem:
+    lines = source.text.split("\n")
+    line = min(max(error.lineno or 1, 1), len(lines))
+    start = sum(len(before) + 1 for before in lines[: line - 1])
+    column = min(max((error.offset or 1) - 1, 0), len(lines[line - 1]))
+    word = f"this is no Python {sys.version_info.major}.{sys.version_info.minor}: {error.msg}"
+    return Problem(word, Span(start + column, min(start + column + 1, len(source.text))))
+
+
+def _source(path: str) -> Source:
+    from hashlib import sha256
+    from io import BytesIO
+    from tokenize import detect_encoding
+
+    try:
+        with open(path, "rb") as file:
+            data = file.read()
+    except FileNotFoundError:
+        raise NoTarget(f"there is no file {path}", "check the spelling of its name and folder") from None
+    except (OSError, ValueError) as error:
+        raise UnreadableFile(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    try:
+        encoding, _ = detect_encoding(BytesIO(data).readline)
+        text = data.decode(encoding)
+    except SyntaxError as error:  # a cookie that names no encoding, or bytes that are not UTF-8 in the first lines
+        raise UnreadableFile(f"{path} cannot be read: {error.msg}", "mend its `# -*- coding` line") from None
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise UnreadableFile(
+            f"{path} is not {error.encoding} text: line {line} holds the byte 0x{data[error.start]:02x}",
+            "save it as UTF-8, or say its encoding in the first line: # -*- coding: latin-1 -*-",
+        ) from None
+    if "\0" in text:
+        line = text.count("\n", 0, text.index("\0")) + 1
+        raise UnreadableFile(f"{path} is not a text of Python: line {line} holds a NUL byte")
+    return Source(path, tidy(text), sha256(data).hexdigest())

@@ -1,0 +1,358 @@
+"""What a variant executes: the obligations whose implementations it calls, in order, and how sure that is."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from sleec_verify.conformance.structure.control import Flow, is_generator
+from sleec_verify.conformance.structure.methods import HARMLESS
+from sleec_verify.conformance.structure.names import Names
+from sleec_verify.conformance.structure.program import DEFS, Class, Function, Scope
+from sleec_verify.conformance.structure.resolve import Resolver
+from sleec_verify.conformance.structure.target import PythonFile
+from sleec_verify.conformance.structure.values import (
+    Api,
+    ClassOf,
+    Code,
+    Environment,
+    Mark,
+    Marked,
+    Object,
+    ObligationMark,
+    Outside,
+    Unknown,
+    Value,
+)
+
+_MOST_CALLS = 2_000
+REPLACERS = {f"builtins.{name}" for name in ("exec", "eval", "compile", "__import__", "globals", "locals", "vars")}
+
+
+class Call(NamedTuple):
+    """A call of what implements an obligation. `why` says why it may not be executed exactly once; None if it is."""
+
+    obligation: str
+    node: ast.AST
+    file: PythonFile
+    why: str | None
+
+
+class Doubt(NamedTuple):
+    """A place that cannot be decided without running the program."""
+
+    node: ast.AST
+    file: PythonFile
+    why: str
+
+
+@dataclass
+class Trace:
+    """What one variant does. `unfollowed` are calls of inherited or imported code that is not in the target."""
+
+    calls: list[Call] = field(default_factory=list)
+    doubts: list[Doubt] = field(default_factory=list)
+    proceeds: list[tuple[ast.AST, PythonFile]] = field(default_factory=list)
+    unfollowed: list[str] = field(default_factory=list)
+
+    @property
+    def executed(self) -> list[str]:
+        """The obligations that are executed for certain, in order."""
+        return [call.obligation for call in self.calls if call.why is None]
+
+
+class Tracer:
+    """Follows variants. `followed` maps each function that was entered to the obligations executed in it;
+    `implementations` are functions that were called as an obligation's."""
+
+    def __init__(self, resolver: Resolver, names: Names, rule_methods: Callable[[Function], bool]) -> None:
+        self.resolver = resolver
+        self.names = names
+        self.is_rule_method = rule_methods
+        self.followed: dict[Function, set[str]] = {}
+        self.implementations: dict[Function, str] = {}
+        self.by_name: set[str] = set()
+
+    def trace(
+        self,
+        function: Function,
+        class_: Class | None,
+        inherited: Callable[[Function], Function | None] = lambda _: None,
+    ) -> Trace:
+        """What `function` executes as a method of an object of `class_`. `inherited` gives, for the method that
+        `super()` leads to, the variant of the same layer."""
+        run = _Run(self, Trace(), inherited)
+        receiver = Object(class_) if class_ is not None else None
+        own = self.names.mark(function)
+        if own is not None:
+            run.execute(own, function.node, function.file, None)
+        run.enter(function, run.arguments(function, receiver, None, None, {}), None)
+        calls = run.trace.calls
+        if own is not None:
+            # Executed within itself, an obligation is executed once.
+            run.trace.calls = calls[:1] + [call for call in calls[1:] if call.obligation != own]
+        return run.trace
+
+
+class _Run:
+    """One variant under way."""
+
+    def __init__(self, tracer: Tracer, trace: Trace, inherited: Callable[[Function], Function | None]) -> None:
+        self.tracer = tracer
+        self.resolver = tracer.resolver
+        self.names = tracer.names
+        self.trace = trace
+        self.inherited = inherited
+        self.stack: list[Function] = []
+        self.entered = 0
+
+    # Functions ------------------------------------------------------------------------------------------
+
+    def enter(self, function: Function, given: Environment, why: str | None) -> None:
+        """Follows the body of a function."""
+        if function in self.stack:
+            return self.doubt(function.node, function.file, f"{function.name} calls itself")
+        self.entered += 1
+        if self.entered > _MOST_CALLS:
+            if self.entered == _MOST_CALLS + 1:
+                self.doubt(function.node, function.file, "the calls from here are too many to follow")
+            return None
+        if is_generator(function.node):
+            why = why or "in a generator, which runs only as far as it is asked to"
+        before = len(self.trace.calls)
+        self.stack.append(function)
+        self.tracer.followed.setdefault(function, set())
+        body = _Body(self, function, given)
+        body.statements(function.node.body, why)
+        body.finish()
+        self.stack.pop()
+        executed = {call.obligation for call in self.trace.calls[before:]}
+        for outer in (function, *self.stack):
+            self.tracer.followed[outer] |= executed
+        return None
+
+    def arguments(
+        self, function: Function, receiver: Value | None, call: ast.Call | None, scope: Scope | None, given: Environment
+    ) -> dict[str, Value]:
+        """What the parameters are worth, as far as the call says."""
+        parameters = [arg.arg for arg in function.parameters]
+        found: dict[str, Value] = {}
+        made = {self.resolver.of(node, function.scope) for node in function.node.decorator_list}
+        if receiver is not None and function.owner is not None and Api("builtins.staticmethod") not in made:
+            if parameters:
+                found[parameters[0]] = receiver
+            parameters = parameters[1:]
+        if call is not None and scope is not None:
+            plain = not any(isinstance(arg, ast.Starred) for arg in call.args)
+            for name, arg in zip(parameters, call.args if plain else ()):
+                found[name] = self.resolver.of(arg, scope, given)
+            for keyword in call.keywords:
+                if keyword.arg is not None:
+                    found[keyword.arg] = self.resolver.of(keyword.value, scope, given)
+        bindings = function.inner.bindings
+        return {name: value for name, value in found.items() if len(bindings.get(name, ())) == 1}
+
+    # What is found --------------------------------------------------------------------------------------
+
+    def execute(self, obligation: str, node: ast.AST, file: PythonFile, why: str | None) -> None:
+        if obligation in self.names.obligations:
+            self.trace.calls.append(Call(obligation, node, file, why))
+
+    def doubt(self, node: ast.AST, file: PythonFile, why: str) -> None:
+        self.trace.doubts.append(Doubt(node, file, why))
+
+
+class _Body(Flow):
+    """One function's body, in one call of it."""
+
+    def __init__(self, run: _Run, function: Function, given: Environment) -> None:
+        self.run = run
+        self.function = function
+        self.given = given
+        self.scopes: list[Scope] = [function.inner]
+        self.file = function.file
+        self.pending: list[tuple[Function, list[Call]]] = []
+
+    def value(self, node: ast.expr) -> Value:
+        return self.run.resolver.of(node, self.scopes[-1], self.given)
+
+    def suppresses(self, node: ast.expr) -> bool:
+        return isinstance(node, ast.Call) and self.value(node.func) == Api("contextlib.suppress")
+
+    @contextmanager
+    def within(self, node: ast.AST) -> Iterator[None]:
+        self.scopes.append(self.run.resolver.program.scope_of[node])
+        yield
+        self.scopes.pop()
+
+    def nested(self, node: ast.stmt) -> None:
+        """A function defined within: what it executes is executed where it is called."""
+        if not isinstance(node, DEFS):
+            return
+        inner = self.run.resolver.program.scope_of[node].function
+        assert inner is not None, "the scope of a function knows it"
+        self.run.stack.append(inner)
+        before = self.run.trace
+        self.run.trace = Trace()
+        _Body(self.run, inner, self.given).statements(node.body, "in a function that is defined here, not run")
+        found, self.run.trace = self.run.trace, before
+        self.run.stack.pop()
+        if found.calls:
+            self.pending.append((inner, found.calls))
+
+    def reference(self, node: ast.expr) -> None:
+        """An implementation that is spoken of without being called."""
+        value = self.value(node)
+        name = self._obligation(node, value)
+        if name is not None:
+            self.run.doubt(node, self.file, f"what implements {name} is handed on here, not called")
+
+    def call(self, node: ast.Call, why: str | None, awaited: bool) -> None:
+        value = self.value(node.func)
+        if isinstance(value, Marked):
+            if value.name is None:
+                self.run.doubt(node, self.file, "the name of the obligation is known only at run time")
+            else:
+                self.run.execute(value.name, node, self.file, why)
+        elif isinstance(value, Code):
+            self._code(node, value, why, awaited)
+        elif isinstance(value, Api):
+            self._api(node, value, why)
+        elif isinstance(value, (Unknown, Outside)):
+            self._unresolved(node, value, why)
+
+    def follows(self, node: ast.Call) -> bool:
+        """Whether the arguments of a call are looked at where they arrive."""
+        value = self.value(node.func)
+        return isinstance(value, Code) and self._obligation(node.func, value) is None
+
+    def _obligation(self, node: ast.expr, value: Value) -> str | None:
+        if isinstance(value, Code) and len(value.definitions) == 1:
+            return self._implemented(value.definitions[0], value.receiver)
+        if isinstance(value, Unknown) and isinstance(node, ast.Attribute):
+            receiver = self.value(node.value)
+            if isinstance(receiver, (Object, ClassOf)):
+                return self.run.names.called(node.attr)
+        return None
+
+    def _implemented(self, function: Function, receiver: Value | None) -> str | None:
+        """The obligation that a function of the target implements, if it is the robot's or marked."""
+        names = self.run.names
+        name = names.of(function)
+        if name is None or names.mark(function) is not None or self._is_own(receiver):
+            return name
+        return name if not self._own_implementation(name) else None
+
+    def _is_own(self, receiver: Value | None) -> bool:
+        robot = self.run.stack[0].owner
+        if receiver is None:
+            return robot is None
+        if not isinstance(receiver, (Object, ClassOf)) or robot is None:
+            return False
+        return robot in self.run.resolver.order(receiver.class_)[0]
+
+    def _own_implementation(self, name: str) -> bool:
+        """Whether the robot implements an obligation itself, or a function marked with it exists."""
+        names = self.run.names
+        if name in names.marked:
+            return True
+        receiver = self.given.get(self._self_name() or "")
+        robot = receiver.class_ if isinstance(receiver, Object) else self.run.stack[0].owner
+        if robot is None:
+            return any(
+                isinstance(one, Function)
+                for method, obligations in names.by_method.items()
+                if name in obligations
+                for one in self.run.stack[0].scope.module.bindings.get(method, ())
+            )
+        return any(
+            name in names.by_method.get(attribute, ())
+            for above in self.run.resolver.order(robot)[0]
+            for attribute in above.inner.bindings
+        )
+
+    def _self_name(self) -> str | None:
+        parameters = self.run.stack[0].parameters
+        return parameters[0].arg if parameters else None
+
+    def _code(self, node: ast.Call, value: Code, why: str | None, awaited: bool) -> None:
+        function = value.definitions[-1]
+        if self.run.tracer.is_rule_method(function):
+            variant = self.run.inherited(function) if self._is_super(node) else None
+            if variant is not None:
+                self._enter(variant, value, node, why)
+            return
+        if len(value.definitions) > 1 or not function.certain:
+            self.run.doubt(node, self.file, f"which definition of {function.name} this calls is known only at run time")
+            return
+        if isinstance(function.node, ast.AsyncFunctionDef) and not awaited:
+            why = why or "not awaited, so that nothing of it is run"
+        name = self._implemented(function, value.receiver)
+        if name is not None:
+            self.run.tracer.implementations[function] = name
+            self.run.execute(name, node, self.file, why)
+            return
+        before = len(self.run.trace.calls)
+        self._enter(function, value, node, why)
+        if len(self.run.trace.calls) > before and self._replaced(function):
+            self.run.doubt(node, self.file, f"a decorator of {function.name} may run something else in its place")
+
+    def _enter(self, function: Function, value: Code, node: ast.Call, why: str | None) -> None:
+        given = self.run.arguments(function, value.receiver, node, self.scopes[-1], self.given)
+        closure = self.given if function.scope in self.scopes else {}
+        self.run.enter(function, {**closure, **given}, why)
+
+    def _replaced(self, function: Function) -> bool:
+        values = [self.run.resolver.of(node, function.scope) for node in function.node.decorator_list]
+        return any(
+            not isinstance(value, (Mark, ObligationMark)) and not (isinstance(value, Api) and value.name in HARMLESS)
+            for value in values
+        )
+
+    def _is_super(self, node: ast.Call) -> bool:
+        receiver = self.value(node.func.value) if isinstance(node.func, ast.Attribute) else None
+        return isinstance(receiver, Object) and receiver.after is not None
+
+    def _api(self, node: ast.Call, value: Api, why: str | None) -> None:
+        if value.name == "contextpy3.proceed":
+            self.run.trace.proceeds.append((node, self.file))
+            return
+        if value.name in REPLACERS:
+            self.run.doubt(
+                node, self.file, f"what {value.name.removeprefix('builtins.')} does is known only at run time"
+            )
+            return
+        module, _, last = value.name.rpartition(".")
+        name = self.run.names.called(last)
+        if name is not None and module.partition(".")[0] not in ("builtins", *sys.stdlib_module_names):
+            self._by_name(node, name, why)
+
+    def _unresolved(self, node: ast.Call, value: Value, why: str | None) -> None:
+        func = node.func
+        if isinstance(func, ast.Attribute):
+            name = self.run.names.called(func.attr)
+            receiver = self.value(func.value)
+            if name is not None:
+                own = isinstance(receiver, (Object, ClassOf)) and self._is_own(receiver)
+                if own or not self._own_implementation(name):
+                    self._by_name(node, name, why)
+                elif isinstance(receiver, Unknown):
+                    self.run.doubt(node, self.file, f"whether this is what implements {name} is known only at run time")
+            elif isinstance(receiver, (Object, ClassOf)):
+                self.run.trace.unfollowed.append(f"{ast.unparse(func)}()")
+        elif isinstance(value, Unknown):
+            self.run.doubt(node, self.file, f"what {ast.unparse(func)} calls is known only at run time")
+
+    def _by_name(self, node: ast.Call, name: str, why: str | None) -> None:
+        self.run.tracer.by_name.add(name)
+        self.run.execute(name, node, self.file, why)
+
+    def finish(self) -> None:
+        """What was defined here and never called may be called from anywhere."""
+        for inner, calls in self.pending:
+            if inner not in self.run.tracer.followed:
+                self.run.trace.calls += calls
