@@ -163,6 +163,6 @@ def _saturated(terms: list[Clash]) -> list[Clash]:
                 resolvent = (clash.literals - {literal}) | (other.literals - {opposite(literal)})
                 if not any(opposite(o) in resolvent for o in resolvent):
                     steps += 1
-                    origins = tuple(dict.fromkeys(clash.origins + other.origins))
+                    origins = tuple(sorted({*clash.origins, *other.origins}, key=lambda origin: origin.span))
                     queue.append(Clash(resolvent, clash.labels | other.labels, origins))
     return found
