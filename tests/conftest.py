@@ -6,6 +6,10 @@ import os
 
 from hypothesis import HealthCheck, Phase, settings
 
+pytest_plugins = ["pytester"]
+# Rulesets below tests are material for tests, bad ones among them; the pytest plugin is not to collect them.
+collect_ignore_glob = ["*.sleec", "*.cases.toml"]
+
 settings.register_profile(
     "ci", derandomize=True, deadline=None, print_blob=True, suppress_health_check=[HealthCheck.too_slow]
 )

@@ -19,7 +19,7 @@ def overriding(label: str, number: int, *does: str) -> Sleec:
     def mutate(sleec: Sleec, robot: type[Log]) -> type[Log]:
         decorate = cop.around(sleec.layers[f"{label}.hc{number}"]) if number else cop.base
 
-        class Mutant(robot):  # type: ignore[misc, valid-type]
+        class Mutant(robot):  # type: ignore[valid-type]
             pass
 
         def variant(self: Log) -> None:

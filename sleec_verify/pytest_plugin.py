@@ -1,0 +1,166 @@
+"""The pytest plugin: ``pytest rulesets/`` (docs/conformance.md).
+
+Nothing of sleec is imported before a ruleset, a file of cases, a fixture or an option asks for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from sleec_runtime import Sleec
+    from sleec_runtime.model import Ruleset
+    from sleec_verify.testing.coverage import ClauseCoverage
+    from sleec_verify.testing.summary import Summary
+
+_COVERAGE: pytest.StashKey[ClauseCoverage] = pytest.StashKey()
+_SUMMARIES: pytest.StashKey[list[Summary]] = pytest.StashKey()
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    group = parser.getgroup("sleec", "SLEEC rules")
+    group.addoption("--sleec-ruleset", metavar="FILE", help="The ruleset that the target and the fixtures are about.")
+    group.addoption(
+        "--sleec-target",
+        metavar="MODULE:NAME",
+        help="What makes the robot to test, a function that returns its Sleec; also file.py:name.",
+    )
+    group.addoption("--sleec-cov", action="store_true", help="Tell which clauses the tests made active.")
+    group.addoption("--sleec-cov-mcdc", action="store_true", help="Tell also which conditions they showed to decide.")
+    group.addoption(
+        "--sleec-cov-fail-under", metavar="PERCENT", type=float, help="Fail if less than this of the goals is reached."
+    )
+    parser.addini("sleec_ruleset", "As --sleec-ruleset, from the root folder.", default="")
+    parser.addini("sleec_target", "As --sleec-target, from the root folder.", default="")
+    parser.addini("sleec_domain", "Test the rules of this domain only.", default="")
+    parser.addini("sleec_reading", "Read chains of hedges so, whatever the files say.", default="")
+    parser.addini("sleec_fail_level", "A check fails with findings as grave as this.", default="error")
+    parser.addini("sleec_cov", "As --sleec-cov.", type="bool", default=False)
+    parser.addini("sleec_cov_mcdc", "As --sleec-cov-mcdc.", type="bool", default=False)
+    parser.addini("sleec_cov_fail_under", "As --sleec-cov-fail-under.", default="")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    mcdc = _on(config, "sleec_cov_mcdc")
+    if mcdc or _on(config, "sleec_cov") or _fail_under(config) is not None:
+        from sleec_verify.testing.coverage import ClauseCoverage
+
+        config.stash[_COVERAGE] = ClauseCoverage(mcdc)
+        config.stash[_COVERAGE].start()
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    if _COVERAGE in config.stash:
+        config.stash[_COVERAGE].stop()
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    name = file_path.name
+    if name.endswith(".sleec"):
+        from sleec_verify.testing.items import RulesetFile
+
+        return RulesetFile.from_parent(parent, path=file_path)
+    if name.endswith(".cases.toml"):
+        from sleec_verify.testing.items import CasesFile
+
+        return CasesFile.from_parent(parent, path=file_path)
+    return None
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    config = session.config
+    if _COVERAGE not in config.stash or config.getoption("collectonly"):
+        return
+    config.stash[_SUMMARIES] = summaries = _summarised(config)
+    least = _fail_under(config)
+    if least is not None and _share(summaries) < least and session.exitstatus == pytest.ExitCode.OK:
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    found = config.stash.get(_SUMMARIES, None)
+    if found is None:
+        return
+    terminalreporter.section("SLEEC clause coverage")
+    if not found:
+        terminalreporter.write_line("no ruleset was used")
+    for summary in found:
+        for line in summary.lines():
+            terminalreporter.write_line(line)
+    least = _fail_under(config)
+    if least is not None and _share(found) < least:
+        terminalreporter.write_line(f"FAIL: {_share(found):.1f} % of all goals is less than {least:g} %", red=True)
+
+
+@pytest.fixture(scope="session")
+def sleec_ruleset(pytestconfig: pytest.Config) -> Ruleset:
+    """The ruleset of ``--sleec-ruleset``, or of the ini value ``sleec_ruleset``."""
+    from sleec_runtime.errors import SleecError
+    from sleec_verify.testing import settings
+
+    try:
+        found = settings.ruleset(pytestconfig)
+    except SleecError as error:
+        pytest.fail(str(error), pytrace=False)
+    if found is None:
+        pytest.fail("there is no ruleset: say --sleec-ruleset FILE, or set sleec_ruleset", pytrace=False)
+    return found
+
+
+@pytest.fixture
+def sleec(request: pytest.FixtureRequest) -> Iterator[Sleec]:
+    """A new instance: what ``--sleec-target`` makes, or else one for `sleec_ruleset` whose obligations do nothing but
+    be seen by `sleec_runtime.recording`."""
+    from sleec_runtime.errors import SleecError
+    from sleec_verify.testing import settings
+    from sleec_verify.testing.items import stand_in
+
+    try:
+        target = settings.target(request.config)
+    except SleecError as error:
+        pytest.fail(str(error), pytrace=False)
+    if target is not None:
+        yield target()
+        return
+    ruleset: Ruleset = request.getfixturevalue("sleec_ruleset")
+    yield stand_in(ruleset, settings.domain(request.config, ruleset))
+
+
+def _on(config: pytest.Config, name: str) -> bool:
+    return bool(config.getoption(name) or config.getini(name))
+
+
+def _fail_under(config: pytest.Config) -> float | None:
+    value = config.getoption("sleec_cov_fail_under")
+    written = str(config.getini("sleec_cov_fail_under")) if value is None else value
+    try:
+        return None if written == "" else float(written)
+    except ValueError:
+        raise pytest.UsageError(f"sleec_cov_fail_under is {written!r}, and no number") from None
+
+
+def _summarised(config: pytest.Config) -> list[Summary]:
+    from sleec_runtime.errors import SleecError
+    from sleec_verify.testing import settings
+    from sleec_verify.testing.summary import Summary
+
+    coverage = config.stash[_COVERAGE]
+    try:
+        named = settings.ruleset(config)
+    except SleecError:
+        named = None
+    if named is not None:
+        # Also where nothing was triggered, all of it is to be told.
+        return [Summary(coverage.about(named), coverage.mcdc)]
+    return [Summary(covered, coverage.mcdc) for covered in coverage.all()]
+
+
+def _share(found: list[Summary]) -> float:
+    from sleec_verify.testing.summary import share
+
+    return share(sum(summary.reached for summary in found), sum(summary.goals for summary in found))

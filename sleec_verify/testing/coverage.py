@@ -1,0 +1,122 @@
+"""Which clauses of which rules the tests made active, and which conditions they showed to decide.
+
+Every dispatch of every instance is noted while this is on; what calls layered methods without a trigger is not seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from sleec_runtime import dispatch, monitor, runtime
+from sleec_runtime.evaluation import holds
+from sleec_runtime.language import print_formula
+from sleec_runtime.model import Atom, Comparison, Rule, Ruleset, formulas_of, leaves
+from sleec_verify.cases.reach import reachable_clauses
+from sleec_verify.finding import ClauseRef
+
+_paused = 0
+
+Vector = tuple[bool, ...]
+
+
+@contextmanager
+def not_counted() -> Iterator[None]:
+    """Dispatches within do not count: they go through all contexts, whatever the tests do."""
+    global _paused
+    _paused += 1
+    try:
+        yield
+    finally:
+        _paused -= 1
+
+
+class Covered:
+    """What was seen of one ruleset."""
+
+    def __init__(self, ruleset: Ruleset) -> None:
+        self.ruleset = ruleset
+        self.active: set[ClauseRef] = set()
+        self.vectors: dict[str, dict[Vector, int | None]] = {}
+
+    def reachable(self) -> frozenset[ClauseRef]:
+        return reachable_clauses(self.ruleset)
+
+    def undecided(self, rule: Rule) -> list[str]:
+        """The conditions of `rule` that no two dispatches show to decide alone: which differ in it only, and in the
+        active clause (MC/DC, with the rule as the decision)."""
+        seen = self.vectors.get(rule.label, {})
+        return [
+            print_formula(condition)
+            for place, condition in enumerate(conditions_of(rule))
+            if not any(
+                seen.get((*v[:place], not v[place], *v[place + 1 :]), outcome) != outcome for v, outcome in seen.items()
+            )
+        ]
+
+
+def conditions_of(rule: Rule) -> list[Atom | Comparison]:
+    """The conditions of a rule that are true or false by themselves, each once, in the order of the text."""
+    return list(dict.fromkeys(leaf for formula in formulas_of(rule) for leaf in leaves(formula)))
+
+
+class ClauseCoverage:
+    """Notes every dispatch from `start` to `stop`. `mcdc` also notes what each condition was worth."""
+
+    def __init__(self, mcdc: bool = False) -> None:
+        self.mcdc = mcdc
+        self._by_identity: dict[int, Covered] = {}
+        # An identity is worth something only as long as its object lives.
+        self._alive: list[Ruleset] = []
+        self._undo: list[Callable[[], None]] = []
+
+    def start(self) -> None:
+        for module in (runtime, monitor):
+            self._wrap(module, "run", dispatch.run)
+            self._wrap(module, "run_async", dispatch.run_async)
+
+    def stop(self) -> None:
+        for undo in self._undo:
+            undo()
+        self._undo.clear()
+
+    def about(self, ruleset: Ruleset) -> Covered:
+        """What is known of `ruleset`, or of one that is read from the same file and says the same."""
+        known = self._by_identity.get(id(ruleset))
+        if known is None:
+            same = (c for c in self._by_identity.values() if _same(c.ruleset, ruleset))
+            known = next(same, None) or Covered(ruleset)
+            self._by_identity[id(ruleset)] = known
+            self._alive.append(ruleset)
+        return known
+
+    def all(self) -> list[Covered]:
+        """Every ruleset that was seen, once, by its path."""
+        return sorted({id(c): c for c in self._by_identity.values()}.values(), key=lambda c: c.ruleset.source.path)
+
+    def note(self, plan: dispatch.Plan, snapshot: Any) -> None:
+        if _paused:
+            return
+        program = snapshot.program
+        covered = self.about(program.whole)
+        covered.active.update(ClauseRef(*clause) for clause in plan.clauses)
+        if self.mcdc:
+            deciding = dict(plan.clauses)
+            context = snapshot.context(plan.triggers)
+            for trigger in plan.triggers:
+                for rule in program.cells[program.number_of[trigger]]:
+                    vector = tuple(holds(leaf, context, program.measures) for leaf in conditions_of(rule))
+                    covered.vectors.setdefault(rule.label, {})[vector] = deciding.get(rule.label)
+
+    def _wrap(self, module: Any, name: str, original: Callable[..., Any]) -> None:
+        def noted(plan: dispatch.Plan, snapshot: Any, *rest: Any) -> Any:
+            self.note(plan, snapshot)
+            return original(plan, snapshot, *rest)
+
+        setattr(module, name, noted)
+        self._undo.append(lambda: setattr(module, name, original))
+
+
+def _same(one: Ruleset, other: Ruleset) -> bool:
+    return one.source.path == other.source.path and one == other
