@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 @click.command(
     "conform",
     short_help="Does a robot's code have the structure that the rules ask for?",
-    epilog="Example: sleec-verify conform examples/curtains.py --ruleset rulesets/household.sleec",
+    epilog="Example: sleec-verify conform examples/household_robot.py --ruleset rulesets/household.sleec",
 )
 @click.argument("target", metavar="TARGET", type=click.Path())
 @click.option("--ruleset", "path", metavar="FILE", required=True, type=click.Path(), help="The rules.")

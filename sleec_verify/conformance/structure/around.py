@@ -6,6 +6,7 @@ import ast
 from collections.abc import Collection
 from dataclasses import dataclass
 
+from sleec_verify.checks.base import listed
 from sleec_verify.conformance.structure.methods import Group, Method
 from sleec_verify.conformance.structure.names import Names
 from sleec_verify.conformance.structure.program import Class, Function, Scope
@@ -40,7 +41,7 @@ class Around:
 
     def __post_init__(self) -> None:
         groups = {group for method in self.methods for group in method.groups}
-        self._group_of: dict[Function, Group] = {v.function: group for group in groups for v in group.variants}
+        self._group_of: dict[Function, Group] = {v.function: group for group in groups for v in group.written}
         self._marked = {group for method in self.methods if method.marks for group in method.groups}
         self._method_names = {group.name for group in self._marked}
         self._robots: set[Class] = set(self.tables.robots)
@@ -57,6 +58,7 @@ class Around:
         """Reports what an expression reaches around the dispatch."""
         if isinstance(use.node, ast.Call):
             self._call(use, use.node)
+            self._applied(use, use.node)
         elif isinstance(use.node, (ast.Name, ast.Attribute)):
             if isinstance(use.node.ctx, ast.Load):
                 self._reference(use, use.node)
@@ -74,6 +76,17 @@ class Around:
         elif isinstance(value, Unknown) and isinstance(node.func, ast.Attribute):
             self._unresolved(use, node.func)
 
+    def _applied(self, use: Use, node: ast.Call) -> None:
+        """A decorator that is made here, and put to use otherwise than above a definition."""
+        if isinstance(self.resolver.of(node, use.scope), (Advice, Mark)) and not isinstance(
+            use.parent, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Assign)
+        ):
+            self._handmade(use)
+
+    def _handmade(self, use: Use) -> None:
+        why = "a decorator that is used otherwise than above a definition makes methods as the program runs"
+        self.findings.undecided(use.scope.file, use.node, why)
+
     def _code(self, use: Use, node: ast.Call, value: Code) -> None:
         for function in value.definitions:
             group = self._group_of.get(function)
@@ -86,28 +99,29 @@ class Around:
                         help="call sleec.trigger(…)",
                     )
                 return
+        reached: set[str] = set()
         for function in value.definitions:
             name = self._implemented(function)
-            reached = {name} if name is not None else self.tracer.followed.get(function, set())
-            for obligation in sorted(reached):
-                if not self._may_execute(use, obligation):
-                    self._obligation(use, node, obligation)
+            reached |= {name} if name is not None else self.tracer.followed.get(function, set())
+        self._obligations(use, node, sorted(name for name in reached if not self._may_execute(use, name)))
 
-    def _obligation(self, use: Use, node: ast.AST, obligation: str) -> None:
-        self.findings.add(
-            "obligation-around",
-            f"{obligation} is executed here whatever the rules say: this is no variant of a rule's method",
-            (use.scope.file, node),
-            obligations=(obligation,),
-            help="trigger the rule that obliges it",
-        )
+    def _obligations(self, use: Use, node: ast.AST, names: list[str]) -> None:
+        if names:
+            verb, it = ("is", "it") if len(names) == 1 else ("are", "them")
+            self.findings.add(
+                "obligation-around",
+                f"{listed(names)} {verb} executed here whatever the rules say: this is no variant of a rule's method",
+                (use.scope.file, node),
+                obligations=tuple(names),
+                help=f"trigger the rule that obliges {it}",
+            )
 
     def _unresolved(self, use: Use, func: ast.Attribute) -> None:
         name = self.names.called(func.attr)
         receiver = self.resolver.of(func.value, use.scope)
         if isinstance(receiver, Object):
-            if name in self.tracer.by_name and receiver.class_ in self._robots and not self._may_execute(use, name):
-                self._obligation(use, func, name)
+            if name in self.tracer.by_name and self._is_robot(receiver) and not self._may_execute(use, name):
+                self._obligations(use, func, [name])
             return
         if not isinstance(receiver, Unknown):
             return
@@ -122,6 +136,8 @@ class Around:
         file = use.scope.file
         if value.name in _ACTIVATORS:
             self._activation(use, node)
+        elif value.name == "contextpy3.base":
+            self._handmade(use)
         elif value.name in _CODE_AS_IT_RUNS or (value.name in REPLACERS and isinstance(use.parent, ast.Subscript)):
             self.findings.undecided(file, node, "code is made, or names are bound, as the program runs")
         elif value.name in ("builtins.setattr", "builtins.delattr") and len(node.args) > 1:
@@ -132,7 +148,7 @@ class Around:
         elif value.name == "builtins.getattr" and len(node.args) > 1:
             receiver = self.resolver.of(node.args[0], use.scope)
             name = self.resolver.of(node.args[1], use.scope)
-            if isinstance(name, Unknown) and isinstance(receiver, Object) and receiver.class_ in self._robots:
+            if isinstance(name, Unknown) and self._is_robot(receiver) and not self._followed(use):
                 self.findings.undecided(file, node, "which attribute of the robot this is, is known only at run time")
 
     def _activation(self, use: Use, node: ast.Call) -> None:
@@ -158,8 +174,7 @@ class Around:
             return
         value = self.resolver.of(node, use.scope)
         if isinstance(value, (Advice, Mark)) or (isinstance(value, Api) and value.name in ADVICE):
-            why = "a decorator that is used otherwise than above a definition makes methods as the program runs"
-            self.findings.undecided(use.scope.file, node, why)
+            self._handmade(use)
         if not isinstance(value, Code):
             return
         for function in value.definitions[:1]:
@@ -174,7 +189,7 @@ class Around:
                     )
                 return
             name = self._implemented(function)
-            if name is not None and not self._may_execute(use, name) and function not in self._given():
+            if name is not None and not self._may_execute(use, name):
                 why = f"what implements {name} is handed on here, and may be called around the dispatch"
                 self.findings.undecided(use.scope.file, node, why)
 
@@ -189,9 +204,6 @@ class Around:
         if isinstance(parent, ast.Assign):
             return all(isinstance(target, ast.Name) for target in parent.targets)
         return isinstance(parent, (ast.Attribute, ast.Compare, ast.Expr))
-
-    def _given(self) -> set[Function]:
-        return set()
 
     def _stored(self, use: Use, node: ast.Attribute) -> None:
         """A method of the robot that is replaced by an assignment to its attribute."""
@@ -226,10 +238,16 @@ class Around:
         obligation."""
         if self.tables.allowed.get(use.node) == obligation:
             return True
-        return any(
-            function in self._group_of or function in self.tracer.followed or self.names.of(function) == obligation
-            for function in _functions_around(use.scope)
-        )
+        around = _functions_around(use.scope)
+        return self._followed(use) or any(self.names.of(function) == obligation for function in around)
+
+    def _followed(self, use: Use) -> bool:
+        """Whether an expression stands in a variant, or in what a variant calls."""
+        around = _functions_around(use.scope)
+        return any(function in self._group_of or function in self.tracer.followed for function in around)
+
+    def _is_robot(self, value: Value) -> bool:
+        return isinstance(value, Object) and value.class_ in self._robots
 
     def _within_variant(self, use: Use) -> bool:
         return any(function in self._group_of for function in _functions_around(use.scope))

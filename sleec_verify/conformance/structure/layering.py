@@ -38,14 +38,16 @@ class MethodCheck:
     findings: Findings
     by_hand: bool
     """Whether the layers are activated globally, so that a hedge without a variant runs the base."""
-    units: dict[int, Unit] = field(default_factory=dict)
+    units: dict[int, list[Unit]] = field(default_factory=dict)
     strays: list[Unit] = field(default_factory=list)
     unknown_layers: bool = False
 
     def run(self) -> None:
+        """Reports every difference."""
         self._sort()
         expected = {number: self._positive(number) for number, _ in enumerate(self.rule.clauses())}
         missing = [number for number in expected if number not in self.units and self._needed(number)]
+        self._settle(missing, expected)
         for unit in self.strays:
             meant = self._meant(unit, missing, expected)
             self._stray(unit, meant)
@@ -53,7 +55,7 @@ class MethodCheck:
                 missing.remove(meant)
                 compare(self.findings, self.rule, meant, unit.variant, unit.trace)
         self._missing(missing)
-        for number, unit in self.units.items():
+        for number, (unit, *_) in self.units.items():
             other = self._clause_of(unit, number, expected)
             if other is not None:
                 self._wrong_layer(unit, number, other)
@@ -63,29 +65,42 @@ class MethodCheck:
     # Which variant is for which clause ------------------------------------------------------------------
 
     def _sort(self) -> None:
-        """Gives each clause the variant that runs for it; the others are strays."""
+        """Gives each clause its variants, the one that runs first; what stands for no clause is a stray."""
         for group in self.method.groups:
-            here: dict[int, Unit] = {}
+            here: dict[int, list[Unit]] = {}
             for variant in group.variants:
                 if variant.kind in ("before", "after"):
                     continue
                 number, wrong, hint = self._number(variant)
                 unit = Unit(variant, self._trace(variant, group.variants), wrong, hint)
-                if number is None:
-                    if wrong is not None:
-                        self.strays.append(unit)
-                elif number in here:
+                if number is not None:
                     # Of bases the first counts, of variants on a layer the last.
-                    stray = unit if variant.is_base else here[number]
-                    here[number] = here[number] if variant.is_base else unit
-                    again = f"{clause_name(self.rule, number)} has another variant, on line "
-                    line = getattr(here[number].variant.function.node, "lineno", 0)
-                    stray.wrong = ("duplicate-variant", again + f"{line}, and that is the one that runs")
-                    self.strays.append(stray)
-                else:
-                    here[number] = unit
-            for number, unit in here.items():
-                self.units.setdefault(number, unit)
+                    units = here.setdefault(number, [])
+                    units.insert(len(units) if variant.is_base else 0, unit)
+                elif wrong is not None:
+                    self.strays.append(unit)
+            for number, units in here.items():
+                self.units.setdefault(number, units)
+
+    def _settle(self, missing: list[int], expected: dict[int, list[str]]) -> None:
+        """Of several variants for one clause, those that do what a clause without one obliges are for that clause;
+        one of the others stays, and the rest are duplicates."""
+        for number, units in self.units.items():
+            if len(units) == 1:
+                continue
+            for unit in units[:]:
+                done = unit.trace.executed
+                if len(units) > 1 and done != expected[number] and any(done == expected[m] for m in missing):
+                    units.remove(unit)
+                    word = f"this variant is bound to {clause_name(self.rule, number)}, which has another"
+                    unit.wrong = ("wrong-layer", word)
+                    self.strays.append(unit)
+            kept = units[0].variant.function.node.lineno
+            for unit in units[1:]:
+                word = f"has another variant, on line {kept}, and that is the one that runs"
+                unit.wrong = ("duplicate-variant", f"{clause_name(self.rule, number)} {word}")
+                self.strays.append(unit)
+            del units[1:]
 
     def _number(self, variant: Variant) -> tuple[int | None, tuple[str, str] | None, str | None]:
         """The clause that a variant stands for; or else what is wrong with its layer, and what may be meant."""
@@ -160,23 +175,24 @@ class MethodCheck:
         return bool(self._positive(number)) or (number > 0 and self.by_hand)
 
     def _meant(self, unit: Unit, missing: list[int], expected: dict[int, list[str]]) -> int | None:
-        """The clause without a variant that a stray is for: the one it is spelled like, or does the obligations of."""
-        if unit.hint is not None:
-            for number in missing:
-                if f"did you mean {self.rule.layer(number)}?" == unit.hint:
-                    return number
-        return next((number for number in missing if expected[number] == unit.trace.executed), None)
+        """The clause without a variant that a stray is for: the one it does the obligations of, or is spelled like."""
+        if unit.wrong is not None and unit.wrong[0] == "duplicate-variant":
+            return None
+        alike = [number for number in missing if expected[number] == unit.trace.executed]
+        alike += [number for number in missing if f"did you mean {self.rule.layer(number)}?" == unit.hint]
+        return alike[0] if alike else None
 
     def _stray(self, unit: Unit, meant: int | None) -> None:
         assert unit.wrong is not None, "a stray says what is wrong with it"
         kind, message = unit.wrong
         file, at = unit.variant.function.file, unit.variant.at
         note = None
+        hint = unit.hint
         if meant is not None:
-            if kind == "duplicate-variant":
-                kind = "wrong-layer"
-            note = f"it does what {self.findings.obliged(self.rule, meant)}"
-        hint = unit.hint or (f"bind it by {expression(self.rule, meant)}" if meant is not None else None)
+            note = self.findings.obliged(self.rule, meant)
+            layer = self.rule.layer(meant)
+            unknown = kind == "unknown-layer" and layer is not None
+            hint = f"did you mean {layer}?" if unknown else f"bind it by {expression(self.rule, meant)}"
         clause = None if meant is None else ClauseRef(self.rule.label, meant)
         self.findings.add(kind, message, (file, at), rules=(self.rule.label,), clause=clause, note=note, help=hint)
 
@@ -212,7 +228,7 @@ class MethodCheck:
             return None
         for other, names in expected.items():
             own = self.units.get(other)
-            if names == executed and (own is None or own.trace.executed != names):
+            if names == executed and (own is None or own[0].trace.executed != names):
                 return other
         return None
 

@@ -35,7 +35,7 @@ class Opaque(NamedTuple):
     node: ast.AST
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Scope:
     """A module, class or function body, with what its names are bound to."""
 
@@ -55,7 +55,7 @@ class Scope:
         return self if self.outer is None else self.outer.module
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Function:
     """One `def`. `owner` is the class whose body it stands in; `certain` is False for one defined under a condition."""
 
@@ -82,7 +82,7 @@ class Function:
         return [*arguments.posonlyargs, *arguments.args]
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Class:
     """One `class`. `attributes` are the values that its methods assign to attributes of `self`, by name."""
 

@@ -132,7 +132,8 @@ class _Run:
         self.stack.pop()
         executed = {call.obligation for call in self.trace.calls[before:]}
         for outer in (function, *self.stack):
-            self.tracer.followed[outer] |= executed
+            if outer in self.tracer.followed:  # the stack also holds functions that are looked at without being called
+                self.tracer.followed[outer] |= executed
         return None
 
     def arguments(

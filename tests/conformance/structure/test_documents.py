@@ -1,0 +1,20 @@
+"""Documents as those of the command line, about robots' code; see tests/cli/test_documents.py."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Cli, cli
+from tests.cli.test_documents import test_document as run
+
+__all__ = ["cli"]
+
+FOLDER = Path(__file__).parent / "documents"
+DOCUMENTS = sorted(FOLDER.rglob("*.txt"))
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=[str(p.relative_to(FOLDER).with_suffix("")) for p in DOCUMENTS])
+def test_document(path: Path, cli: Cli) -> None:  # noqa: F811 - pytest's way of handing it over
+    run(path, cli)
