@@ -1,4 +1,4 @@
-"""Every example of docs/language.md is what the page says it is."""
+"""Every ruleset in the docs is what its page says it is."""
 
 from __future__ import annotations
 
@@ -10,8 +10,14 @@ import pytest
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, print_ruleset
 
-PAGE = (Path(__file__).parents[2] / "docs" / "language.md").read_text(encoding="utf-8")
-BLOCKS = re.findall(r"^```(sleec(?:-bad)?)\n(.*?)^```$", PAGE, flags=re.MULTILINE | re.DOTALL)
+PAGES = sorted((Path(__file__).parents[2] / "docs").glob("*.md"))
+BLOCKS = [
+    block
+    for page in PAGES
+    for block in re.findall(
+        r"^```(sleec(?:-bad)?)\n(.*?)^```$", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL
+    )
+]
 
 
 @pytest.mark.parametrize("text", [text for kind, text in BLOCKS if kind == "sleec"])
@@ -26,5 +32,5 @@ def test_bad_examples_are_refused(text: str) -> None:
         parse(text)
 
 
-def test_the_page_has_examples_of_both() -> None:
+def test_the_docs_have_examples_of_both() -> None:
     assert {kind for kind, _ in BLOCKS} == {"sleec", "sleec-bad"}
