@@ -13,6 +13,7 @@ _SUMMARIES = {
     "entail": "What do the rules oblige in a situation?",
     "explain": "What do the rules oblige in a situation, and why?",
     "compile": "The rules as formulas or clauses (Equation 1).",
+    "cases": "Few situations that reach every clause, for trials.",
     "conform": "Does a robot's code have the structure that the rules ask for?",
     "fmt": "The rules in their usual layout.",
     "rules": "List and explain every finding code.",

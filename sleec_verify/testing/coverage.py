@@ -12,7 +12,8 @@ from typing import Any
 from sleec_runtime import dispatch, monitor, runtime
 from sleec_runtime.evaluation import holds
 from sleec_runtime.language import print_formula
-from sleec_runtime.model import Atom, Comparison, Rule, Ruleset, formulas_of, leaves
+from sleec_runtime.model import Rule, Ruleset
+from sleec_verify.cases.goals import conditions_of
 from sleec_verify.cases.reach import reachable_clauses
 from sleec_verify.finding import ClauseRef
 
@@ -54,11 +55,6 @@ class Covered:
                 seen.get((*v[:place], not v[place], *v[place + 1 :]), outcome) != outcome for v, outcome in seen.items()
             )
         ]
-
-
-def conditions_of(rule: Rule) -> list[Atom | Comparison]:
-    """The conditions of a rule that are true or false by themselves, each once, in the order of the text."""
-    return list(dict.fromkeys(leaf for formula in formulas_of(rule) for leaf in leaves(formula)))
 
 
 class ClauseCoverage:

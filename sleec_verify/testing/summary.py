@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from sleec_verify.cases.goals import conditions_of
 from sleec_verify.finding import ClauseRef
-from sleec_verify.testing.coverage import Covered, conditions_of
+from sleec_verify.testing.coverage import Covered
 
 
 class Summary:
