@@ -58,7 +58,7 @@ _ByCode = Mapping[str, _Entry]
 def _entries() -> _ByCode:
     entries = [_Entry(check.name, check.question, kind, "Rules") for check in CHECKS.values() for kind in check.kinds]
     entries += [_Entry(structure.NAME, structure.QUESTION, k, "Rules and code") for k in structure.KINDS.values()]
-    return {entry.kind.code: entry for entry in entries}
+    return {entry.kind.code: entry for entry in sorted(entries, key=lambda entry: entry.kind.code)}
 
 
 def _matching(by_code: _ByCode, code: str) -> _ByCode:
@@ -74,7 +74,7 @@ def _matching(by_code: _ByCode, code: str) -> _ByCode:
 
 def _listed(by_code: _ByCode, palette: Palette) -> Iterator[str]:
     width = max(len(entry.check) for entry in by_code.values())
-    for code, (check, _, kind, _) in sorted(by_code.items()):
+    for code, (check, _, kind, _) in by_code.items():
         yield f"{palette('strong', code)}  {palette(kind.severity, f'{kind.severity:7}')}  "
         yield f"{check:{width}}  {kind.title}\n"
 

@@ -30,7 +30,10 @@ def check_structure(ruleset: Ruleset, files: tuple[PythonFile, ...], domain: str
     from sleec_verify.conformance.structure.whole import findings_on
 
     started = perf_counter()
-    findings = findings_on(ruleset, files, domain)
+    try:
+        findings = findings_on(ruleset, files, domain)
+    except RecursionError:
+        return CheckResult(NAME, Unknown("the code is nested too deeply to be followed"), perf_counter() - started)
     seconds = perf_counter() - started
     undecided = sum(finding.code == UNDECIDED for finding in findings)
     if undecided:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -69,10 +69,10 @@ class Tracer:
     """Follows variants. `followed` maps each function that was entered to the obligations executed in it;
     `implementations` are functions that were called as an obligation's."""
 
-    def __init__(self, resolver: Resolver, names: Names, rule_methods: Callable[[Function], bool]) -> None:
+    def __init__(self, resolver: Resolver, names: Names, rule_methods: Collection[Function]) -> None:
         self.resolver = resolver
         self.names = names
-        self.is_rule_method = rule_methods
+        self.rule_methods = rule_methods
         self.followed: dict[Function, set[str]] = {}
         self.implementations: dict[Function, str] = {}
         self.by_name: set[str] = set()
@@ -282,7 +282,7 @@ class _Body(Flow):
 
     def _code(self, node: ast.Call, value: Code, why: str | None, awaited: bool) -> None:
         function = value.definitions[-1]
-        if self.run.tracer.is_rule_method(function):
+        if function in self.run.tracer.rule_methods:
             variant = self.run.inherited(function) if self._is_super(node) else None
             if variant is not None:
                 self._enter(variant, value, node, why)

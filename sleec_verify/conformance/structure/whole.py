@@ -11,7 +11,7 @@ from sleec_verify.conformance.structure.around import Around
 from sleec_verify.conformance.structure.layering import MethodCheck
 from sleec_verify.conformance.structure.methods import Group, Method, groups, methods
 from sleec_verify.conformance.structure.names import Names
-from sleec_verify.conformance.structure.program import Class, Function, Program
+from sleec_verify.conformance.structure.program import Class, Program
 from sleec_verify.conformance.structure.report import Findings
 from sleec_verify.conformance.structure.resolve import Resolver
 from sleec_verify.conformance.structure.tables import Tables
@@ -48,38 +48,35 @@ class _Whole:
             if isinstance(value, ClassOf):
                 made.add(value.class_)
         self.globally = any(isinstance(c.func, ast.Attribute) and c.func.attr == "activate_globally" for _, c in calls)
-        self.found = list(groups(program, self.resolver))
-        self.methods = list(methods(program, self.resolver, self.found, made))
-        self.tracer = Tracer(self.resolver, self.names, self._is_rule_method)
+        found = list(groups(program, self.resolver))
+        self.methods = list(methods(program, self.resolver, found, made))
+        self.labels = {method: self._labels(method) for method in self.methods}
+        concerned = [group for group in found if group.concerns_rules]
+        self.tracer = Tracer(self.resolver, self.names, {v.function for group in concerned for v in group.variants})
         self.tables = Tables(self.resolver, self.names, self.findings)
         for use, _ in calls:
             self.tables.read(use)
         self._rules(tuple(rule for rule in ruleset.rules if rule.applies_in(domain)))
-        for group in self.found:
-            if group.concerns_rules:
-                self._definitions(group)
+        for group in concerned:
+            self._definitions(group)
         around = Around(
             self.resolver, self.names, self.findings, self.tracer, self.tables, self.methods, self.layers, self.globally
         )
         for use in everything:
             around.look(use)
 
-    def _is_rule_method(self, function: Function) -> bool:
-        return any(
-            function is variant.function
-            for group in self.found
-            if group.concerns_rules and group.name == function.name
-            for variant in group.variants
-        )
-
     def _rules(self, rules: tuple[Rule, ...]) -> None:
         """Each rule against its methods; those that have none against the tables."""
         without: list[Rule] = []
+        of_rule: dict[str, list[Method]] = {}
+        for method, labels in self.labels.items():
+            for label in labels:
+                of_rule.setdefault(label, []).append(method)
         for rule in rules:
-            own = [method for method in self.methods if rule.label in self._labels(method)]
+            own = of_rule.get(rule.label, [])
             for method in own:
                 by_hand = self.globally or not method.marks
-                MethodCheck(method, rule, self._labels(method), self.layers, self.tracer, self.findings, by_hand).run()
+                MethodCheck(method, rule, self.labels[method], self.layers, self.tracer, self.findings, by_hand).run()
             if not own:
                 without.append(rule)
             self._second(rule, own)
@@ -164,8 +161,9 @@ class _Whole:
         self._unmarked(group)
 
     def _unmarked(self, group: Group) -> None:
-        inherited = any(group in method.groups and method.marks for method in self.methods)
-        labels = [label for m in self.methods if group in m.groups for label in self._labels(m)]
+        holders = [method for method in self.methods if group.name == method.name and group in method.groups]
+        inherited = any(method.marks for method in holders)
+        labels = [label for method in holders for label in self.labels[method]]
         if not inherited and labels and not any(group.marks):
             first = group.variants[0].function
             self.findings.add(

@@ -16,5 +16,5 @@ DOCUMENTS = sorted(FOLDER.rglob("*.txt"))
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=[str(p.relative_to(FOLDER).with_suffix("")) for p in DOCUMENTS])
-def test_document(path: Path, cli: Cli) -> None:  # noqa: F811 - pytest's way of handing it over
+def test_document(path: Path, cli: Cli) -> None:
     run(path, cli)

@@ -14,8 +14,8 @@ import pytest
 from sleec_runtime.language import load, parse
 from sleec_verify.conformance.structure import check_structure
 from sleec_verify.conformance.structure.target import python_files
-from sleec_verify.finding import Proved
-from tests.conformance.structure.checking import checked, kinds
+from sleec_verify.finding import Proved, Unknown
+from tests.conformance.structure.checking import checked, files, kinds
 from tests.runtime import robots, test_instance
 
 ROOT = Path(__file__).parents[3]
@@ -51,9 +51,9 @@ def test_the_guide_of_the_runtime() -> None:
 
 
 def test_the_example() -> None:
-    files = python_files(str(ROOT / "examples" / "household_robot.py"))
+    code = python_files(str(ROOT / "examples" / "household_robot.py"))
     rules = load(ROOT / "rulesets" / "household.sleec")
-    assert isinstance(check_structure(rules, files).verdict, Proved)
+    assert isinstance(check_structure(rules, code).verdict, Proved)
     done = subprocess.run(
         [sys.executable, "-m", "examples.household_robot"], capture_output=True, text=True, check=True, cwd=ROOT
     )
@@ -63,19 +63,26 @@ def test_the_example() -> None:
 def test_only_the_rules_of_a_domain_need_code() -> None:
     rules = parse("RULE a WHEN A THEN Go\nDOMAIN ward\nRULE b WHEN B THEN Stay")
     robot = "from rules import sleec\n\nclass Robot:\n    @sleec.rule('a')\n    def a(self): self.go()\n"
-    from tests.conformance.structure.checking import files
-
     assert isinstance(check_structure(rules, files(robot=robot), "house").verdict, Proved)
     (finding,) = check_structure(rules, files(robot=robot), "ward").findings
     assert finding.rules == ("b",)
     assert finding.source is None
 
 
+def test_what_is_nested_too_deeply_is_undecided() -> None:
+    code = files(robot="x = " + " + ".join(["1"] * 900))
+    limit = sys.getrecursionlimit()
+    sys.setrecursionlimit(len(inspect.stack()) + 300)
+    try:
+        result = check_structure(parse("RULE a WHEN A THEN Go"), code)
+    finally:
+        sys.setrecursionlimit(limit)
+    assert isinstance(result.verdict, Unknown)
+
+
 def test_findings_carry_the_place_in_the_code() -> None:
     robot = "from rules import sleec\n\nclass Röbot:\n    @sleec.rule('a')\n    def ä(self): self.ü('ö'); self.stay()\n"
-    (finding,) = checked("RULE a WHEN A THEN Go UNLESS c IN WHICH CASE Stay", robot=robot.replace("A", "A")).findings[
-        :1
-    ]
+    (finding,) = checked("RULE a WHEN A THEN Go UNLESS c IN WHICH CASE Stay", robot=robot).findings[:1]
     assert finding.source is not None
     text = finding.source.text[finding.span.start : finding.span.end]
     assert text in ("def ä", "self.stay()")
