@@ -32,7 +32,7 @@ def values(ruleset: Ruleset, name: str) -> st.SearchStrategy[Value]:
         return st.sampled_from(regions)
     if measure.kind == "integer":
         return st.one_of(st.sampled_from(regions), st.integers(-(10**6), 10**6))
-    bounds = constants(compared).get(name, {0})
+    bounds = constants(compared).get(name) or {0}
     near = sorted({bound + side * step for bound in bounds for step in _NEAR for side in (-1, 1)})
     exact = [value.numerator if value.denominator == 1 else value for value in map(Fraction, near)]
     anything = st.integers(-(10**6), 10**6)

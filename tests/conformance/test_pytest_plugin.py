@@ -9,6 +9,11 @@ from pathlib import Path
 
 import pytest
 
+# Loaded here, because pytester unloads what is loaded within a run, and modules would exist twice in the next one.
+import sleec_verify.pytest_plugin
+import sleec_verify.testing.items
+import sleec_verify.testing.summary  # noqa: F401
+
 RULES = """
 MEASURE Age: number
 RULE curtains

@@ -1,0 +1,63 @@
+"""The examples of docs/conformance.md are what the page says they are."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from sleec_verify.cases.read import read_cases
+from sleec_verify.cli import run
+from sleec_verify.conformance import Nonconformance, check_conformance
+from sleec_verify.conformance.oracle import Oracle
+from sleec_verify.conformance.suite import PARTS
+
+PAGE = Path("docs/conformance.md").read_text(encoding="utf-8")
+# What stands above is about reading code, and has tests of its own.
+GUIDE = PAGE[PAGE.index("## By test: the code, run") :]
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```$", GUIDE, re.MULTILINE | re.DOTALL)
+
+
+def test_the_program_runs_and_its_robot_passes() -> None:
+    program: dict[str, object] = {}
+    for block in blocks("python"):
+        exec(compile(block, "docs/conformance.md", "exec"), program)
+    make = program["make_sleec"]
+    assert callable(make)
+    check_conformance(make, examples=10)
+
+
+def test_the_report_is_what_is_printed() -> None:
+    (source,) = (block for block in blocks("python") if "def make_sleec" in block)
+    program: dict[str, object] = {}
+    exec(source.replace("self.refuse_request(); self.explain_why()", "self.refuse_request()"), program)
+    make = program["make_sleec"]
+    assert callable(make)
+    with pytest.raises(Nonconformance) as caught:
+        check_conformance(make)
+    assert str(caught.value) + "\n" in blocks("text")
+
+
+def test_every_part_is_told_of() -> None:
+    assert re.findall(r"^\| `([a-z-]+)` \| ", GUIDE, re.MULTILINE)[: len(PARTS)] == list(PARTS)
+
+
+def test_the_cases_are_due(tmp_path: Path) -> None:
+    path = tmp_path / "household.cases.toml"
+    path.write_text(blocks("toml")[0], encoding="utf-8")
+    (tmp_path / "household.sleec").write_bytes(Path("rulesets/household.sleec").read_bytes())
+    ruleset, cases = read_cases(path)
+    for case in cases:
+        assert set(Oracle(ruleset).expected(case.context()).due) == set(case.obligations)
+
+
+def test_the_command_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (block,) = (block for block in blocks("console") if "sleec-verify cases" in block)
+    command, said = block.splitlines()
+    arguments = command.removeprefix("$ sleec-verify ").split()
+    assert run([*arguments[:-1], str(tmp_path / arguments[-1])]) == 0
+    assert capsys.readouterr().err == said + "\n"
