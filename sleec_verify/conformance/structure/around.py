@@ -138,6 +138,8 @@ class Around:
             self._activation(use, node)
         elif value.name == "contextpy3.base":
             self._handmade(use)
+        elif self._followed(use):
+            return  # reported where the variant is followed
         elif value.name in _CODE_AS_IT_RUNS or (value.name in REPLACERS and isinstance(use.parent, ast.Subscript)):
             self.findings.undecided(file, node, "code is made, or names are bound, as the program runs")
         elif value.name in ("builtins.setattr", "builtins.delattr") and len(node.args) > 1:
@@ -148,7 +150,7 @@ class Around:
         elif value.name == "builtins.getattr" and len(node.args) > 1:
             receiver = self.resolver.of(node.args[0], use.scope)
             name = self.resolver.of(node.args[1], use.scope)
-            if isinstance(name, Unknown) and self._is_robot(receiver) and not self._followed(use):
+            if isinstance(name, Unknown) and self._is_robot(receiver):
                 self.findings.undecided(file, node, "which attribute of the robot this is, is known only at run time")
 
     def _activation(self, use: Use, node: ast.Call) -> None:

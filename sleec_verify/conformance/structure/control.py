@@ -134,10 +134,11 @@ class Flow(ABC):
     def _assignment(self, node: ast.Assign | ast.AnnAssign, why: str | None) -> None:
         targets = node.targets if isinstance(node, ast.Assign) else [node.target]
         value = node.value
-        named = all(isinstance(target, ast.Name) for target in targets)
-        # A function under another name is followed where that name is called.
-        if value is not None and not (named and isinstance(value, (ast.Name, ast.Attribute))):
-            self.expression(value, why)
+        named = all(isinstance(part, ast.Name) for target in targets for part in _elements(target))
+        for part in _elements(value) if value is not None else ():
+            # A function under another name is followed where that name is called.
+            if not (named and isinstance(part, (ast.Name, ast.Attribute))):
+                self.expression(part, why)
         for target in targets:
             self.expression(target, why)
 
@@ -191,3 +192,7 @@ class Flow(ABC):
             if not (followed and isinstance(argument, (ast.Name, ast.Attribute))):
                 self.expression(argument, why)
         self.call(node, why, awaited)
+
+
+def _elements(node: ast.expr) -> list[ast.expr]:
+    return node.elts if isinstance(node, ast.Tuple) else [node]

@@ -152,8 +152,8 @@ def _problem(source: Source, error: SyntaxError) -> Problem:
     line = min(max(error.lineno or 1, 1), len(lines))
     start = sum(len(before) + 1 for before in lines[: line - 1])
     column = min(max((error.offset or 1) - 1, 0), len(lines[line - 1]))
-    word = f"this is no Python {sys.version_info.major}.{sys.version_info.minor}: {error.msg}"
-    return Problem(word, Span(start + column, min(start + column + 1, len(source.text))))
+    span = Span(start + column, min(start + column + 1, len(source.text)))
+    return Problem(f"this is no Python: {error.msg}", span)
 
 
 def _source(path: str) -> Source:

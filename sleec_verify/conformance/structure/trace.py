@@ -214,7 +214,10 @@ class _Body(Flow):
 
     def call(self, node: ast.Call, why: str | None, awaited: bool) -> None:
         value = self.value(node.func)
-        if isinstance(value, Marked):
+        own = self._own_attribute(node.func)
+        if own is not None:
+            self._by_name(node, own, why)
+        elif isinstance(value, Marked):
             if value.name is None:
                 self.run.doubt(node, self.file, "the name of the obligation is known only at run time")
             else:
@@ -225,6 +228,16 @@ class _Body(Flow):
             self._api(node, value, why)
         elif isinstance(value, (Unknown, Outside)):
             self._unresolved(node, value, why)
+
+    def _own_attribute(self, node: ast.expr) -> str | None:
+        """The obligation that an attribute implements which the robot's methods assign: whatever it is, by its name."""
+        if not isinstance(node, ast.Attribute):
+            return None
+        receiver = self.value(node.value)
+        if not isinstance(receiver, Object) or not self._is_own(receiver):
+            return None
+        assigned = any(node.attr in above.attributes for above in self.run.resolver.order(receiver.class_)[0])
+        return self.run.names.called(node.attr) if assigned else None
 
     def follows(self, node: ast.Call) -> bool:
         """Whether the arguments of a call are looked at where they arrive."""
@@ -288,6 +301,8 @@ class _Body(Flow):
                 self._enter(variant, value, node, why)
             return
         if len(value.definitions) > 1 or not function.certain:
+            for one in value.definitions:
+                self.run.tracer.followed.setdefault(one, set())
             self.run.doubt(node, self.file, f"which definition of {function.name} this calls is known only at run time")
             return
         if isinstance(function.node, ast.AsyncFunctionDef) and not awaited:

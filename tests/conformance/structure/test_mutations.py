@@ -165,13 +165,14 @@ MISTAKES = (
 )  # fmt: skip
 
 
+@settings(max_examples=40)
 @given(correct())
 def test_correct_robots_are_accepted(robot: Robot) -> None:
     assert kinds(robot.ruleset, robot=robot.text()) == []
 
 
 @pytest.mark.parametrize("mistake", MISTAKES, ids=lambda mistake: mistake.__name__)
-@settings(max_examples=40, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
+@settings(max_examples=15, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
 @given(data=st.data())
 def test_a_mistake_is_reported_for_what_it_is(mistake: Callable[[Any, Robot], set[str]], data: st.DataObject) -> None:
     robot = data.draw(correct())

@@ -1,0 +1,210 @@
+"""Single points of how code is read, each in a robot of a few lines."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.conformance.structure.checking import kinds
+
+RULES = "RULE stop WHEN Obstacle THEN Stop UNLESS InHurry IN WHICH CASE (SlowDown AND Warn)\n"
+HEAD = """\
+import asyncio, threading, time
+import contextpy3 as cop
+import sleec_runtime
+from sleec_runtime import Sleec, obligation
+from typing import Any
+
+"""
+GIVEN = "sleec = sleec_runtime.load('rules.sleec')\n"
+BASE = """\
+    @sleec.rule("stop")
+    @cop.base
+    def obstacle(self):
+        self.stop()
+
+"""
+TAIL = """
+    def stop(self): ...
+    def slow_down(self): ...
+    def warn(self): ...
+"""
+
+
+def robot(hedge: str, more: str = "", *, before: str = "", layer: str = 'sleec.layers["stop.hc1"]') -> str:
+    """A robot whose hedge has this body."""
+    body = "".join(f"        {line}\n" for line in hedge.split("\n"))
+    variant = f"    @cop.around({layer})\n    def obstacle(self):\n{body}"
+    return f"{HEAD}{GIVEN}{before}\nclass Robot:\n{BASE}{variant}{TAIL}{more}"
+
+
+BOTH = "self.slow_down()\nself.warn()"
+
+
+@pytest.mark.parametrize(
+    "layer",
+    [
+        "sleec.layers.of('stop.hc1')",
+        "sleec.layers.__getitem__('stop' '.hc1')",
+        "getattr(sleec, 'layers')['stop.hc1']",
+        "LAYERS['stop.hc1']",
+        "LAYERS[NAMES.HC]",
+        "layers_of_another_file['stop.hc1']",
+    ],
+)
+def test_spellings_of_a_layer(layer: str) -> None:
+    before = (
+        "from elsewhere import layers_of_another_file\nLAYERS = sleec.layers\n"
+        "class NAMES:\n    HC = f'{\"stop\"}.hc{1}'\n"
+    )
+    assert kinds(RULES, robot=robot(BOTH, before=before, layer=layer)) == []
+
+
+@pytest.mark.parametrize(
+    ("layer", "expected"),
+    [
+        ("sleec.layers[f'stop.{input()}']", ["undecided"]),
+        ("sleec.layers['stop.hc%d' % 1]", ["undecided"]),
+        ("sleec.layers[NAME]", ["undecided"]),
+        ("sleec.layers[TWICE]", ["undecided"]),
+        ("sleec.layers[LOOP]", ["undecided"]),
+        ("**options", None),
+        ("sleec.layers['nothing like it']", ["unknown-layer"]),
+    ],
+)
+def test_layers_that_are_not_known(layer: str, expected: list[str] | None) -> None:
+    before = "from elsewhere import NAME, options\nTWICE = 'stop.hc1'\nTWICE = input()\nLOOP = LOOP\n"
+    found = kinds(RULES, robot=robot(BOTH, before=before, layer=layer))
+    assert found == (expected or ["undecided"])
+
+
+@pytest.mark.parametrize(
+    "hedge",
+    [
+        "time.sleep(1)\nself.slow_down(); print('!'); self.warn()",
+        "return [self.slow_down(), self.warn()]",
+        "x = self.slow_down()\ny: int = self.warn()",
+        "a, b = self.slow_down, self.warn\na()\nb()",
+        "f = self.slow_down\nf()\ngetattr(self, 'warn')()",
+        "{self.slow_down(): self.warn()}",
+        "log(self.slow_down(), to=self.warn())",
+        "assert self, 'always'\nself.slow_down()\nself.warn()",
+        "if self.slow_down():\n    pass\nself.warn()",
+        "for _ in self.slow_down():\n    continue\nself.warn()",
+        "(x := self.slow_down())\nself.warn()",
+        "try:\n    self.slow_down()\nfinally:\n    self.warn()",
+        "with self.lock, open('x') as file:\n    self.slow_down()\n    self.warn()",
+        "self.slow_down() and print()\nself.warn()",
+        "obligation('SlowDown')(print)()\nself.warn()",
+        "Robot.slow_down(self)\nRobot().warn()",
+        "def both(robot):\n    robot.slow_down()\n    robot.warn()\nboth(self)",
+        "del self.x\nself.slow_down()\nself.warn()",
+    ],
+)
+def test_what_is_certain(hedge: str) -> None:
+    assert kinds(RULES, robot=robot(hedge)) == []
+
+
+@pytest.mark.parametrize(
+    ("hedge", "expected"),
+    [
+        ("self.slow_down()\nif self.x:\n    raise ValueError\nself.warn()", ["conditional-obligation"]),
+        ("if self.x:\n    return self.slow_down()\nelse:\n    return\nself.warn()", ["conditional-obligation"] * 2),
+        ("try:\n    self.slow_down()\nexcept E:\n    return\nself.warn()", ["conditional-obligation"] * 2),
+        ("try:\n    pass\nexcept E:\n    self.slow_down()\nelse:\n    self.warn()", ["conditional-obligation"] * 2),
+        ("for x in y:\n    return\nself.slow_down()\nself.warn()", ["conditional-obligation"] * 2),
+        ("for x in y:\n    pass\nelse:\n    self.slow_down()\nself.warn()", ["conditional-obligation"]),
+        ("self.slow_down()\nreturn (self.warn() for _ in x)", ["conditional-obligation"]),
+        ("while self.x:\n    self.slow_down()\nself.warn()", ["conditional-obligation"]),
+        ("while True:\n    if self.x: break\nself.slow_down()\nself.warn()", ["conditional-obligation"] * 2),
+        ("match self.x:\n    case 1: return\nself.slow_down()\nself.warn()", ["conditional-obligation"] * 2),
+        ("self.slow_down()\nclass Inner:\n    pass\nasync def inner(): pass\ninner()\nself.warn()", []),
+        ("self.slow_down()\nthreading.Thread(target=self.warn).start()", ["undecided"]),
+        ("self.slow_down()\nobligation(input())(print)()", ["undecided"]),
+        ("self.slow_down()\neval('self.warn()')", ["undecided"]),
+        ("self.slow_down()\nsuper().warn()", []),
+        ("self.slow_down()\nself.obstacle()", ["missing-obligation", "method-around"]),
+        ("self.slow_down()\nself.rest()", ["missing-obligation"]),
+    ],
+)
+def test_what_is_not(hedge: str, expected: list[str]) -> None:
+    assert kinds(RULES, robot=robot(hedge)) == expected
+
+
+def test_implementations_by_parts_of_the_robot() -> None:
+    text = HEAD + GIVEN + "from wheels import Wheels\n\nclass Robot:\n    def __init__(self, horn):\n"
+    text += "        self.wheels = Wheels()\n        self.horn = horn\n\n"
+    text += BASE.replace("self.stop", "self.wheels.stop")
+    text += '    @cop.around(sleec.layers["stop.hc1"])\n    def obstacle(self):\n'
+    text += "        self.wheels.slow_down()\n        self.horn.warn()\n"
+    assert kinds(RULES, robot=text) == []
+    assert kinds(RULES, robot=text + "\n    def on_button(self):\n        self.horn.warn()\n") == ["undecided"]
+
+
+def test_a_part_that_is_no_implementation() -> None:
+    more = "\nclass Timer:\n    def stop(self): ...\n"
+    assert kinds(RULES, robot=robot("t = Timer()\nt.stop()\n" + BOTH, more)) == []
+    assert kinds(RULES, robot=robot("self.t.stop()\n" + BOTH, more)) == ["undecided"]
+
+
+def test_an_implementation_may_call_the_one_that_it_overrides() -> None:
+    more = "\nclass Careful(Robot):\n    def stop(self):\n        super().stop()\n        self.look()\n"
+    assert kinds(RULES, robot=robot(BOTH, more)) == []
+
+
+def test_a_variant_that_is_marked_implements() -> None:
+    text = robot("self.slow_down()\nself.warn()").replace("    @cop.base\n", "    @cop.base\n    @obligation('Stop')\n")
+    assert kinds(RULES, robot=text.replace("        self.stop()\n", "        pass\n")) == []
+    assert kinds(RULES, robot=text) == []
+
+
+def test_advice_counts() -> None:
+    advice = "\n    @cop.{}(sleec.layers['stop.hc1'])\n    def obstacle(self):\n        self.{}()\n"
+    assert kinds(RULES, robot=robot("self.warn()", advice.format("before", "slow_down"))) == []
+    assert kinds(RULES, robot=robot("self.slow_down()", advice.format("after", "warn"))) == []
+    assert kinds(RULES, robot=robot("self.warn()", advice.format("after", "slow_down"))) == ["obligation-order"]
+
+
+@pytest.mark.parametrize("annotation", ["Sleec", "'Sleec'", "sleec_runtime.Sleec", "Any", "'no ('"])
+def test_a_runtime_that_is_handed_in(annotation: str) -> None:
+    text = robot(BOTH).replace(GIVEN, "")
+    head, body = text.split("\nclass", 1)
+    inner = "".join(f"    {line}\n" for line in ("class" + body).splitlines())
+    assert kinds(RULES, robot=f"{head}\ndef make(sleec: {annotation}):\n{inner}") == []
+
+
+def test_what_is_not_awaited_is_not_run() -> None:
+    text = robot("self.slow_down()\nawait asyncio.gather(self.warn())").replace("def warn", "async def warn")
+    assert kinds(RULES, robot=text.replace("    def obstacle", "    async def obstacle")) == ["conditional-obligation"]
+
+
+def test_a_helper_behind_a_decorator_of_others() -> None:
+    more = "\n    @retry\n    def rest(self):\n        self.warn()\n"
+    assert kinds(RULES, robot=robot("self.slow_down()\nself.rest()", more)) == ["undecided"]
+    more = "\n    if x:\n        def rest(self):\n            self.warn()\n"
+    assert kinds(RULES, robot=robot("self.slow_down()\nself.rest()", more)) == ["undecided"]
+
+
+def test_calls_that_are_too_many_to_follow() -> None:
+    more = "".join(f"\n    def h{i}(self):\n        self.h{i + 1}()\n        self.h{i + 1}()\n" for i in range(16))
+    found = kinds(RULES, robot=robot(BOTH + "\nself.h0()", more + "\n    def h16(self): ...\n"))
+    assert found == ["undecided"]
+
+
+def test_a_class_that_inherits_from_itself() -> None:
+    assert kinds(RULES, robot=robot(BOTH, "\nclass A(B): ...\nclass B(A): ...\n")) == []
+
+
+def test_a_property_and_its_setter_are_no_variants() -> None:
+    more = "\n    @property\n    def x(self): ...\n    @x.setter\n    def x(self, value): ...\n"
+    assert kinds(RULES, robot=robot(BOTH, more)) == []
+
+
+def test_an_attribute_that_replaces_a_method() -> None:
+    more = "\n    def __init__(self):\n        self.warn = print\n"
+    assert kinds(RULES, robot=robot(BOTH, more)) == ["undecided"]
+
+
+def test_an_attribute_that_implements() -> None:
+    init = "\n    def __init__(self, horn):\n        self.warn = horn.blow\n        self.slow_down = print\n"
+    text = robot(BOTH, init).replace("    def slow_down(self): ...\n    def warn(self): ...\n", "")
+    assert kinds(RULES, robot=text) == []
