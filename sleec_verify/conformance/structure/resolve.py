@@ -212,13 +212,20 @@ class Resolver:
         elif isinstance(value, Object):
             attributes = [pair for class_ in classes for pair in class_.attributes.get(name, ())]
             if attributes:
-                values = {UNKNOWN if one is None else self.assigned(one, scope) for one, scope in attributes}
-                return values.pop() if len(values) == 1 else UNKNOWN
+                return self._assigned_to_self((value, name), attributes)
         for class_ in classes:
             if name in class_.inner.bindings:
                 found = self.bound(name, class_.inner)
                 return Code(found.definitions, value) if isinstance(found, Code) else found
         return UNKNOWN
+
+    def _assigned_to_self(self, key: object, attributes: list[tuple[Assigned | None, Scope]]) -> Value:
+        if key in self._under_way:  # self.x = self.x.next
+            return UNKNOWN
+        self._under_way.add(key)
+        values = {UNKNOWN if one is None else self.assigned(one, scope) for one, scope in attributes}
+        self._under_way.discard(key)
+        return values.pop() if len(values) == 1 else UNKNOWN
 
     def _Subscript(self, node: ast.Subscript, scope: Scope, given: Environment) -> Value:  # noqa: N802
         return self._item(self.of(node.value, scope, given), self.of(node.slice, scope, given))

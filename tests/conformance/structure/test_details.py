@@ -208,3 +208,8 @@ def test_an_attribute_that_implements() -> None:
     init = "\n    def __init__(self, horn):\n        self.warn = horn.blow\n        self.slow_down = print\n"
     text = robot(BOTH, init).replace("    def slow_down(self): ...\n    def warn(self): ...\n", "")
     assert kinds(RULES, robot=text) == []
+
+
+def test_an_attribute_that_is_assigned_from_itself() -> None:
+    more = "\n    def __init__(self):\n        self.x = self.x.next\n        self.y = self.z\n        self.z = self.y\n"
+    assert kinds(RULES, robot=robot("self.x.go()\nself.y()\n" + BOTH, more)) == []

@@ -15,7 +15,7 @@ from sleec_runtime.language import load, parse
 from sleec_verify.conformance.structure import check_structure
 from sleec_verify.conformance.structure.target import python_files
 from sleec_verify.finding import Proved, Unknown
-from tests.conformance.structure.checking import checked, files, kinds
+from tests.conformance.structure.checking import CODES, checked, files, kinds
 from tests.runtime import robots, test_instance
 
 ROOT = Path(__file__).parents[3]
@@ -86,3 +86,10 @@ def test_findings_carry_the_place_in_the_code() -> None:
     assert finding.source is not None
     text = finding.source.text[finding.span.start : finding.span.end]
     assert text in ("def ä", "self.stay()")
+
+
+@pytest.mark.parametrize("module", ["asyncio", "http", "sleec_runtime", "contextpy3"])
+def test_any_code_is_read_to_its_end(module: str) -> None:
+    code = python_files(module)
+    findings = check_structure(parse(robots.CURTAINS), code).findings
+    assert not {CODES[finding.code] for finding in findings} - {"missing-method", "undecided"}
