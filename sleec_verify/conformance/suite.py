@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -41,13 +42,15 @@ def _together(bench: Bench, examples: int) -> None:
         if failure is not None:
             raise failure
 
-    any_context()
+    with _repeatable():
+        any_context()
 
 
 def _changes(bench: Bench, examples: int) -> None:
     from sleec_verify.conformance.machine import run_machine
 
-    run_machine(bench, _settings(max(1, examples // 4)))
+    with _repeatable():
+        run_machine(bench, _settings(max(1, examples // 4)))
 
 
 def _whole_changes(bench: Bench, examples: int) -> object:
@@ -84,6 +87,10 @@ PARTS: dict[str, Part] = {
     "threads": _threads,
 }
 """What the ready test consists of, in the order in which it runs: what is quick, and finds the smallest, first."""
+
+
+class Unsteady(SleecError):
+    """A subject whose answers change from one run to the next, so that no smallest failure can be found."""
 
 
 class UnknownPart(SleecError):
@@ -145,6 +152,20 @@ def conformance_test(
         pytest.fail(message, pytrace=False)
 
     return test_conformance
+
+
+@contextmanager
+def _repeatable() -> Iterator[None]:
+    """A failure that Hypothesis could not repeat is one all the same, of a robot that does not always do the same."""
+    from hypothesis.errors import Flaky
+
+    try:
+        yield
+    except Flaky as flaky:
+        for error in getattr(flaky, "exceptions", ()):
+            if isinstance(error, Nonconformance):
+                raise error.after([*error.before, "(not every time: repeated, it did well)"]) from None
+        raise Unsteady("the robot does not always do the same in the same situation", str(flaky)) from None
 
 
 def _chosen(parts: Iterable[str] | None) -> list[str]:

@@ -160,6 +160,20 @@ def test_the_report_says_what_was_due_and_by_which_clause() -> None:
     ]
 
 
+def test_what_fails_now_and_then_fails() -> None:
+    calls = iter(range(10**9))
+
+    def make() -> Sleec:
+        sleec = running("RULE r WHEN T THEN o UNLESS a IN WHICH CASE p")
+        log = Log()
+        sleec.implement({name: lambda name=name: log.do(name) for name in "op"})
+        sleec.implement({"p": lambda: log.do("o") if next(calls) == 0 else None})
+        return sleec
+
+    with pytest.raises(Nonconformance, match="not every time"):
+        check_conformance(make, parts=["together"])
+
+
 @pytest.mark.parametrize(("made", "named"), [(None, "nothing"), (5, "a int"), (Log(), "a Log")])
 def test_a_factory_must_make_an_instance(made, named: str) -> None:
     with pytest.raises(NotASubject, match=f"the factory made {named}, which takes no triggers"):
