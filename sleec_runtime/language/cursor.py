@@ -37,12 +37,12 @@ _INSTEAD = {
     "[": "use round parentheses ( )",
     "]": "use round parentheses ( )",
     ";": "rules need no punctuation between them; leave it out",
-    '"': "write names and phrases without quotation marks",
-    "'": "write names and phrases without quotation marks",
-    "\u201c": "write names and phrases without quotation marks",
-    "\u201d": "write names and phrases without quotation marks",
-    "\u2018": "write names and phrases without quotation marks",
-    "\u2019": "write names and phrases without quotation marks",
+    '"': "write names, phrases and numbers without quotation marks",
+    "'": "write names, phrases and numbers without quotation marks",
+    "\u201c": "write names, phrases and numbers without quotation marks",
+    "\u201d": "write names, phrases and numbers without quotation marks",
+    "\u2018": "write names, phrases and numbers without quotation marks",
+    "\u2019": "write names, phrases and numbers without quotation marks",
     "=>": "write >= for 'at least', or THEN before a response",
     "=<": "write <=",
     ":=": "write =",
@@ -247,7 +247,9 @@ class Cursor:
             self.fail(
                 f"expected {what}, but found {self.found(self.at)}: a name begins with a letter",
                 self.token_span(self.at),
-                "put a word before the number, as in: at least 3 people",
+                "begin it with a letter, as in: Limit3"
+                if what in ("the name of a measure", "the name of a constant")
+                else "put a word before the number, as in: at least 3 people",
             )
         if kind == "dotted":
             self.fail(

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
+from typing import NoReturn
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.comparisons import Comparisons
-from sleec_runtime.language.cursor import Cursor
+from sleec_runtime.language.cursor import Cursor, quoted
 from sleec_runtime.language.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
 from sleec_runtime.language.resolve import Names, Side
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.model import And, Atom, Formula, Not, Operator, Or, Rational, Source, Span, Truth
 
 MAX_DIGITS = 100
+_DECIMAL_COMMA = re.compile(r"-?[0-9]+,[0-9]+")
+_THOUSANDS = re.compile(r"-?[1-9][0-9]{0,2},[0-9]{3}")
 
 _OPERATORS: dict[str, Operator] = {
     "<": "<",
@@ -86,6 +90,8 @@ class FormulaParser(Cursor):
             operand = self._unary()
             self.depth -= 1
             return Not(operand, self.span(first))
+        if kind == "digits" and self.kinds[first + 1] == "operator":
+            self._no_number(first, first)
         if kind in ("dotted", "digits"):
             self.no_name("a condition", None)
         if kind != "number":
@@ -154,6 +160,8 @@ class FormulaParser(Cursor):
                     "write the number alone, and put the unit in the measure's name; or is a keyword missing?",
                 )
             return Side(value, self.token_span(first))
+        if self.kinds[first] == "digits":
+            self._no_number(first, first)
         if self.kinds[first] == "word" and self.token_text(first).casefold() in ("true", "false"):
             self.fail(
                 f"{self.token_text(first)} is no value that something is compared with",
@@ -168,6 +176,8 @@ class FormulaParser(Cursor):
         token = self.at
         self.at += 1
         text = self.token_text(token)
+        if self.kinds[self.at] in (",", ".") and self._goes_on(token) and self._goes_on(self.at):
+            self._no_number(token, self.at + 1)
         if len(text) > MAX_DIGITS:
             self.fail(f"this number has more than {MAX_DIGITS} digits", self.token_span(token), "is a blank missing?")
         if "." not in text:
@@ -176,6 +186,24 @@ class FormulaParser(Cursor):
 
         value = Fraction(text)
         return int(value) if value.denominator == 1 else value
+
+    def _goes_on(self, token: int) -> bool:
+        """Whether the next token follows this one without a blank, and both are parts of what looks like a number."""
+        return self.ends[token] == self.starts[token + 1] and self.kinds[token + 1] in (",", ".", "number", "digits")
+
+    def _no_number(self, first: int, last: int) -> NoReturn:
+        """Gives up because these tokens are written as numbers are elsewhere: 1,5 and 1e5 and 1_000 and 18years."""
+        span = Span(self.starts[first], self.ends[last])
+        written = self.text[span.start : span.end]
+        if _DECIMAL_COMMA.fullmatch(written) and len(written) <= MAX_DIGITS:
+            decimal = written.replace(",", ".")
+            three = f", or {written.replace(',', '')}" if _THOUSANDS.fullmatch(written) else ""
+            self.fail(f"unexpected comma in the number {quoted(written)}", span, f"write {decimal}{three}")
+        self.fail(
+            f"{quoted(written)} is no number",
+            span,
+            "write a number with digits only and a point, as in 18, 100000 or 36.6",
+        )
 
     def _hint_at_condition(self, kind: str) -> str | None:
         if kind in ("AND", "OR"):
