@@ -5,14 +5,13 @@ have no common model over O (a "for all" over obligations inside an "exists" ove
 units, so it is enough to know every minimal set of literals that the constraints rule out, each with the situations
 in which they do: then "is there a conflicting context" is a plain question of satisfiability for each set.
 
-The sets are the prime implicates of the constraints over O, found by resolution with subsumption. The parts of a
-`NEVER` that speak of situations only are kept whole, as labels that a resolvent inherits.
+The sets are prime implicates of the constraints over the literals that are obliged at all, found by resolution with
+subsumption. The parts of a `NEVER` that speak of situations only are kept whole, as labels that a resolvent inherits.
 """
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -22,7 +21,7 @@ from sleec_verify.solver import Undecided
 
 Constraint = Exclusive | Never
 
-LIMIT = 5_000
+LIMIT = 2_000
 """How many cases a NEVER may have, and how many sets constraints that are tied to one another may rule out, before
 the question is given up."""
 
@@ -58,19 +57,16 @@ def opposite(literal: Obligation) -> Obligation:
     return Obligation(literal.name, not literal.negated)
 
 
-def clashes(constraints: Iterable[Constraint]) -> list[Clash]:
-    """The minimal inconsistent sets that these constraints give, without the sets of a name and its negation.
+def clashes(constraints: Iterable[Constraint], obliged: Collection[Obligation]) -> list[Clash]:
+    """The minimal inconsistent sets of literals of `obliged` that these constraints give, without the sets of a name
+    and its negation.
 
     Raises `TooEntangled` past `LIMIT`; worst case exponential in the constraints that share obligations, linear in
     the number of groups that share none.
     """
     found: list[Clash] = []
     for group in _groups([term for constraint in constraints for term in _terms(constraint)]):
-        if all(not literal.negated for term in group for literal in term.literals):
-            # Nothing to resolve on: the usual case, and the only one with EXCLUSIVE alone.
-            found += _minimal(group)
-        else:
-            found += _minimal(_saturated(group))
+        found += _eliminated(group, obliged)
     return found
 
 
@@ -132,37 +128,42 @@ def _disjuncts(formula: Formula, value: bool) -> list[_Term]:
     return terms
 
 
-def _minimal(found: Iterable[Clash]) -> Iterator[Clash]:
+def _minimal(found: Iterable[Clash]) -> list[Clash]:
     """Those that no other subsumes, smallest first."""
-    kept: dict[Obligation | None, list[Clash]] = {}
-    for clash in sorted(found, key=lambda c: (len(c.literals) + len(c.labels), len(c.origins))):
-        # Any subsuming clash has its own first literal among this one's.
-        near = (other for literal in (None, *clash.literals) for other in kept.get(literal, ()))
-        if not any(other.subsumes(clash) for other in near):
-            kept.setdefault(min(clash.literals, default=None, key=str), []).append(clash)
-            yield clash
-
-
-def _saturated(terms: list[Clash]) -> list[Clash]:
-    """Close under resolution: from M ∪ {o} and N ∪ {¬o}, the set M ∪ N, as due or not o breaks one of them."""
-    found: list[Clash] = []
+    kept: list[Clash] = []
     by_literal: dict[Obligation | None, list[Clash]] = {}
-    queue = deque(terms)
+    for clash in sorted(found, key=lambda c: (len(c.literals) + len(c.labels), len(c.origins))):
+        # Whatever subsumes this one is kept under one of this one's literals, or has none.
+        near = (other for literal in (None, *clash.literals) for other in by_literal.get(literal, ()))
+        if not any(other.subsumes(clash) for other in near):
+            by_literal.setdefault(min(clash.literals, default=None, key=str), []).append(clash)
+            kept.append(clash)
+    return kept
+
+
+def _eliminated(terms: list[Clash], obliged: Collection[Obligation]) -> list[Clash]:
+    """The minimal sets over `obliged`: resolve on one obligation after the other, and after each drop the sets with a
+    literal of it that nothing obliges (Tison's method, kept to the literals that matter)."""
+    found = _minimal(terms)
+    counts: dict[str, int] = {}
+    for term in found:
+        for literal in term.literals:
+            counts[literal.name] = counts.get(literal.name, 0) + 1
     steps = 0
-    while queue:
-        clash = queue.popleft()
-        if any(o.subsumes(clash) for literal in (None, *clash.literals) for o in by_literal.get(literal, ())):
-            continue
-        found.append(clash)
+    for name in sorted(counts, key=lambda name: (counts[name], name)):
+        done, undone = Obligation(name), Obligation(name, True)
+        fresh = []
+        for one in [clash for clash in found if done in clash.literals]:
+            for other in [clash for clash in found if undone in clash.literals]:
+                steps += 1
+                literals = (one.literals - {done}) | (other.literals - {undone})
+                if not any(opposite(literal) in literals for literal in literals):
+                    origins = sorted({*one.origins, *other.origins}, key=lambda origin: origin.span)
+                    fresh.append(Clash(literals, one.labels | other.labels, tuple(origins)))
+        idle = {literal for literal in (done, undone) if literal not in obliged}
+        kept = [clash for clash in found if idle.isdisjoint(clash.literals)]
+        if fresh or len(kept) < len(found):
+            found = _minimal(kept + fresh)
         if len(found) > LIMIT or steps > STEPS:
             raise TooEntangled("the constraints rule out more combinations than can be listed")
-        for literal in clash.literals or (None,):
-            by_literal.setdefault(literal, []).append(clash)
-        for literal in sorted(clash.literals, key=str):
-            for other in by_literal.get(opposite(literal), ()):
-                resolvent = (clash.literals - {literal}) | (other.literals - {opposite(literal)})
-                if not any(opposite(o) in resolvent for o in resolvent):
-                    steps += 1
-                    origins = tuple(sorted({*clash.origins, *other.origins}, key=lambda origin: origin.span))
-                    queue.append(Clash(resolvent, clash.labels | other.labels, origins))
     return found

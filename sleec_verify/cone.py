@@ -209,3 +209,13 @@ class Cones:
                 return sorted(rules)
             triggers |= tied
             rules.update(position for t in tied for position in self.by_trigger.get(t, ()))
+
+    def rivals(self, position: int) -> list[int]:
+        """The other rules that may oblige what the rule at `position` obliges, in situations that trigger it. In the
+        order of the text."""
+        rule = self.rules[position]
+        literals = {literal for clause in self.clauses[position] for literal in clause.obligations}
+        found = {place.rule for literal in literals for place in self.by_obligation[literal]} - {position}
+        if not self._triggers_assumed:
+            return sorted(other for other in found if self.rules[other].trigger == rule.trigger)
+        return sorted(found.intersection(self.together_with(rule.trigger)))

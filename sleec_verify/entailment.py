@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
-from sleec_runtime.model import Assume, Clause, Context, Formula, Obligation, Rule, Ruleset, Span
+from sleec_runtime.model import Assume, Clause, Context, Exclusive, Formula, Never, Obligation, Rule, Ruleset, Span
 from sleec_verify.checks.conflict import conflict_in
-from sleec_verify.clashes import Clash, clashes, opposite
+from sleec_verify.clashes import clashes
 from sleec_verify.cnf import Encoder
-from sleec_verify.cone import Cones, Place, names_in, names_of_rule
+from sleec_verify.cone import Cones, Place, names_in, names_of_rule, obligations_in
 from sleec_verify.finding import Finding, Witness
 from sleec_verify.solver import MiniSat
 
@@ -47,10 +48,11 @@ class Because:
 
 @dataclass(frozen=True)
 class Consequence:
-    """What the constraints make of what is due: it must be so, but no rule says so, and nothing executes it."""
+    """What the constraints `origins` make of what is due: it must be so, but no rule says so, and nothing executes
+    it."""
 
     literal: Obligation
-    clash: Clash
+    origins: tuple[Exclusive | Never, ...]
 
 
 @dataclass(frozen=True)
@@ -128,7 +130,7 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
         ruleset = ruleset.in_domain(domain)
     rules = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
     cones = Cones(ruleset)
-    ruled_out = clashes(cones.constraints)
+    ruled_out = clashes(cones.constraints, {o for rule in rules for c in rule.clauses() for o in c.obligations})
     labels = list(dict.fromkeys(label for clash in ruled_out for label in clash.labels))
     conditions = [formula for rule in rules for formula, _, _ in _conditions(rule)]
     assumed = [assumption.formula for assumption in cones.assumptions]
@@ -140,6 +142,8 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     definition = Definition1(ruleset, rules, formulas, frozenset(ruleset.measures) - set(context.conditions))
     true = definition.facts(context)
     truth = {id(formula): true(literal) for formula, literal in zip(formulas, definition.formulas)}
+    # Equal labels of several constraints were asked about once.
+    come_true = {label for label in labels if truth[id(label)]}
 
     position = {rule.label: p for p, rule in enumerate(cones.rules)}
     active = [
@@ -150,7 +154,7 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     ]
     due = definition.entailed(context)
     obliged = {o for place in active for o in cones.clauses[place.rule][place.number].obligations}
-    here = [clash for clash in ruled_out if all(truth[id(label)] for label in clash.labels)]
+    here = [clash for clash in ruled_out if clash.labels <= come_true]
     witness = Witness(tuple(sorted(context.triggers)), dict(context.conditions))
     conflicts = tuple(conflict_in(cones, active, here, witness))
     consistent = due is not None and not conflicts
@@ -159,7 +163,7 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
         obligations=tuple(sorted(o.name for o in due or () if not o.negated)) if consistent else (),
         prohibitions=tuple(sorted(o.name for o in due or () if o.negated)) if consistent else (),
         because=tuple(_because(cones.rules[place.rule], place.number, ruleset.reading, truth) for place in active),
-        consequences=tuple(_consequences(obliged, here)) if consistent else (),
+        consequences=tuple(_consequences(cones, obliged, context)) if consistent else (),
         conflicts=conflicts,
         broken_assumptions=tuple(a for a in cones.assumptions if not truth[id(a.formula)]),
         missing=tuple(sorted(missing)),
@@ -208,11 +212,34 @@ def _looked_at(rule: Rule, reading: str, truth: dict[int, bool]) -> list[tuple[C
     return sorted(looked, key=lambda pair: pair[1])
 
 
-def _consequences(due: set[Obligation], here: Sequence[Clash]) -> Iterator[Consequence]:
-    """Where all literals of a clash but one are due, the last must not be so."""
-    seen = set(due)
-    for clash in here:
-        rest = [literal for literal in clash.literals if literal not in due]
-        if len(rest) == 1 and opposite(rest[0]) not in seen:
-            seen.add(opposite(rest[0]))
-            yield Consequence(opposite(rest[0]), clash)
+def _consequences(cones: Cones, due: set[Obligation], context: Context) -> Iterator[Consequence]:
+    """What must be so where the constraints hold and what is due is done, though no rule says so. Two questions for
+    each obligation that is tied to what is due."""
+    names = {literal.name for literal in due}
+    constraints = cones.constraints_about(names)
+    tied = sorted({name for constraint in constraints for name in obligations_in(constraint)} - names)
+    if not tied:
+        return
+    measures = cones.ruleset.measures
+    encoder = Encoder(measures, frozenset(measures) - set(context.conditions))
+    kept = {}
+    for constraint in constraints:
+        in_force = encoder.fresh()
+        kept[in_force] = constraint
+        if isinstance(constraint, Exclusive):
+            for a, b in combinations(sorted(set(constraint.names)), 2):
+                encoder.clauses.append(
+                    [-in_force, -encoder.obligation(Obligation(a)), -encoder.obligation(Obligation(b))]
+                )
+        else:
+            encoder.clauses.append([-in_force, -encoder.literal(constraint.formula)])
+    encoder.close()
+    given = [encoder.obligation(literal) for literal in sorted(due, key=str)] + encoder.assumptions(context)
+    with MiniSat(encoder.clauses) as solver:
+        for name in tied:
+            for negated in (False, True):
+                refuted = -encoder.obligation(Obligation(name, negated))
+                if solver.solve([refuted, *given, *kept]) is False:
+                    core = set(solver.core())
+                    origins = tuple(constraint for literal, constraint in kept.items() if literal in core)
+                    yield Consequence(Obligation(name, negated), origins)

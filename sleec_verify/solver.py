@@ -57,9 +57,9 @@ class MiniSat:
     import than eight rules take to check, and as long to call as a small question takes to answer.
     """
 
-    def __init__(self, clauses: Iterable[Sequence[int]] = (), budget: int = CONFLICT_BUDGET) -> None:
+    def __init__(self, clauses: Iterable[Sequence[int]] = (), budget: int | None = None) -> None:
         self._solver = pysolvers.minisat22_new()
-        pysolvers.minisat22_cbudget(self._solver, budget)
+        pysolvers.minisat22_cbudget(self._solver, CONFLICT_BUDGET if budget is None else budget)
         # Signals reach the main thread only, and only there may the solver set its handler.
         self._interruptible = int(current_thread() is main_thread())
         self._model: list[int] = []

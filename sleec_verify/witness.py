@@ -27,9 +27,10 @@ def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = (
     """
     rails = _Rails(cones)
     rails.encoder.clauses.append([rails.known(formula, True)])
-    for measure in valued:
+    valued = set(valued)
+    for measure in sorted(valued):
         rails.require_value(measure)
-    wanted = set(names_in(formula)) if cones.assumptions else set()
+    wanted = {*names_in(formula), *(("condition", measure) for measure in valued)} if cones.assumptions else set()
     for assumption in cones.assumptions:
         if not wanted.isdisjoint(names_in(assumption.formula)) or not _holds_of_nothing(assumption.formula):
             wanted.update(names_in(assumption.formula))

@@ -53,7 +53,7 @@ class World:
         for obligation, literal in due.items():
             if not obligation.negated and opposite(obligation) in due:
                 self.question.require(-literal, -due[opposite(obligation)])
-        for clash in clashes(self.cones.constraints):
+        for clash in clashes(self.cones.constraints, due):
             if all(obligation in due for obligation in clash.literals):
                 labels = [-self.literal(label) for label in clash.labels]
                 self.question.require(*(-due[obligation] for obligation in clash.literals), *labels)

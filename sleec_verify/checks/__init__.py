@@ -84,7 +84,10 @@ def _verdict(check: Check, by_domain: Mapping[str, Cones]) -> tuple[Verdict, str
                     continue
                 # What covers a redundant rule may be another rule in each domain; it is one finding all the same.
                 rules = finding.rules[:1] if check.scope == "every domain" else finding.rules
-                key = (finding.code, rules, finding.clauses, finding.obligations, finding.span)
+                key: tuple[object, ...] = (finding.code, rules, finding.clauses, finding.obligations, finding.span)
+                if key in found and not replays(cones, found[key]):
+                    # The other domain's situation cannot be in this one, by the assumptions of this one.
+                    key = (*key, domain)
                 seen = found.setdefault(key, finding)
                 if domain:
                     found[key] = replace(seen, domains=(*seen.domains, domain))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 
-from sleec_runtime.model import Exclusive, Formula, Not, Obligation, Span
+from sleec_runtime.model import Exclusive, Formula, Not, Obligation, Rule, Span
 from sleec_verify.checks.base import Check, FindingKind, clause_at, clause_name, guard_at, listed
 from sleec_verify.clashes import Clash, clashes, opposite
 from sleec_verify.cone import Cones, Place
@@ -34,8 +34,7 @@ def all_clashes(cones: Cones) -> list[Clash]:
         for literal in obliged
         if not literal.negated and opposite(literal) in obliged
     ]
-    declared = [clash for clash in clashes(cones.constraints) if all(o in obliged for o in clash.literals)]
-    return direct + declared
+    return direct + clashes(cones.constraints, obliged)
 
 
 def _conflicts(cones: Cones) -> Iterator[Finding]:
@@ -160,9 +159,17 @@ def _finding(cones: Cones, cause: Cause, shown: list[tuple[Clash, Witness]]) -> 
         obligations=tuple(at_odds),
         witness=witness,
         note="; ".join(notes) or None,
-        help="decide which should give way, and say so with a hedge; or ASSUME that the situation cannot be",
+        help=_help(rules),
         related=tuple(_related(spans[1:], cause, names, origins)),
     )
+
+
+def _help(rules: list[Rule]) -> str:
+    if not rules:
+        return "mend the constraints, or ASSUME that the situation cannot be"
+    if len(rules) == 1:
+        return "mend the response, or ASSUME that the situation cannot be"
+    return "decide which should give way, and say so with a hedge; or ASSUME that the situation cannot be"
 
 
 def _subject(names: list[str]) -> str:
@@ -185,8 +192,8 @@ def _reason(cones: Cones, clash: Clash) -> str:
         f"the {'EXCLUSIVE' if isinstance(origin, Exclusive) else 'NEVER'} of line {place(origin.span).line}"
         for origin in clash.origins
     ]
-    rules_out = f"{listed(lines)} {'rules' if len(lines) == 1 else 'rule'} that out"
-    return f"{' and '.join(due)}, and {rules_out}" if due else rules_out
+    rule = "rules" if len(lines) == 1 else "rule"
+    return f"{' and '.join(due)}, and {listed(lines)} {rule} that out" if due else f"{listed(lines)} {rule} out any way"
 
 
 def _related(

@@ -48,9 +48,15 @@ def _why(cones: Cones, position: int, number: int) -> str:
     condition = cones.clauses[position][number].condition
     assert condition is not None, "only hedges are asked about"
     with Question(cones) as question:
+        triggered = question.encoder.any_of(question.guards(position))
+        if not question.ask(triggered):
+            return "its rule is active in no situation"
+    with Question(cones) as question:
         if not question.ask(question.encoder.literal(condition)):
             return "its condition can never be true"
-    return "its condition can be true, but never when the other hedges leave it the decision"
+    if len(cones.clauses[position]) == 2:
+        return "its condition can be true, but never where the rule is triggered"
+    return "its condition can be true, but never where the rule is triggered and no other hedge decides"
 
 
 _EXAMPLE_SCALE = "MEASURE RiskLevel: r_low < r_moderate < r_severe\n"

@@ -57,7 +57,7 @@ def _finding(cones: Cones, position: int, rule: Rule) -> Finding:
         clauses=tuple(ClauseRef(rule.label, n) for n in dict.fromkeys(deciding.values())),
         obligations=tuple(sorted({o.name for n in deciding.values() for o in clauses[n].obligations})),
         witness=witness,
-        note="; ".join(said),
+        note=f"with all else false: {'; '.join(said)}",
         help=f"this ruleset is read as {reading}; if that is what you mean, say it in the text: READING {reading}"
         if not cones.ruleset.reading_stated
         else f"the text says READING {reading}; other tools may read it otherwise",

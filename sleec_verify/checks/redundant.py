@@ -16,7 +16,7 @@ def _redundant_rules(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule is redundant: it obliges a literal that no other rule obliges. A model is a
     situation in which the rule makes a difference."""
     for position, rule in enumerate(cones.rules):
-        others = [other for other in cones.together_with(rule.trigger) if other != position]
+        others = cones.rivals(position)
         if _makes_a_difference(cones, position, others):
             continue
         needed = _needed(cones, position, others)
@@ -54,9 +54,8 @@ def _differs(
 
 def _needed(cones: Cones, position: int, others: Sequence[int]) -> list[int]:
     """A minimal part of `others` that makes the rule redundant: leave out one after the other."""
-    about = literals_of(cones.clauses[position])
-    needed = [other for other in others if not about.isdisjoint(literals_of(cones.clauses[other]))]
-    for other in list(needed):
+    needed = list(others)
+    for other in others:
         without = [kept for kept in needed if kept != other]
         if not _makes_a_difference(cones, position, without):
             needed = without
@@ -69,8 +68,8 @@ def _redundant_hedges(cones: Cones) -> Iterator[Finding]:
     for position, rule in enumerate(cones.rules):
         clauses = cones.clauses[position]
         about = literals_of(clauses)
-        others = [other for other in cones.together_with(rule.trigger) if other != position]
-        for number in range(1, len(clauses)):
+        others = cones.rivals(position)
+        for number in _not_plainly_needed(cones, position, others):
             with Question(cones) as question:
                 changed = without_hedge(rule, number)
                 with_it = question.due([position], about)
@@ -82,8 +81,28 @@ def _redundant_hedges(cones: Cones) -> Iterator[Finding]:
                 clauses[number].span,
                 rules=(rule.label,),
                 clauses=(ClauseRef(rule.label, number),),
-                help="remove it, or check whether its response is the one you meant",
+                help="check whether its response is the one you meant, or remove it and check again",
             )
+
+
+def _not_plainly_needed(cones: Cones, position: int, others: Sequence[int]) -> list[int]:
+    """The hedges but those that oblige, somewhere, what no other clause and no other rule obliges: these make a
+    difference, and are found in one formula instead of one for each hedge."""
+    clauses = cones.clauses[position]
+    if len(clauses) == 1:
+        return []
+    count: dict[Obligation, int] = {}
+    for clause in clauses:
+        for literal in set(clause.obligations):
+            count[literal] = count.get(literal, 0) + 1
+    with Question(cones) as question:
+        encoder, never = question.encoder, -question.encoder.true()
+        anyway = question.due(others, literals_of(clauses))
+        added = []
+        for clause, guard in zip(clauses, question.guards(position)):
+            alone = [-anyway.get(literal, never) for literal in clause.obligations if count[literal] == 1]
+            added.append(encoder.both(guard, encoder.any_of(alone)) if alone else never)
+        return [number for number in range(1, len(clauses)) if not question.ask(added[number])]
 
 
 def without_hedge(rule: Rule, number: int) -> Rule:

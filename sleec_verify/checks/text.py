@@ -41,7 +41,7 @@ def _unused(cones: Cones) -> Iterator[Finding]:
                 span,
                 kind=1,
                 obligations=(name,),
-                help="check the spelling; if it is a situation and no obligation, declare it: CONDITION " + name,
+                help=f"check the spelling; if {name} says how things are, and not what to do, declare it a CONDITION",
             )
 
 
@@ -127,8 +127,8 @@ UNUSED_NAME = Check(
             "SLEEC502",
             "note",
             "a constraint on something that no rule obliges",
-            "An EXCLUSIVE or NEVER names an obligation that no rule obliges or forbids, so it can never matter. "
-            "Usually the name is spelt otherwise in the rules.",
+            "An EXCLUSIVE or NEVER names an obligation that no rule obliges or forbids. It can matter only through other "
+            "constraints that name it too. Usually the name is spelt otherwise in the rules.",
             "EXCLUSIVE Answer, StayQuiet\nWHEN UserCalls THEN Answer\nWHEN UserSleeps THEN StaySilent\n",
             "EXCLUSIVE Answer, StaySilent\nASSUME NOT (UserCalls AND UserSleeps)\n"
             "WHEN UserCalls THEN Answer\nWHEN UserSleeps THEN StaySilent\n",

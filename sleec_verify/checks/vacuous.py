@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from sleec_runtime.model import Atom, Obligation
+from sleec_runtime.model import Atom, Never, Obligation
 from sleec_verify.checks.base import Check, FindingKind, listed, literals_of
 from sleec_verify.checks.conflict import all_clashes
 from sleec_verify.clashes import Clash
-from sleec_verify.cone import Cones, names_of_rule
+from sleec_verify.cone import Cones, names_in, names_of_rule
 from sleec_verify.equation import conjunction
 from sleec_verify.finding import Finding
 from sleec_verify.question import Question
@@ -21,8 +21,12 @@ def _vacuous(cones: Cones) -> Iterator[Finding]:
     by_literal: dict[Obligation | None, list[Clash]] = {}
     for clash in all_clashes(cones):
         by_literal.setdefault(min(clash.literals, key=str, default=None), []).append(clash)
+    groups: dict[str, tuple[list[int], list[Clash]]] = {}
     for position, rule in enumerate(cones.rules):
-        others = _always_met(cones, position, by_literal)
+        if rule.trigger not in groups:
+            groups[rule.trigger] = _at_stake(cones, rule.trigger, by_literal)
+        group, at_stake = groups[rule.trigger]
+        others = _always_met(cones, position, group, at_stake) if at_stake else None
         if others is None:
             continue
         labels = [cones.rules[other].label for other in others]
@@ -39,29 +43,39 @@ def _vacuous(cones: Cones) -> Iterator[Finding]:
 
 
 def _measures(cones: Cones, group: Sequence[int]) -> set[str]:
+    """The measures that decide these rules, or the constraints."""
     named = {name for position in group for _, name in names_of_rule(cones.rules[position])}
+    named.update(n for c in cones.constraints if isinstance(c, Never) for _, n in names_in(c.formula))
     return named & set(cones.ruleset.measures)
 
 
-def _always_met(cones: Cones, position: int, by_literal: dict[Obligation | None, list[Clash]]) -> list[int] | None:
+def _at_stake(
+    cones: Cones, trigger: str, by_literal: dict[Obligation | None, list[Clash]]
+) -> tuple[list[int], list[Clash]]:
+    """The clashes that the rules active with `trigger` can come to, and those of the rules that oblige part of one."""
+    group = cones.together_with(trigger)
+    due = {literal for other in group for literal in literals_of(cones.clauses[other])}
+    found = [c for literal in (None, *due) for c in by_literal.get(literal, ()) if c.literals <= due]
+    part = {literal for clash in found for literal in clash.literals}
+    return [other for other in group if not part.isdisjoint(literals_of(cones.clauses[other]))], found
+
+
+def _always_met(cones: Cones, position: int, group: Sequence[int], clashes: Sequence[Clash]) -> list[int] | None:
     """A minimal set of other rules with which the rule conflicts wherever it is triggered, or None if it can be kept
     somewhere, or is triggered nowhere."""
-    group = cones.together_with(cones.rules[position].trigger)
-    due = {literal for other in group for literal in literals_of(cones.clauses[other])}
-    clashes = [c for literal in (None, *due) for c in by_literal.get(literal, ()) if c.literals <= due]
-    if not clashes:
-        return None
     with Question(cones) as question:
         encoder = question.encoder
         # A rule speaks only if it is let in, so that the solver's core names the rules that matter.
         let_in = {other: encoder.fresh() for other in group if other != position}
         literals = encoder.due(
             (clause, encoder.both(guard, let_in[other]) if other != position else guard)
-            for other in group
+            for other in {*group, position}
             for clause, guard in zip(cones.clauses[other], question.guards(other))
         )
         for clash in clashes:
-            question.require(*(-literals[o] for o in clash.literals), -encoder.literal(clash.situation))
+            question.require(
+                *(-literals[o] for o in sorted(clash.literals, key=str)), -encoder.literal(clash.situation)
+            )
         triggered = encoder.any_of(question.guards(position))
         if question.ask(triggered, *let_in.values()):
             return None

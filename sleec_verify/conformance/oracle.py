@@ -51,7 +51,8 @@ class Oracle:
         self.domain = domain
         self.ruleset = whole if domain is None else whole.in_domain(domain)
         forbidding = (c for c in self.ruleset.constraints if isinstance(c, (Exclusive, Never)))
-        self.clashes = clashes(forbidding)
+        obliged = {o for rule in self.ruleset.rules for clause in rule.clauses() for o in clause.obligations}
+        self.clashes = clashes(forbidding, obliged)
         self.assumptions = [c.formula for c in self.ruleset.constraints if isinstance(c, Assume)]
         self._by_trigger: dict[str, list[Rule]] = {}
         for rule in self.ruleset.rules:

@@ -109,7 +109,7 @@ def _values(ruleset: Ruleset, context: Context, formula: Formula) -> str:
 def _consequence(ruleset: Ruleset, consequence: Consequence) -> str:
     literal = consequence.literal
     must = "must not be done" if literal.negated else "must be done"
-    origins = [f"{_text(ruleset, origin.span)} ({_at(ruleset, origin.span)})" for origin in consequence.clash.origins]
+    origins = [f"{_text(ruleset, origin.span)} ({_at(ruleset, origin.span)})" for origin in consequence.origins]
     return f"    {literal.name} {must}: {listed(origins)}\n"
 
 

@@ -155,6 +155,30 @@ def test_a_chain_inside_the_default_decides_too():
     assert [(d.clause, d.truth) for d in because.decisions] == [(1, True), (2, False)]
 
 
+def test_equal_conditions_in_several_constraints_are_one_condition():
+    text = "CONDITION C\nNEVER A AND C\nNEVER B AND C OR D AND C\nWHEN T THEN A\nWHEN U THEN B"
+    assert not entail(parse(text), Context(frozenset("T"), {"C": True})).consistent
+    assert entail(parse(text), Context(frozenset("U"))).obligations == ("B",)
+
+
+def test_a_vacuous_rule_has_a_situation_whatever_the_measures_are_compared_with():
+    text = "MEASURE S: low < top\nNEVER S <= top AND A\nWHEN T THEN A"
+    (finding,) = found(text, "vacuous-conflict")
+    assert finding.witness.conditions == {"S": "low"}
+    text = "ASSUME NOT M <= 0\nRULE r WHEN T THEN O AND NOT P\nRULE s WHEN T THEN P UNLESS M <= M AND M < M"
+    assert [finding.rules[0] for finding in found(text, "vacuous-conflict")] == ["r", "s"]
+
+
+def test_a_situation_is_one_of_each_domain_that_it_is_told_of():
+    text = (
+        "CONDITION Night, Busy\nWHEN Call THEN Answer UNLESS Busy IN WHICH CASE NOT Answer\nWHEN Call THEN Answer\n"
+        "DOMAIN home\nWHEN Ring THEN Wave\nDOMAIN ward\nASSUME NOT (Call AND NOT Night)\nWHEN Ring THEN Wave"
+    )
+    home, ward = found(text, "conflict")
+    assert (home.domains, home.witness.conditions) == (("home",), {"Busy": True})
+    assert (ward.domains, ward.witness.conditions) == (("ward",), {"Busy": True, "Night": True})
+
+
 def test_a_situation_that_cannot_be_says_so():
     answer = entail(parse("ASSUME NOT (t AND c)\nWHEN t THEN o"), Context(frozenset("t"), {"c": True}))
     assert len(answer.broken_assumptions) == 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from sleec_runtime.language import parse
-from sleec_runtime.model import Context
+from sleec_runtime.model import Context, Obligation
 from sleec_verify import replay, solver
 from sleec_verify.checks import conflict, run_checks
 from sleec_verify.clashes import clashes
@@ -18,7 +18,7 @@ from sleec_verify.solver import MiniSat, Undecided
 ENTANGLED = "\n".join(
     [f"NEVER NOT A{n} AND NOT B{n}" for n in range(14)]
     + ["NEVER " + " AND ".join(f"A{n}" for n in range(14))]
-    + [f"WHEN t THEN NOT A{n}\nWHEN t THEN NOT B{n}" for n in range(14)]
+    + [f"WHEN t THEN A{n}\nWHEN t THEN NOT B{n}" for n in range(14)]
 )
 
 
@@ -44,15 +44,26 @@ def test_entail_does_not_guess_about_entangled_constraints():
         entail(parse(ENTANGLED), Context(frozenset({"t"})))
 
 
+def test_a_long_chain_of_constraints_is_no_entanglement():
+    chain = "\n".join(f"NEVER O{n} AND NOT O{n + 1}" for n in range(100))
+    ruleset = parse(f"{chain}\nRULE a WHEN t THEN O0\nRULE b WHEN u THEN NOT O100")
+    (result,) = run_checks(ruleset, ["conflict"])
+    assert [finding.rules for finding in result.findings] == [("a", "b")]
+    answer = entail(ruleset, Context(frozenset("t")))
+    assert answer.consistent
+    assert len(answer.consequences) == 100
+    assert not entail(ruleset, Context(frozenset("tu"))).consistent
+
+
 def test_a_never_of_too_many_cases_is_unknown():
     cases = " AND ".join(f"(A{n} OR B{n})" for n in range(13))
     with pytest.raises(Undecided):
-        clashes(Cones(parse(f"NEVER {cases}\nWHEN t THEN A0")).constraints)
+        clashes(Cones(parse(f"NEVER {cases}\nWHEN t THEN A0")).constraints, {Obligation("A0")})
 
 
 def test_a_question_past_the_budget_is_unknown(monkeypatch):
-    monkeypatch.setattr(solver, "CONFLICT_BUDGET", 10)
-    (result,) = run_checks(parse(pigeons(7)), ["dead-rule"])
+    monkeypatch.setattr(solver, "CONFLICT_BUDGET", 1)
+    (result,) = run_checks(parse(pigeons(8)), ["dead-rule"])
     assert isinstance(result.verdict, Unknown)
     assert "gave up" in result.verdict.why
 
