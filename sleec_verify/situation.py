@@ -7,11 +7,13 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import SleecError
+from sleec_verify.report.words import shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Measure, Ruleset, Value
 
 _NUMBER = re.compile(r"[+-]?[0-9]{1,100}(\.[0-9]{1,100})?")
+_COMPARES = re.compile(r"[<>\u2264\u2265\u2260]|!=")
 _TRUTHS = {"true": True, "false": False}
 
 
@@ -57,12 +59,14 @@ def _assignment(ruleset: Ruleset, item: str) -> tuple[str, Value]:
     if item in ruleset.conditions:
         return item, True
     name, equals, written = (part.strip() for part in item.partition("="))
+    _check_form(ruleset, item, name, bool(equals))
     if equals:
+        written = written.removeprefix("=").strip()  # == says = in the rules too
         if name in ruleset.measures:
             return name, _measured(ruleset, ruleset.measures[name], written)
         if written.lower() not in _TRUTHS and name in ruleset.conditions:
             raise SituationError(
-                f"{name} is a condition, true or false, and {written or 'nothing'} is neither",
+                f"{name} is a condition, true or false, and {shortened(written) or 'nothing'} is neither",
                 f"write {name} or not {name}",
             )
         return _condition(ruleset, name), _TRUTHS.get(written.lower(), True)
@@ -70,6 +74,21 @@ def _assignment(ruleset: Ruleset, item: str) -> tuple[str, Value]:
     if blank and negation.lower() == "not":
         return _condition(ruleset, rest), False
     return _condition(ruleset, item), True
+
+
+def _check_form(ruleset: Ruleset, item: str, name: str, equals: bool) -> None:
+    """Refuse what no name could make right: no name at all, a comparison, a negation of a value, a number alone."""
+    shown = shortened(item)
+    if not name:
+        raise SituationError(f"there is no name before the = in {shown}", "write Name=value, as in UserAge=15")
+    if not equals and item.lower() == "not" and item not in ruleset.conditions:
+        raise SituationError(f"there is no name after {item}", "write not and a name, as in not UserAsleep")
+    if _COMPARES.search(item):
+        raise SituationError(f"{shown} is a comparison", "a situation gives each measure one value, as in UserAge=15")
+    if equals and name not in ruleset.conditions and name.lower().startswith("not "):
+        raise SituationError(f"{shown} says both not and =", "write not Name, or Name=false")
+    if not equals and _NUMBER.fullmatch(item):
+        raise SituationError(f"{shown} is a number without a name", "write decimals with a point, as in 36.6")
 
 
 def _condition(ruleset: Ruleset, name: str) -> str:
@@ -89,14 +108,16 @@ def _measured(ruleset: Ruleset, measure: Measure, written: str) -> Value:
     if measure.kind == "scale":
         if written in measure.values:
             return written
+        if not written:
+            raise SituationError(f"{measure.name} is given no value", f"its scale is {' < '.join(measure.values)}")
         raise SituationError(
-            f"{measure.name} is never {written or 'nothing'}", f"its scale is {' < '.join(measure.values)}"
+            f"{measure.name} is never {shortened(written)}", f"its scale is {' < '.join(measure.values)}"
         )
     if written in ruleset.constants:
         return ruleset.constants[written].value
     if not _NUMBER.fullmatch(written):
         raise SituationError(
-            f"{measure.name} is a number, and {written[:40] or 'nothing'} is not",
+            f"{measure.name} is a number, and {shortened(written) or 'nothing'} is not",
             f"write it with digits, as in {measure.name}=15 or {measure.name}=36.6",
         )
     from fractions import Fraction
@@ -105,7 +126,7 @@ def _measured(ruleset: Ruleset, measure: Measure, written: str) -> Value:
     if number.denominator == 1:
         return number.numerator
     if measure.kind == "integer":
-        raise SituationError(f"{measure.name} is a whole number, and {written} is not", "round it")
+        raise SituationError(f"{measure.name} is a whole number, and {shortened(written)} is not", "round it")
     return number
 
 
@@ -120,4 +141,4 @@ def _unknown(name: str, what: str, known: frozenset[str] | set[str]) -> Situatio
         hint = f"the rules know {', '.join(shown[:10])}{' and more' if len(shown) > 10 else ''}"
     else:
         hint = f"the ruleset has no {what}"
-    return SituationError(f"there is no {what} {name}", hint)
+    return SituationError(f"there is no {what} {shortened(name)}", hint)

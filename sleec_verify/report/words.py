@@ -33,6 +33,11 @@ def quoted(name: str) -> str:
     return f'"{name}"' if " " in name else name
 
 
+def shortened(text: str) -> str:
+    """What someone typed, cut as the messages of the language cut it, so that a message stays one."""
+    return f"{text[:37]}..." if len(text) > 40 else text
+
+
 def witness_text(witness: Witness) -> str:
     """``When A and B occur, C is true and Age is 15 (the rest does not matter)``"""
     occurs = f"When {_occurring(witness.triggers)}" if witness.triggers else "Whatever occurs"

@@ -38,6 +38,7 @@ WHEN the dog barks THEN Ask
         ("Age=-0.10", {"Age": Fraction(-1, 10)}),
         ("Age=15.0", {"Age": 15}),
         ("Age=LegalAge", {"Age": 18}),
+        ("Age==15, Risk == high, Night==false", {"Age": 15, "Risk": "high", "Night": False}),
         ("Risk=high,Night , Age=1", {"Risk": "high", "Night": True, "Age": 1}),
         ("Night, Night", {"Night": True}),
     ],
@@ -77,3 +78,25 @@ def test_ruleset_without_conditions() -> None:
 def test_digits_without_end_are_refused() -> None:
     with pytest.raises(SituationError):
         parse_situation(RULES, "Rung", "Age=" + "9" * 10_000)
+
+
+@pytest.mark.parametrize(
+    ("when", "given"),
+    [
+        ("{}", ""),
+        ("Rung", "{}"),
+        ("Rung", "not {}"),
+        ("Rung", "{}=5"),
+        ("Rung", "Night={}"),
+        ("Rung", "Risk={}"),
+        ("Rung", "Age={}"),
+        ("Rung", "={}"),
+        ("Rung", "Age<{}"),
+        ("Rung", "not Night={}"),
+    ],
+)
+def test_what_was_typed_is_cut_in_messages(when: str, given: str) -> None:
+    with pytest.raises(SituationError) as raised:
+        parse_situation(RULES, when.format("x" * 20_000), given.format("x" * 20_000))
+    assert "..." in str(raised.value)
+    assert len(str(raised.value)) < 200
