@@ -35,10 +35,11 @@ class _Lazy(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         if args and args[0] not in _SUMMARIES and not args[0].startswith("-"):
             from sleec_runtime.language.suggest import nearest
+            from sleec_verify.report.words import shortened
 
             near = nearest(args[0], _SUMMARIES)
             hint = f"did you mean {near}?" if near else f"there are {', '.join(_SUMMARIES)}"
-            raise click.UsageError(f"there is no command {args[0]!r}; {hint}", ctx)
+            raise click.UsageError(f"there is no command {shortened(args[0])!r}; {hint}", ctx)
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

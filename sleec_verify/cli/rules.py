@@ -64,12 +64,23 @@ def _entries() -> _ByCode:
 def _matching(by_code: _ByCode, code: str) -> _ByCode:
     wanted = {c: entry for c, entry in by_code.items() if code.upper() == c or code == entry.check}
     if not wanted:
-        from sleec_runtime.language.suggest import nearest
+        from sleec_verify.report.words import shortened
 
-        near = nearest(code.upper(), by_code) or nearest(code, [*CHECKS, structure.NAME])
-        hint = f"did you mean {near}?" if near else "`sleec-verify rules` lists them"
-        raise click.UsageError(f"there is no finding code {code}; {hint}")
+        near = _near(by_code, code)
+        hint = f"did you mean {near}?" if near else "`sleec-verify rules` lists all of them"
+        raise click.UsageError(f"there is no finding code {shortened(code)}; {hint}")
     return wanted
+
+
+def _near(by_code: _ByCode, code: str) -> str | None:
+    """The code or check that was meant. Codes of another hundred are about something else, though a digit or two away:
+    of these only a slip of one letter is near."""
+    from sleec_runtime.language.suggest import edits, nearest
+
+    written = code.upper()
+    same = [c for c in by_code if c[:-2] == written[:-2]]
+    slips = (c for c in by_code if abs(len(c) - len(written)) < 2 and edits(written, c, 2) < 2)
+    return nearest(written, same) or next(slips, None) or nearest(code, [*CHECKS, structure.NAME])
 
 
 def _listed(by_code: _ByCode, palette: Palette) -> Iterator[str]:
