@@ -10,7 +10,7 @@ import click
 
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
-from sleec_verify.cli.output import write
+from sleec_verify.cli.output import write_data
 from sleec_verify.report.outcome import counted
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 @options.domain
 @options.reading
 @options.output_format("toml", "json")
-@click.option("-o", "--output", metavar="FILE", type=click.Path(), help="Write to this file instead; it must be new.")
+@click.option("-o", "--output", metavar="FILE", type=options.PATH, help="Write to this file instead; it must be new.")
 @click.option("--force", is_flag=True, help="With -o: replace the file.")
 def command(
     path: str,
@@ -64,7 +64,7 @@ def command(
     render = toml if form == "toml" else json_text
     text = render(ruleset, criterion, found, _from(output, path))
     if output is None:
-        write((text,))
+        write_data((text,))
     else:
         _create(output, text, force)
     print(_in_short(found), file=sys.stderr)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import click
 
 from sleec_verify.cli import exits, options
-from sleec_verify.cli.inputs import one_ruleset
-from sleec_verify.cli.output import write
+from sleec_verify.cli.inputs import note_mixed_domains, one_ruleset
+from sleec_verify.cli.output import write_data
 from sleec_verify.compilation import FORMS, compile_to
 
 if TYPE_CHECKING:
@@ -30,6 +30,9 @@ def command(path: str, form: str, domain: str | None, reading: Reading | None) -
     sympy and latex are for people: the guards and implications of Equation 1. cnf, dimacs, smtlib and json are for
     solvers: clauses, linear in the size of the rules, with a map from variables to names.
     """
-    text = compile_to(one_ruleset(path, reading, domain), form, domain)
-    write((text if text.endswith("\n") else text + "\n",))
+    ruleset = one_ruleset(path, reading, domain)
+    if domain is None:
+        note_mixed_domains(ruleset)
+    text = compile_to(ruleset, form, domain)
+    write_data((text if text.endswith("\n") else text + "\n",))
     return exits.HOLDS

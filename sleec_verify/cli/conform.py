@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     short_help="Does a robot's code have the structure that the rules ask for?",
     epilog="Example: sleec-verify conform examples/household_robot.py --ruleset rulesets/household.sleec",
 )
-@click.argument("target", metavar="TARGET", type=click.Path())
-@click.option("--ruleset", "path", metavar="FILE", required=True, type=click.Path(), help="The rules.")
+@click.argument("target", metavar="TARGET", type=options.PATH)
+@click.option("--ruleset", "path", metavar="FILE", required=True, type=options.PATH, help="The rules.")
 @options.domain
 @options.reading
 @click.option(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from sleec_verify.cli import exits, options
-from sleec_verify.cli.inputs import one_ruleset
+from sleec_verify.cli.inputs import note_mixed_domains, one_ruleset
 from sleec_verify.cli.output import write
 
 if TYPE_CHECKING:
@@ -56,6 +56,8 @@ def ask(
 
     ruleset = one_ruleset(path, reading, domain)
     context = parse_situation(ruleset, ",".join(when), ",".join(given))
-    if domain is not None:
+    if domain is None:
+        note_mixed_domains(ruleset)
+    else:
         ruleset = ruleset.in_domain(domain)
     return ruleset, context, entail(ruleset, context)

@@ -12,7 +12,7 @@ from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import Ruleset
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import files
-from sleec_verify.cli.output import complain, write
+from sleec_verify.cli.output import complain, write, write_data
 from sleec_verify.report.outcome import Unusable, counted
 
 
@@ -47,7 +47,7 @@ def command(paths: tuple[str, ...], mode: str | None) -> int:
             continue
         laid_out = _laid_out(ruleset)
         if mode is None:
-            write((laid_out,))
+            write_data((laid_out,))
         elif laid_out != ruleset.source.text:
             changed += 1
             _show(path, ruleset, laid_out, mode)
@@ -84,7 +84,7 @@ def _show(path: str, ruleset: Ruleset, laid_out: str, mode: str) -> None:
         name = ruleset.source.path
         before, after = (text.splitlines(keepends=True) for text in (ruleset.source.text, laid_out))
         for line in unified_diff(before, after, name, name):
-            write((line if line.endswith("\n") else line + "\n\\ No newline at end of file\n",))
+            write_data((line if line.endswith("\n") else line + "\n\\ No newline at end of file\n",))
 
 
 def _replace(path: str, text: str) -> None:

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 from sleec_runtime.errors import SleecError, UnreadableFile
 from sleec_runtime.language import load
 from sleec_runtime.language.suggest import nearest
+from sleec_verify.cli.output import note
 from sleec_verify.report.outcome import Unusable
+from sleec_verify.report.words import listed, shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset
@@ -25,8 +27,10 @@ def files(paths: Iterable[str]) -> Iterator[str | Unusable]:
     """The files that `paths` mean: a folder stands for every ``*.sleec`` below it, sorted. None comes twice."""
     seen = set()
     for path in paths:
-        found = _below(path) if os.path.isdir(path) else [path]
-        if not found:
+        closed: list[Unusable] = []
+        found = _below(path, closed) if os.path.isdir(path) else [path]
+        yield from closed
+        if not found and not closed:
             yield Unusable(path, UnreadableFile(f"there is no {SUFFIX} file below {path}", "name a file"))
         for file in found:
             if file not in seen:
@@ -34,9 +38,18 @@ def files(paths: Iterable[str]) -> Iterator[str | Unusable]:
                 yield file
 
 
-def _below(folder: str) -> list[str]:
+def _below(folder: str, closed: list[Unusable]) -> list[str]:
+    """The texts of rules below `folder`; the folders that may not be read go to `closed`."""
+
+    def tell(error: OSError) -> None:
+        place = os.fspath(error.filename)
+        closed.append(Unusable(place, UnreadableFile(f"the folder {place} cannot be read: {error.strerror}")))
+
     return sorted(
-        os.path.join(parent, name) for parent, _, names in os.walk(folder) for name in names if name.endswith(SUFFIX)
+        os.path.join(parent, name)
+        for parent, _, names in os.walk(folder, onerror=tell)
+        for name in names
+        if name.endswith(SUFFIX)
     )
 
 
@@ -51,6 +64,8 @@ def rulesets(paths: Iterable[str], reading: Reading | None, domain: str | None) 
         named = {name for one in found if not isinstance(one, Unusable) for name in one.domains}
         if named and domain not in named:
             raise _unknown_domain(domain, sorted(named))
+        if not named and any(not isinstance(one, Unusable) for one in found):
+            _note_no_domains(domain)
     return found
 
 
@@ -64,7 +79,19 @@ def one_ruleset(path: str, reading: Reading | None, domain: str | None) -> Rules
     ruleset = load(path)
     if domain is not None and ruleset.domains and domain not in ruleset.domains:
         raise _unknown_domain(domain, ruleset.domains)
+    if domain is not None and not ruleset.domains:
+        _note_no_domains(domain)
     return ruleset if reading is None else ruleset.read_as(reading)
+
+
+def note_mixed_domains(ruleset: Ruleset) -> None:
+    """Tell where rules that are never in force together are taken together, for want of --domain."""
+    if len(ruleset.domains) > 1:
+        note(f"the rules of the domains {listed(ruleset.domains)} are taken together; choose one with --domain")
+
+
+def _note_no_domains(domain: str) -> None:
+    note(f"no rule has a domain, so all of them count in {shortened(domain)}")
 
 
 def _load(path: str, reading: Reading | None) -> Ruleset | Unusable:
@@ -77,4 +104,4 @@ def _load(path: str, reading: Reading | None) -> Ruleset | Unusable:
 def _unknown_domain(domain: str, named: Sequence[str]) -> UnknownDomain:
     near = nearest(domain, named)
     hint = f"did you mean {near}?" if near else f"there are {', '.join(named)}"
-    return UnknownDomain(f"there is no domain {domain}", hint)
+    return UnknownDomain(f"there is no domain {shortened(domain)}", hint)

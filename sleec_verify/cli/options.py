@@ -10,11 +10,15 @@ import click
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 
+PATH = click.Path(readable=False)
+"""A path of which nothing is asked here: whether it can be read is told by what reads it."""
+
+
 def paths(several: bool) -> Callable[[_Command], _Command]:
     """The argument for texts of rules. Whether they exist is told with the other errors of the input."""
     if several:
-        return click.argument("paths", metavar="PATH…", nargs=-1, required=True, type=click.Path())
-    return click.argument("path", metavar="FILE", type=click.Path())
+        return click.argument("paths", metavar="PATH…", nargs=-1, required=True, type=PATH)
+    return click.argument("path", metavar="FILE", type=PATH)
 
 
 reading = click.option(

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import builtins
+import errno
 import json
+import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -55,6 +59,85 @@ def test_no_ruleset_is_exit_2_with_a_message(name: str, tmp_path: Path, capfd: p
 def test_file_name_that_cannot_be(capfd: pytest.CaptureFixture[str]) -> None:
     assert run(["check", "x" * 300]) == 2
     assert capfd.readouterr().err == f"error: {'x' * 300} cannot be read: File name too long\n"
+
+
+@pytest.fixture
+def locked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A file that may not be read, for root as well."""
+    path = tmp_path / "locked.sleec"
+    path.write_text("WHEN a THEN b\n")
+    sound = builtins.open
+
+    def refuse(file: object, *arguments: Any, **options: Any) -> Any:
+        if str(file) == str(path):
+            raise PermissionError(errno.EACCES, "Permission denied", str(path))
+        return sound(file, *arguments, **options)  # type: ignore[call-overload]
+
+    monkeypatch.setattr("builtins.open", refuse)
+    monkeypatch.setattr("os.access", lambda file, mode, **_: str(file) != str(path))
+    return path
+
+
+@pytest.mark.parametrize("command", [*COMMANDS, ["cases"]], ids=" ".join)
+def test_file_that_may_not_be_read(command: list[str], locked: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert run([command[0], str(locked), *command[1:]]) == 2
+    assert f"error: {locked} may not be read\n" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("forbidden", ["target", "ruleset"])
+def test_conform_of_what_may_not_be_read(
+    forbidden: str, locked: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    sound = tmp_path / "sound.sleec"
+    sound.write_text("WHEN a THEN b\n")
+    target, ruleset = (locked, sound) if forbidden == "target" else (sound, locked)
+    assert run(["conform", str(target), "--ruleset", str(ruleset)]) == 2
+    said = capfd.readouterr().err
+    assert str(locked) in said
+    assert "Usage" not in said
+    assert "mistake in sleec-verify" not in said
+
+
+def test_file_that_may_not_be_read_among_others(
+    locked: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    sound = tmp_path / "sound.sleec"
+    sound.write_text("WHEN a THEN b\n")
+    assert run(["check", str(locked), str(sound), "--format", "json"]) == 2
+    first, second = json.loads(capfd.readouterr().out)["rulesets"]
+    assert first["error"]["message"] == f"{locked} may not be read"
+    assert second["rules"] == 1
+
+
+def test_folder_that_may_not_be_read(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "sound.sleec").write_text("WHEN a THEN b\n")
+    (tmp_path / "locked").mkdir()
+    sound = os.scandir
+
+    def refuse(folder: str) -> Any:
+        if folder.endswith("locked"):
+            raise PermissionError(errno.EACCES, "Permission denied", folder)
+        return sound(folder)
+
+    monkeypatch.setattr("os.scandir", refuse)
+    assert run(["check", str(tmp_path), "--format", "concise"]) == 2
+    out, err = capfd.readouterr()
+    assert f"error: the folder {tmp_path / 'locked'} cannot be read: Permission denied\n" in err
+    assert out.startswith("2 rulesets: ")
+
+
+@pytest.mark.parametrize("arguments", [["rules"], ["check", "a.sleec", "--domain"], []])
+def test_what_was_typed_is_cut_in_messages(
+    arguments: list[str], tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.sleec").write_text("DOMAIN home\nWHEN a THEN b\n")
+    assert run([*arguments, "x" * 20_000]) == 2
+    said = capfd.readouterr().err
+    assert "x" * 37 + "..." in said
+    assert len(said) < 500
 
 
 @pytest.mark.parametrize("depth", [200, 5000])
