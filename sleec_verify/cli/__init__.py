@@ -9,11 +9,13 @@ import gc
 import os
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from io import TextIOWrapper
-from typing import NoReturn
+from typing import NoReturn, TextIO
 
 INTERRUPTED = 130
 BROKEN_PIPE = 141
+COMPLETION = "_SLEEC_VERIFY_COMPLETE"
 
 
 def main() -> NoReturn:
@@ -34,27 +36,56 @@ def main() -> NoReturn:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command line with these arguments; the exit code."""
-    from click.exceptions import Abort, ClickException
-
     from sleec_verify.cli import exits
-    from sleec_verify.cli.commands import sleec_verify
 
+    # A program may be started without one of its streams: Python then has None in its place.
+    for stream, name, other in ((sys.stdout, "output", sys.stderr), (sys.stderr, "error", sys.stdout)):
+        if stream is None:
+            _tell(f"error: standard {name} is closed, so that nothing can be written to it", other)
+            return exits.UNUSABLE
     try:
-        code = sleec_verify.main(list(arguments), prog_name="sleec-verify", standalone_mode=False) or 0
+        code = _told(arguments)
         sys.stdout.flush()
-    except ClickException as error:
-        error.show()
-        code = error.exit_code
-    except (KeyboardInterrupt, Abort):
-        code = INTERRUPTED
+        sys.stderr.flush()
     except BrokenPipeError:
         code = BROKEN_PIPE  # whoever read this has seen enough
     except OSError as error:
         _tell(f"the output cannot be written: {error.strerror}")
         code = exits.UNUSABLE
+    return code
+
+
+def _told(arguments: Sequence[str]) -> int:
+    """Run the command line, and tell of what went wrong. Only what goes wrong in telling is raised: OSError."""
+    from click.exceptions import Abort, ClickException
+
+    try:
+        return _invoke(list(arguments))
+    except ClickException as error:
+        error.show()
+        return int(error.exit_code)
+    except (KeyboardInterrupt, Abort):
+        print(file=sys.stderr)  # ends the line in which a terminal shows ^C
+        return INTERRUPTED
+    except OSError:
+        raise
     except Exception as error:  # noqa: BLE001
-        code = _unexpected(error, "--traceback" in arguments)
-    return int(code)
+        return _unexpected(error, "--traceback" in arguments)
+
+
+def _invoke(arguments: list[str]) -> int:
+    """What click's own main does, but for its exit with 1 where a pipe is closed: that would say "findings"."""
+    from click.exceptions import Exit
+
+    from sleec_verify.cli.commands import sleec_verify
+
+    if COMPLETION in os.environ:  # a shell asks how a command line may go on
+        return int(sleec_verify.main(arguments, prog_name="sleec-verify", standalone_mode=False) or 0)
+    try:
+        with sleec_verify.make_context("sleec-verify", arguments) as context:
+            return int(sleec_verify.invoke(context) or 0)
+    except Exit as error:  # after --help and --version
+        return error.exit_code
 
 
 def _unexpected(error: Exception, traceback: bool) -> int:
@@ -81,5 +112,7 @@ def _unexpected(error: Exception, traceback: bool) -> int:
     return exits.UNUSABLE
 
 
-def _tell(message: str) -> None:
-    print(message, file=sys.stderr, flush=True)
+def _tell(message: str, stream: TextIO | None = None) -> None:
+    """Say it, or leave it if that cannot be written either: the exit code still tells."""
+    with suppress(OSError):
+        print(message, file=stream or sys.stderr, flush=True)

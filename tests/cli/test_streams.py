@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 import pty
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -210,3 +211,95 @@ def test_no_progress_bar_for_what_is_quick(cli: Cli, monkeypatch: pytest.MonkeyP
 class Terminal(io.StringIO):
     def isatty(self) -> bool:
         return True
+
+
+@pytest.mark.parametrize(
+    "arguments", [["rules"], ["fmt", "FILE"], ["check", "FILE"], ["--help"], ["check", "--help"], ["--version"]]
+)
+def test_pipe_closed_from_the_start_is_no_finding(arguments: list[str], clash: str) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    command = [*COMMAND, *(clash if word == "FILE" else word for word in arguments)]
+    done = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True)
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (141, "")
+
+
+@pytest.mark.parametrize("arguments", [["check", "nowhere"], ["check", "--nonsense"], ["nonsense"]])
+def test_closed_pipe_for_messages(arguments: list[str]) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = subprocess.run([*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=writer)
+    os.close(writer)
+    assert (done.returncode, done.stdout) == (141, b"")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs a POSIX shell")
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        (
+            "check - <&-",
+            "error: there is no standard input: it is closed\n  = help: name a file, or redirect one to it\n",
+        ),
+        (
+            "fmt - <&-",
+            "error: there is no standard input: it is closed\n  = help: name a file, or redirect one to it\n",
+        ),
+        ("check - 0>/dev/null", "error: standard input cannot be read: Bad file descriptor\n"),
+        ("check FILE >&-", "error: standard output is closed, so that nothing can be written to it\n"),
+        ("--help >&-", "error: standard output is closed, so that nothing can be written to it\n"),
+        ("fmt --write FILE 2>&-", "error: standard error is closed, so that nothing can be written to it\n"),
+        ("check nowhere 2>&-", "error: standard error is closed, so that nothing can be written to it\n"),
+        ("check FILE >&- 2>&-", ""),
+    ],
+)
+def test_closed_streams_are_told(line: str, said: str, clash: str) -> None:
+    script = f"{shlex.join(COMMAND)} {line.replace('FILE', shlex.quote(clash))}"
+    done = subprocess.run(["sh", "-c", script], capture_output=True, text=True, cwd=os.path.dirname(clash))
+    told = done.stderr if "2>&-" not in line else done.stdout
+    assert done.returncode == 2
+    assert said in told
+    assert "mistake in sleec-verify" not in done.stderr + done.stdout
+    if not said:
+        assert told == ""
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")
+@pytest.mark.parametrize("words", [["check", "nowhere"], ["check", "--nonsense"], ["check", "FILE"], ["--help"]])
+def test_full_disk_under_both_streams_is_no_finding(words: list[str], clash: str) -> None:
+    command = [*COMMAND, *(clash if word == "FILE" else word for word in words)]
+    with open("/dev/full", "w") as full:
+        assert subprocess.run(command, stdout=full, stderr=full).returncode == 2
+
+
+UMLAUTS = "WHEN Grün THEN Türe\nUNLESS Öl IN WHICH CASE Über\n"
+ASCII = {"LC_ALL": "C", "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["fmt"], UMLAUTS),
+        (["fmt", "--diff"], "+WHEN Grün THEN Türe\n"),
+        (["compile", "--to", "cnf"], "Türe"),
+        (["compile", "--to", "dimacs"], "Türe"),
+        (["compile", "--to", "smtlib"], "Türe"),
+        (["compile", "--to", "sympy"], "Türe"),
+        (["cases"], '"Türe"'),
+    ],
+)
+@pytest.mark.parametrize("locale", [ASCII, {"PYTHONIOENCODING": "latin-1"}, {"PYTHONIOENCODING": "utf-16"}])
+def test_data_is_utf8_in_every_locale(arguments: list[str], says: str, locale: dict[str, str], tmp_path: Path) -> None:
+    path = tmp_path / "a.sleec"
+    path.write_text(UMLAUTS.replace("WHEN ", "WHEN  ") if "--diff" in arguments else UMLAUTS, encoding="utf-8")
+    done = subprocess.run([*COMMAND, *arguments, str(path)], capture_output=True, env={**os.environ, **locale})
+    assert says in done.stdout.decode("utf-8")
+    if arguments == ["fmt"]:
+        assert done.stdout == UMLAUTS.encode()
+
+
+def test_shell_completion(clash: str) -> None:
+    env = {**os.environ, "_SLEEC_VERIFY_COMPLETE": "bash_complete", "COMP_WORDS": "sleec-verify che", "COMP_CWORD": "1"}
+    done = subprocess.run(COMMAND, capture_output=True, text=True, env=env)
+    assert done.stdout == "plain,check\n"
