@@ -12,6 +12,9 @@ from sleec_verify.finding import ClauseRef, Finding
 from sleec_verify.question import Question
 from sleec_verify.witness import smallest_situation
 
+LONG = 30
+"""Chains of more hedges than this get a smallest situation for one pair of clauses, not for all pairs."""
+
 OTHER: dict[Reading, Reading] = {"cascade": "priority", "priority": "cascade"}
 
 
@@ -19,27 +22,41 @@ def _readings(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule means the same: some literal is due under one reading and not under the
     other. A model is a situation in which the readings part."""
     for position, rule in enumerate(cones.rules):
-        if len(cones.clauses[position]) > 2 and _parts(cones, position):
-            yield _finding(cones, position, rule)
+        if len(cones.clauses[position]) > 2:
+            deciding = _parting(cones, position)
+            if deciding is not None:
+                yield _finding(cones, position, rule, deciding)
 
 
-def _parts(cones: Cones, position: int) -> bool:
+def _parting(cones: Cones, position: int) -> tuple[int, int] | None:
+    """The clauses that decide under the ruleset's reading and the other in some situation in which they part."""
     rule, clauses = cones.rules[position], cones.clauses[position]
     with Question(cones) as question:
         encoder = question.encoder
-        here = encoder.due(zip(clauses, question.guards(position)))
-        there = encoder.due(zip(clauses, encoder.guards(rule, OTHER[cones.ruleset.reading])))
+        guards = (question.guards(position), encoder.guards(rule, OTHER[cones.ruleset.reading]))
+        here, there = (encoder.due(zip(clauses, each)) for each in guards)
         unequal = [(here[o], there[o]) for o in here if here[o] != there[o]]
-        return question.ask(encoder.any_of([encoder.both(a, -b) for a, b in unequal + [(b, a) for a, b in unequal]]))
+        if not question.ask(encoder.any_of([encoder.both(a, -b) for a, b in unequal + [(b, a) for a, b in unequal]])):
+            return None
+        one, other = (next(n for n, guard in enumerate(each) if question.true(guard)) for each in guards)
+        return one, other
 
 
-def _finding(cones: Cones, position: int, rule: Rule) -> Finding:
-    reading = cones.ruleset.reading
+def _situations(rule: Rule, reading: Reading, deciding: tuple[int, int]) -> Formula:
+    """Where the readings part. Of a long chain, where they part as they do in the situation that was found: all of
+    them, written out, grow with the square of its length."""
+    if len(rule.hedges) > LONG:
+        one, other = (implications(rule, r)[n].guard for r, n in zip((reading, OTHER[reading]), deciding))
+        return conjunction([one, other])
     here, there = _due(rule, reading), _due(rule, OTHER[reading])
-    witness = smallest_situation(
-        cones,
-        disjunction([conjunction([one[o], Not(two[o])]) for one, two in ((here, there), (there, here)) for o in here]),
+    return disjunction(
+        [conjunction([one[o], Not(two[o])]) for one, two in ((here, there), (there, here)) for o in here]
     )
+
+
+def _finding(cones: Cones, position: int, rule: Rule, found: tuple[int, int]) -> Finding:
+    reading = cones.ruleset.reading
+    witness = smallest_situation(cones, _situations(rule, reading, found))
     assert witness is not None, "the readings part in some situation"
     with Question(cones) as question:
         by_reading = {r: question.encoder.guards(rule, r) for r in (reading, OTHER[reading])}

@@ -127,8 +127,8 @@ UNUSED_NAME = Check(
             "SLEEC502",
             "note",
             "a constraint on something that no rule obliges",
-            "An EXCLUSIVE or NEVER names an obligation that no rule obliges or forbids. It can matter only through other "
-            "constraints that name it too. Usually the name is spelt otherwise in the rules.",
+            "An EXCLUSIVE or NEVER names an obligation that no rule obliges or forbids. It can matter only through "
+            "other constraints that name it too. Usually the name is spelt otherwise in the rules.",
             "EXCLUSIVE Answer, StayQuiet\nWHEN UserCalls THEN Answer\nWHEN UserSleeps THEN StaySilent\n",
             "EXCLUSIVE Answer, StaySilent\nASSUME NOT (UserCalls AND UserSleeps)\n"
             "WHEN UserCalls THEN Answer\nWHEN UserSleeps THEN StaySilent\n",
