@@ -6,11 +6,11 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_verify.conformance import Nonconformance, check_conformance
-from tests.conformance.mutants import code, dispatching, rules
+from tests.conformance.mutants import code, dispatching, meanwhile, rules
 from tests.conformance.mutants.robot import DOMAIN, MUTANTS, RULES, coded, instance
 
 RULESET = parse(RULES)
-MODULES = (code, dispatching, rules)
+MODULES = (code, dispatching, meanwhile, rules)
 
 
 @pytest.mark.parametrize("make", [instance, coded], ids=["instance", "coded"])
