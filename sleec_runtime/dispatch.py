@@ -203,7 +203,7 @@ async def run_async(plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwarg
     for variant in plan.variants:
         try:
             results.append(await await_under(variant, args, kwargs))
-        except Exception as error:  # noqa: BLE001, PERF203 - raised again once all have run
+        except Exception as error:  # noqa: BLE001 - raised again once all have run
             errors.append((variant.label, error))
     if errors:
         raise _one_of(errors)
