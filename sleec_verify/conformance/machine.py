@@ -98,7 +98,7 @@ def run_machine(bench: Bench, settings: Any) -> None:
     """Runs the machine. Raises the smallest Nonconformance that Hypothesis finds."""
     from hypothesis.stateful import run_state_machine_as_test
 
-    run_state_machine_as_test(state_machine(bench), settings=settings)
+    run_state_machine_as_test(state_machine(bench), settings=settings)  # type: ignore[no-untyped-call]
 
 
 def _changes_text(changes: Mapping[str, Value | None]) -> str:
