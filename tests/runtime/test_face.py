@@ -22,12 +22,12 @@ def test_a_class_of_variants():
             self.open_curtains()
 
         @cop.around(sleec.layers["dress_assist.hc1"])
-        def open_curtains_request(self, message):  # noqa: F811
+        def open_curtains_request(self, message):  # type: ignore[no-redef]  # noqa: F811
             self.refuse_request()
             self.explain_why()
 
         @cop.around(sleec.layers["dress_assist.hc2"])
-        def open_curtains_request(self, message):  # noqa: F811
+        def open_curtains_request(self, message):  # type: ignore[no-redef]  # noqa: F811
             self.warn_user()
             self.open_curtains()
 
