@@ -21,13 +21,13 @@ def test_a_class_of_variants():
         def open_curtains_request(self, message):
             self.open_curtains()
 
-        @cop.around(sleec.layers["dress_assist.hc1"])
-        def open_curtains_request(self, message):  # type: ignore[no-redef]  # noqa: F811
+        @cop.around(sleec.layers["dress_assist.hc1"])  # type: ignore[no-redef]
+        def open_curtains_request(self, message):  # noqa: F811
             self.refuse_request()
             self.explain_why()
 
-        @cop.around(sleec.layers["dress_assist.hc2"])
-        def open_curtains_request(self, message):  # type: ignore[no-redef]  # noqa: F811
+        @cop.around(sleec.layers["dress_assist.hc2"])  # type: ignore[no-redef]
+        def open_curtains_request(self, message):  # noqa: F811
             self.warn_user()
             self.open_curtains()
 
