@@ -20,7 +20,7 @@ from sleec_runtime.errors import (
 )
 from sleec_runtime.evaluation import Decision, Due, Outcome, Situation, Undetermined
 from sleec_runtime.explain import conflict_in_words, outcome_in_words
-from sleec_runtime.instance import Instance
+from sleec_runtime.instance import Instance, Unfinished
 from sleec_runtime.layers import Variant, await_under, run_all
 from sleec_runtime.model import Context, Rule
 from sleec_runtime.snapshot import Cell, Snapshot
@@ -117,7 +117,10 @@ class Done:
 
 def cell_of(snapshot: Snapshot, trigger: str) -> Cell:
     """What the rules of `trigger` say in this context. Raises UnknownTrigger."""
-    number = snapshot.program.number_of.get(trigger)
+    try:
+        number = snapshot.program.number_of.get(trigger)
+    except TypeError:  # not hashable, so no name
+        number = None
     if number is None:
         raise UnknownTrigger(trigger, snapshot.program.number_of)
     return snapshot.cell(number)
@@ -186,7 +189,7 @@ def run(plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str,
         )
     results, errors = run_all(plan.variants, args, kwargs)
     for result in results:
-        if type(result) is CoroutineType:
+        if type(result) is CoroutineType or type(result) is Unfinished:
             result.close()
             raise NeedsAwait(
                 f"a variant of {' and '.join(plan.triggers)} returned a coroutine", "await trigger_async(…) instead"

@@ -71,8 +71,11 @@ class UnknownName(SleecError, LookupError):
     """A name that the ruleset does not know. `name` is the name; the hint suggests the nearest known one."""
 
     kind = "name"
+    holder = "the ruleset"
 
     def __init__(self, name: str, known: Iterable[str], hint: str | None = None) -> None:
+        if not isinstance(name, str):
+            hint = f"give the name of a {self.kind}, a str"
         super().__init__(f"unknown {self.kind} {name!r}", hint or self._suggestion(name, sorted(known)))
         self.name = name
 
@@ -83,8 +86,8 @@ class UnknownName(SleecError, LookupError):
         if near is not None:
             return f"did you mean {near}?"
         if not known:
-            return f"the ruleset has no {self.kind}"
-        return f"the ruleset has {', '.join(known[:8])}{', …' if len(known) > 8 else ''}"
+            return f"{self.holder} has no {self.kind}"
+        return f"{self.holder} has {', '.join(known[:8])}{', …' if len(known) > 8 else ''}"
 
 
 class UnknownLabel(UnknownName):

@@ -6,8 +6,9 @@ run its base variant besides the right one. The ε of a rule is the base variant
 
 from __future__ import annotations
 
+import inspect
 import types
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar
 
 from sleec_runtime.errors import AlreadyBound, NotBound, Unbindable, UnknownLabel, UnknownObligation
@@ -278,13 +279,42 @@ def _in_order(functions: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
         async def awaited(*args: Any, **kwargs: Any) -> None:
             for function in functions:
                 result = function(*args, **kwargs)
-                if is_coroutine_function(function):
+                if inspect.isawaitable(result):
                     await result
 
         return awaited
 
-    def called(*args: Any, **kwargs: Any) -> None:
-        for function in functions:
-            function(*args, **kwargs)
+    def called(*args: Any, **kwargs: Any) -> Unfinished | None:
+        for place, function in enumerate(functions):
+            result = function(*args, **kwargs)
+            if type(result) is types.CoroutineType:
+                return Unfinished(result, functions[place + 1 :], args, kwargs)
+        return None
 
     return called
+
+
+class Unfinished:
+    """A clause in which a callable, not known to be a coroutine function, returned a coroutine: to be awaited, and then
+    the callables after it are called."""
+
+    def __init__(
+        self, coroutine: Any, rest: Sequence[Callable[..., Any]], args: tuple[Any, ...], kwargs: dict[str, Any]
+    ) -> None:
+        self._coroutine = coroutine
+        self._rest = rest
+        self._args = args
+        self._kwargs = kwargs
+
+    def close(self) -> None:
+        self._coroutine.close()
+
+    def __await__(self) -> Generator[Any, Any, None]:
+        return self._finish().__await__()
+
+    async def _finish(self) -> None:
+        await self._coroutine
+        for function in self._rest:
+            result = function(*self._args, **self._kwargs)
+            if inspect.isawaitable(result):
+                await result

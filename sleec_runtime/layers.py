@@ -55,7 +55,7 @@ class Layers(Mapping[str, RuleLayer]):
     def __getitem__(self, name: str) -> RuleLayer:
         try:
             return self._layers[name]
-        except KeyError:
+        except (KeyError, TypeError):
             raise UnknownLayer(name, self._layers) from None
 
     def __contains__(self, name: object) -> bool:

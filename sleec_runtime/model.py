@@ -16,6 +16,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple, Union
 
+from sleec_runtime.errors import WrongType
+
 if TYPE_CHECKING:
     from fractions import Fraction
 
@@ -447,7 +449,9 @@ class Ruleset:
         )
 
     def read_as(self, reading: Reading) -> Ruleset:
-        """The same rules under a reading of the caller's."""
+        """The same rules under a reading of the caller's. Raises WrongType for what is none."""
+        if reading not in READINGS:
+            raise WrongType("the reading", reading, " or ".join(READINGS), "give one of these names")
         return replace(self, reading=reading)
 
     def in_domain(self, domain: str) -> Ruleset:

@@ -27,6 +27,7 @@ class UnknownSensor(UnknownName):
     """A sensor that no predicate was declared for."""
 
     kind = "sensor"
+    holder = "Sensors(…)"
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,13 @@ class Threshold:
         for bound in (self.at_least, self.at_most):
             if bound is not None:
                 _number(self.condition, bound, "a bound")
+        if self.at_least is not None and self.at_most is not None:
+            low, high = (_number(self.condition, bound, "a bound") for bound in (self.at_least, self.at_most))
+            if low > high:
+                raise SleecError(
+                    f"the threshold of {self.condition} is never reached: at least {low} and at most {high}",
+                    "give an at_least that is not above at_most",
+                )
 
     def crisp(self, reading: Rational, measure: Measure | None) -> Value:
         above = self.at_least is None or reading >= _number(self.condition, self.at_least, "a bound")
@@ -86,9 +94,10 @@ class Fuzzy:
     cut: object = 0.5
 
     def crisp(self, reading: Rational, measure: Measure | None) -> Value:
-        return _number(self.condition, self.membership(reading), "a membership") >= _number(
-            self.condition, self.cut, "a cut"
-        )
+        membership = _number(self.condition, self.membership(reading), "a membership")
+        if not 0 <= membership <= 1:
+            raise WrongType(self.condition, membership, "given a membership, from 0 to 1", "mend its function")
+        return membership >= _number(self.condition, self.cut, "a cut")
 
     def check(self, measure: Measure | None) -> None:
         _condition_only(self.condition, measure)
@@ -164,6 +173,8 @@ class Sensors:
         O(predicates of these sensors). Raises UnknownSensor, WrongType, and UnknownCondition for a condition that went
         with a ruleset that was replaced.
         """
+        if not isinstance(readings, Mapping):
+            raise WrongType("what sensors report", readings, "a mapping of sensors to values", "give a dict")
         vocabulary = self._sleec.vocabulary
         crisp: dict[str, Value | None] = {}
         for sensor, reading in readings.items():

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from sleec_runtime.chunks import Chunks
 from sleec_runtime.conflicts import Forbidding, forbidding, mentioned
-from sleec_runtime.errors import SleecError, UnknownCondition, UnknownDomain
+from sleec_runtime.errors import SleecError, UnknownCondition, UnknownDomain, WrongType
 from sleec_runtime.model import Measure, Never, Obligation, Rule, Ruleset, Value, formulas_of, names_of
 from sleec_runtime.values import fit
 
@@ -61,6 +61,10 @@ class Program:
 
         Raises UnknownCondition or WrongType for the first that cannot be.
         """
+        if not isinstance(changes, Mapping):
+            raise WrongType(
+                "a change of context", changes, "a mapping of names to values", 'give a dict: {"UserUndressed": True}'
+            )
         checked: dict[int, Value | None] = {}
         for name, value in changes.items():
             if name not in self.numbers:

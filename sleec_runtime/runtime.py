@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from sleec_runtime.dispatch import Done, Plan, due_in, plan, run, run_async
-from sleec_runtime.errors import NotBound, SleecError, UnknownTrigger
+from sleec_runtime.errors import NotBound, SleecError, UnknownTrigger, WrongType
 from sleec_runtime.evaluation import Due, broken_assumptions
 from sleec_runtime.instance import Instance
 from sleec_runtime.layers import Layers
@@ -37,7 +37,9 @@ class Sleec:
     def __init__(
         self, ruleset: Ruleset, domain: str | None = None, reading: Reading | None = None, strict: bool = False
     ) -> None:
-        whole = ruleset if reading is None else ruleset.read_as(reading)
+        whole = _read(ruleset, reading)
+        if not isinstance(strict, bool):
+            raise WrongType("strict", strict, "a choice, True or False", "give True or False")
         self._reading = reading
         self._strict = strict
         self._lock = threading.RLock()
@@ -152,7 +154,7 @@ class Sleec:
     def trigger_all(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
         """Several triggers occur at once: one context, the rules of all in their order. Otherwise as `trigger`."""
         snapshot = self._snapshot
-        ready = plan(snapshot, tuple(dict.fromkeys(names)), self._instance)
+        ready = plan(snapshot, _together(names), self._instance)
         monitor = self._monitor
         if monitor is not None:
             return monitor.run(ready, snapshot, args, kwargs)
@@ -171,7 +173,7 @@ class Sleec:
     async def trigger_all_async(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
         """`trigger_all`, where variants may be coroutine functions."""
         snapshot = self._snapshot
-        ready = plan(snapshot, tuple(dict.fromkeys(names)), self._instance)
+        ready = plan(snapshot, _together(names), self._instance)
         monitor = self._monitor
         if monitor is not None:
             return await monitor.run_async(ready, snapshot, args, kwargs)
@@ -186,8 +188,9 @@ class Sleec:
 
     def prepare(self, ruleset: Ruleset) -> None:
         """Makes the labels and layers of `ruleset` known, so that methods can be written for it before `replace`."""
+        whole = _read(ruleset, self._reading)
         with self._lock:
-            self._instance.admit(ruleset)
+            self._instance.admit(whole)
 
     def replace(self, ruleset: Ruleset, *, bind: Iterable[object] = (), implement: object = None) -> None:
         """Puts other rules in force, at once for all triggers; those under way finish under the old ones.
@@ -197,7 +200,7 @@ class Sleec:
         without code that was not without before, WrongType if a known value does not fit the new declarations, and
         what `bind` and `implement` raise: then nothing has changed.
         """
-        whole = ruleset if self._reading is None else ruleset.read_as(self._reading)
+        whole = _read(ruleset, self._reading)
         with self._lock:
             instance = self._instance.copied()
             instance.admit(whole)
@@ -250,7 +253,10 @@ class Sleec:
         return self._instance.objects()
 
     def _ready(self, snapshot: Snapshot, name: str) -> Plan:
-        place = snapshot.program.places.get(name)
+        try:
+            place = snapshot.program.places.get(name)
+        except TypeError:  # not hashable, so no name
+            place = None
         if place is None:
             raise UnknownTrigger(name, snapshot.program.places)
         cell = snapshot.rows[place[0]][place[1]]
@@ -292,3 +298,25 @@ class Sleec:
         self._snapshot = after
         for listener in tuple(self._listeners):
             listener(before, after, rules)
+
+
+def _read(ruleset: Ruleset, reading: Reading | None) -> Ruleset:
+    if not isinstance(ruleset, Ruleset):
+        raise WrongType(
+            "what is to be in force",
+            ruleset,
+            "a Ruleset",
+            "read one: sleec_runtime.language.parse(text), or sleec_runtime.load(path) for a file",
+        )
+    return ruleset if reading is None else ruleset.read_as(reading)
+
+
+def _together(names: Iterable[str]) -> tuple[str, ...]:
+    """The names of triggers, once each."""
+    hint = f"give a list: [{names!r}]" if isinstance(names, str) else 'give a list: ["A", "B"]'
+    if not isinstance(names, str):
+        try:
+            return tuple(dict.fromkeys(names))
+        except TypeError:
+            pass
+    raise WrongType("what occurs together", names, "a list of names of triggers", hint)

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import gc
 
 import contextpy3 as cop
@@ -190,3 +191,28 @@ def test_errors_come_out_after_all_variants() -> None:
     sleec.implement({"Help": lambda: 1 // 0})
     with pytest.raises(VariantsFailed, match=r"r1: RuntimeError.*r2: ZeroDivisionError"):
         asyncio.run(sleec.trigger_async("a"))
+
+
+def test_a_coroutine_that_a_callable_returns_is_awaited_or_refused() -> None:
+    log: list[str] = []
+
+    async def later(name: str) -> None:
+        log.append(name)
+
+    class Later:
+        async def __call__(self) -> None:
+            log.append("o3")
+
+    sleec = running("RULE r WHEN a THEN o1 AND o2 AND o3 AND o4")
+    sleec.implement({"o1": lambda: later("o1"), "o2": functools.partial(later, "o2"), "o3": Later(), "o4": list})
+    with pytest.raises(NeedsAwait):
+        sleec.trigger("a")
+    asyncio.run(sleec.trigger_async("a"))
+    assert log == ["o1", "o2", "o3"]
+    log.clear()
+    sleec.implement({"o2": list, "o3": lambda: later("o3")})
+    with pytest.raises(NeedsAwait):
+        sleec.trigger("a")
+    assert log == []
+    asyncio.run(sleec.trigger_async("a"))
+    assert log == ["o1", "o3"]

@@ -1,5 +1,7 @@
 """What cannot be: each with a typed error that says what is wrong and what to do, and nothing executed or changed."""
 
+# mypy: disable-error-code="arg-type, dict-item"
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -7,8 +9,9 @@ from collections.abc import Callable
 import pytest
 
 import sleec_runtime
-from sleec_runtime import Sleec, errors
+from sleec_runtime import Sensors, Sleec, errors
 from sleec_runtime.model import Clause, Obligation, Rule, Ruleset
+from sleec_runtime.predicates import Fuzzy, Threshold
 from tests.runtime.robots import CURTAINS, Log, listing_2, running
 
 TEXT = f"""
@@ -81,6 +84,44 @@ CASES: dict[str, Case] = {
     "marked twice": (later, errors.AlreadyBound, "unbind('dress_assist') first"),
     "mark on a property": (on_a_property, errors.Unbindable, "cannot be the method"),
     "class without object": (bound_class, errors.Unbindable, "bind an instance"),
+    "number for trigger": (lambda s: s.trigger(3), errors.UnknownTrigger, "give the name of a trigger"),
+    "nothing for trigger": (lambda s: s.trigger(None), errors.UnknownTrigger, "give the name of a trigger"),
+    "list for trigger": (lambda s: s.trigger(["Visit"]), errors.UnknownTrigger, "give the name of a trigger"),
+    "list asked for": (lambda s: s.due(["Visit"]), errors.UnknownTrigger, "give the name of a trigger"),
+    "number for layer": (lambda s: s.layers[3], errors.UnknownLayer, "give the name of a layer"),  # type: ignore[index]
+    "list for layer": (lambda s: s.layers[[]], errors.UnknownLayer, "give the name of a layer"),  # type: ignore[index]
+    "number for condition's name": (lambda s: s.update({1: True}), errors.UnknownCondition, "give the name"),
+    "no changes": (lambda s: s.update(None), errors.WrongType, "give a dict"),
+    "pairs for changes": (lambda s: s.update([("UserUndressed", True)]), errors.WrongType, "give a dict"),
+    "no ruleset": (lambda s: s.replace(None), errors.WrongType, "parse(text)"),
+    "no ruleset prepared": (lambda s: s.prepare(None), errors.WrongType, "parse(text)"),
+    "text for ruleset": (lambda s: Sleec(TEXT), errors.WrongType, "parse(text)"),
+    "name for triggers": (lambda s: s.trigger_all("Visit"), errors.WrongType, "give a list: ['Visit']"),
+    "number for triggers": (lambda s: s.trigger_all(3), errors.WrongType, "give a list"),
+    "unknown reading": (lambda s: Sleec(s.ruleset, reading="bogus"), errors.WrongType, "cascade or priority"),
+    "unknown reading of a ruleset": (lambda s: s.ruleset.read_as("bogus"), errors.WrongType, "cascade or priority"),
+    "unknown reading of a file": (
+        lambda s: sleec_runtime.load("rulesets/household.sleec", reading="bogus"),
+        errors.WrongType,
+        "cascade or priority",
+    ),
+    "text for strict": (lambda s: Sleec(s.ruleset, strict="no"), errors.WrongType, "True or False"),
+    "bounds that exclude all": (
+        lambda s: Threshold("UserUndressed", "radar", at_least=3, at_most=1),
+        errors.SleecError,
+        "never reached",
+    ),
+    "membership above 1": (
+        lambda s: Sensors(s, Fuzzy("UserUndressed", "radar", lambda value: 2)).update({"radar": 1}),
+        errors.WrongType,
+        "from 0 to 1",
+    ),
+    "unknown sensor": (
+        lambda s: Sensors(s, Threshold("UserUndressed", "radar", at_least=3)).update({"unknown": 3}),
+        errors.SleecError,
+        "Sensors(…) has radar",
+    ),
+    "no readings": (lambda s: Sensors(s).update(None), errors.WrongType, "give a dict"),
     "no method": (lambda s: s.trigger("Visit"), errors.NotBound, "implement() the obligations"),
 }
 

@@ -73,6 +73,11 @@ class Around:
             self._code(use, node, value)
         elif isinstance(value, Api):
             self._api(use, node, value)
+            name = self.tables.one(value.name)
+            if name is not None and not self._may_execute(use, name):
+                self._obligations(use, node, [name])
+        elif isinstance(node.func, ast.Attribute) and node.func.attr in self.tables.attributes:
+            self._in_table(use, node.func)
         elif isinstance(value, Unknown) and isinstance(node.func, ast.Attribute):
             self._unresolved(use, node.func)
 
@@ -115,6 +120,19 @@ class Around:
                 obligations=tuple(names),
                 help=f"trigger the rule that obliges {it}",
             )
+
+    def _in_table(self, use: Use, func: ast.Attribute) -> None:
+        """An attribute of the name of one that a table gives, both of them of objects of which little is known."""
+        receiver = self.resolver.of(func.value, use.scope)
+        for held, name in self.tables.attributes[func.attr]:
+            if self._may_execute(use, name):
+                continue
+            if isinstance(receiver, Object) and isinstance(held, Object):
+                if set(self.resolver.order(receiver.class_)[0]) & set(self.resolver.order(held.class_)[0]):
+                    self._obligations(use, func, [name])
+            elif not isinstance(receiver, Object) and not isinstance(held, Object):
+                why = f"this executes {name} around the dispatch, if {ast.unparse(func.value)} is what implements it"
+                self.findings.undecided(use.scope.file, func, why)
 
     def _unresolved(self, use: Use, func: ast.Attribute) -> None:
         name = self.names.called(func.attr)
@@ -226,14 +244,14 @@ class Around:
         """The obligation that a function of the target implements, if it is known for that."""
         name = self.names.of(function)
         if name is None or name not in self.names.obligations:
-            return None
+            return self.tables.one(function)
         known = (
             self.names.mark(function) is not None
             or function in self.tracer.implementations
             or (function.owner is not None and function.owner in self._robots)
             or (function.owner is None and function.scope in self._modules)
         )
-        return name if known else None
+        return name if known else self.tables.one(function)
 
     def _may_execute(self, use: Use, obligation: str) -> bool:
         """Whether an expression stands in a variant, in what a variant calls, or in an implementation of the same
@@ -241,7 +259,9 @@ class Around:
         if self.tables.allowed.get(use.node) == obligation:
             return True
         around = _functions_around(use.scope)
-        return self._followed(use) or any(self.names.of(function) == obligation for function in around)
+        return self._followed(use) or any(
+            obligation in (self.names.of(function), *self.tables.callables.get(function, ())) for function in around
+        )
 
     def _followed(self, use: Use) -> bool:
         """Whether an expression stands in a variant, or in what a variant calls."""

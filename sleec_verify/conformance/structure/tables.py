@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -14,7 +15,7 @@ from sleec_verify.conformance.structure.names import Names
 from sleec_verify.conformance.structure.program import Class, Function, Scope
 from sleec_verify.conformance.structure.report import Findings
 from sleec_verify.conformance.structure.resolve import Resolver, maybe_runtime
-from sleec_verify.conformance.structure.values import Module, Object, Runtime, Table, Text
+from sleec_verify.conformance.structure.values import Api, Code, Module, Object, Runtime, Table, Text, Value
 
 if TYPE_CHECKING:
     from sleec_verify.conformance.structure.uses import Use
@@ -23,7 +24,9 @@ if TYPE_CHECKING:
 @dataclass
 class Tables:
     """All that the target gives to `implement`. `allowed` maps the nodes of an entry's callable to its obligation;
-    `robots` are the classes, `modules` the modules, whose members implement."""
+    `robots` are the classes, `modules` the modules, whose members implement. `callables` are the functions, and the
+    names of what is outside, that entries are, with their obligations; `attributes` the same for attributes of which
+    nothing more is known, by the attribute's name and with what they are attributes of."""
 
     resolver: Resolver
     names: Names
@@ -33,6 +36,8 @@ class Tables:
     allowed: dict[ast.AST, str] = field(default_factory=dict)
     robots: set[Class] = field(default_factory=set)
     modules: set[Scope] = field(default_factory=set)
+    callables: dict[Function | str, set[str]] = field(default_factory=dict)
+    attributes: dict[str, list[tuple[Value, str]]] = field(default_factory=dict)
     undecided: bool = False
 
     def read(self, use: Use) -> None:
@@ -97,6 +102,24 @@ class Tables:
         self.given[name] = at
         for inner in ast.walk(value):
             self.allowed[inner] = name
+        self._callable(name, value, scope)
+
+    def _callable(self, name: str, node: ast.expr, scope: Scope) -> None:
+        value = self.resolver.of(node, scope)
+        if isinstance(value, Code):
+            for function in value.definitions:
+                self.callables.setdefault(function, set()).add(name)
+        elif isinstance(value, Api):
+            if value.name.partition(".")[0] not in ("builtins", *sys.stdlib_module_names):
+                self.callables.setdefault(value.name, set()).add(name)
+        elif isinstance(node, ast.Attribute):
+            self.attributes.setdefault(node.attr, []).append((self.resolver.of(node.value, scope), name))
+
+    def one(self, what: Function | str) -> str | None:
+        """The obligation that a callable is given for; None if it is given for none, or for several, as what only says
+        something is."""
+        names = self.callables.get(what, set())
+        return next(iter(names)) if len(names) == 1 else None
 
     def _object(self, node: ast.expr, scope: Scope, value: Object) -> None:
         order, open_ = self.resolver.order(value.class_)

@@ -213,3 +213,39 @@ def test_an_attribute_that_implements() -> None:
 def test_an_attribute_that_is_assigned_from_itself() -> None:
     more = "\n    def __init__(self):\n        self.x = self.x.next\n        self.y = self.z\n        self.z = self.y\n"
     assert kinds(RULES, robot=robot("self.x.go()\nself.y()\n" + BOTH, more)) == []
+
+
+TABLE = """
+def open_curtains(): ...
+def ew(): {ew}
+sleec.implement({{"SlowDown": open_curtains, "Warn": ew, "Stop": lambda: None}})
+"""
+
+
+def test_a_table_marks_what_implements() -> None:
+    head = HEAD + GIVEN
+    assert kinds(RULES, robot=head + TABLE.format(ew="print()")) == []
+    assert kinds(RULES, robot=head + TABLE.format(ew="open_curtains()")) == ["obligation-around"]
+    button = "def button():\n    open_curtains()\n"
+    assert kinds(RULES, robot=head + TABLE.format(ew="...") + button) == ["obligation-around"]
+    assert kinds(RULES, robot=head + TABLE.format(ew="...") + "on_press(open_curtains)\n") == ["undecided"]
+    same = "def say(): ...\nsleec.implement({'SlowDown': say, 'Warn': say, 'Stop': print})\nsay()\nprint()\n"
+    assert kinds(RULES, robot=head + same) == []
+
+
+def test_a_table_marks_methods_and_attributes() -> None:
+    table = 'sleec.implement({{"SlowDown": {0}.drive_motor, "Warn": print, "Stop": print}})\n'
+    robot = "class R:\n    def drive_motor(self): ...\n    def button(self): {}\nr = R()\n"
+    head = HEAD + GIVEN
+    assert kinds(RULES, robot=head + robot.format("...") + table.format("r")) == []
+    assert kinds(RULES, robot=head + robot.format("self.drive_motor()") + table.format("r")) == ["obligation-around"]
+    assert kinds(RULES, robot=head + robot.format("...") + table.format("r") + "r.drive_motor()\n") == [
+        "obligation-around"
+    ]
+    inside = "from hw import Base, motor\nclass R(Base):\n    def __init__(self):\n        " + table.format("self")
+    assert kinds(RULES, robot=head + inside) == []
+    assert kinds(RULES, robot=head + inside + "    def button(self): self.drive_motor()\n") == ["obligation-around"]
+    outside = "from hw import motor\n" + table.format("motor")
+    assert kinds(RULES, robot=head + outside + "motor.drive_motor()\n") == ["obligation-around"]
+    handed = "def make(r):\n    " + table.format("r") + "def button(r):\n    r.drive_motor()\n"
+    assert kinds(RULES, robot=head + handed) == ["undecided"]
