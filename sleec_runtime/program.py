@@ -24,6 +24,10 @@ class Program:
     def __init__(self, whole: Ruleset, domain: str | None = None, strict: bool = False) -> None:
         if domain is not None and domain not in whole.domains:
             raise UnknownDomain(domain, whole.domains)
+        if whole.is_timed:
+            from sleec_runtime.model_time import refuse_times
+
+            refuse_times(whole, "the runtime")
         self.whole = whole
         self.domain = domain
         self.strict = strict

@@ -11,6 +11,7 @@ from sleec_verify.checks.assumptions import ASSUMPTIONS
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.conflict import CONFLICT, Enough
 from sleec_verify.checks.dead import DEAD_HEDGE, DEAD_RULE
+from sleec_verify.checks.defects import DEFECTS
 from sleec_verify.checks.reading import READING
 from sleec_verify.checks.redundant import REDUNDANT_HEDGE, REDUNDANT_RULE
 from sleec_verify.checks.text import EMPTY_HEDGE, PHRASE_KEYWORD, TRIGGER_OBLIGATION, UNUSED_NAME
@@ -37,8 +38,12 @@ CHECKS: Mapping[str, Check] = {
         EMPTY_HEDGE,
         TRIGGER_OBLIGATION,
         PHRASE_KEYWORD,
+        DEFECTS,
     )
 }
+
+_CLAIM_CHECKS = ("concern", "purpose")
+"""The checks that there are only for rulesets with concerns or purposes."""
 
 Progress = Callable[[str, int, int], None]
 """Called before each check with its name, how many are done, and how many there are."""
@@ -55,7 +60,13 @@ def run_checks(
     A ruleset is checked in each of its domains, with the rules that apply everywhere; `domain` picks one. A finding
     says in which domains it holds. Raises KeyError for an unknown check.
     """
-    chosen = list(CHECKS.values()) if names is None else [CHECKS[name] for name in dict.fromkeys(names)]
+    if names is None:
+        # Structured English has no defects: it refuses them.
+        names = [name for name in CHECKS if name != DEFECTS.name or ruleset.syntax == "dsl"]
+        names += _CLAIM_CHECKS if ruleset.is_timed else ()
+    if ruleset.is_timed:
+        return _run_timed(ruleset, names, domain, progress)
+    chosen = [CHECKS[name] for name in dict.fromkeys(names)]
     domains = ruleset.domains if domain is None else (domain,)
     by_domain = {d: Cones(ruleset.in_domain(d)) for d in domains}
     whole = Cones(ruleset)
@@ -70,6 +81,31 @@ def run_checks(
             verdict, reason = _verdict(check, by_domain)
         results.append(CheckResult(check.name, verdict, perf_counter() - started, reason))
     return tuple(results)
+
+
+def _run_timed(
+    ruleset: Ruleset, names: Sequence[str], domain: str | None, progress: Progress | None
+) -> tuple[CheckResult, ...]:
+    """As `run_checks`, where what depends on time stays undecided."""
+    from sleec_verify.timed import claim_results, may_find, undecided, undecided_verdict
+
+    wanted = set(names)
+    results = []
+    whole = Cones(ruleset if domain is None else ruleset.in_domain(domain))
+    chosen = [check for check in CHECKS.values() if check.name in wanted]
+    for done, check in enumerate(chosen):
+        if progress is not None:
+            progress(check.name, done, len(chosen))
+        started = perf_counter()
+        why = undecided(ruleset, check.name)
+        verdict: Verdict | None = None
+        reason: str | None = None
+        if why is None or may_find(check.name):
+            verdict, reason = _verdict(check, {"": whole})
+        if why is not None or verdict is None:
+            verdict = undecided_verdict(why or "", verdict)
+        results.append(CheckResult(check.name, verdict, perf_counter() - started, reason))
+    return (*results, *claim_results(ruleset, wanted))
 
 
 def _verdict(check: Check, by_domain: Mapping[str, Cones]) -> tuple[Verdict, str | None]:

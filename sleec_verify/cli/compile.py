@@ -31,6 +31,10 @@ def command(path: str, form: str, domain: str | None, reading: Reading | None) -
     solvers: clauses, linear in the size of the rules, with a map from variables to names.
     """
     ruleset = one_ruleset(path, reading, domain)
+    if ruleset.is_timed:
+        from sleec_runtime.model_time import refuse_times
+
+        refuse_times(ruleset, "Equation 1")
     if domain is None:
         note_mixed_domains(ruleset)
     text = compile_to(ruleset, form, domain)
