@@ -24,6 +24,7 @@ from sleec_runtime.model import (
     Rule,
     Ruleset,
     ScaleValue,
+    Statement,
     Truth,
 )
 from sleec_runtime.model_time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation, Timing, Window
@@ -31,7 +32,7 @@ from sleec_runtime.model_time import Claim, Effect, EventRelation, Lasting, Leng
 EVENTS = ("A", "B", "C")
 BOOLEANS = ("m", "n")
 SCALE = ("low", "middle", "high")
-DEFINITIONS = (
+DEFINITIONS: tuple[Statement, ...] = (
     Declaration("event", ("A",)),
     Declaration("event", ("B",), agent="system"),
     Declaration("event", ("C",), agent="environment"),
