@@ -9,7 +9,7 @@ import click
 
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
-from sleec_verify.cli.output import write
+from sleec_verify.cli.output import write_data
 from sleec_verify.conversion import TARGETS, Target, convert, of_domain
 
 if TYPE_CHECKING:
@@ -39,5 +39,5 @@ def command(path: str, to: Target, reading: Reading | None, domain: str | None) 
     converted = convert(ruleset if domain is None else of_domain(ruleset, domain), to, reading)
     for note in converted.notes:
         print(f"note: {note}", file=sys.stderr)
-    write((converted.text,))
+    write_data((converted.text,))
     return exits.HOLDS
