@@ -40,6 +40,11 @@ def undecided_verdict(why: str, decided: Verdict | None) -> Unknown:
     return Unknown(why, findings)
 
 
+def claim_checks(ruleset: Ruleset) -> list[str]:
+    """The checks for the concerns and purposes that a ruleset has."""
+    return [kind for kind in _CLAIM_CHECKS if claims(ruleset, kind)]
+
+
 def claim_results(ruleset: Ruleset, wanted: set[str]) -> list[CheckResult]:
     """The verdicts on the concerns and purposes that a ruleset has."""
     results = []

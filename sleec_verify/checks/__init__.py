@@ -21,7 +21,7 @@ from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown,
 from sleec_verify.replay import replays
 from sleec_verify.solver import Undecided
 
-__all__ = ["CHECKS", "Check", "FindingKind", "run_checks"]
+__all__ = ["CHECKS", "Check", "FindingKind", "checks_for", "run_checks"]
 
 CHECKS: Mapping[str, Check] = {
     check.name: check
@@ -42,11 +42,19 @@ CHECKS: Mapping[str, Check] = {
     )
 }
 
-_CLAIM_CHECKS = ("concern", "purpose")
-"""The checks that there are only for rulesets with concerns or purposes."""
-
 Progress = Callable[[str, int, int], None]
 """Called before each check with its name, how many are done, and how many there are."""
+
+
+def checks_for(ruleset: Ruleset) -> list[str]:
+    """The names of the checks that there are for a ruleset."""
+    # Structured English has no defects: it refuses them.
+    names = [name for name in CHECKS if name != DEFECTS.name or ruleset.syntax == "dsl"]
+    if ruleset.is_timed:
+        from sleec_verify.timed import claim_checks
+
+        names += claim_checks(ruleset)
+    return names
 
 
 def run_checks(
@@ -61,9 +69,7 @@ def run_checks(
     says in which domains it holds. Raises KeyError for an unknown check.
     """
     if names is None:
-        # Structured English has no defects: it refuses them.
-        names = [name for name in CHECKS if name != DEFECTS.name or ruleset.syntax == "dsl"]
-        names += _CLAIM_CHECKS if ruleset.is_timed else ()
+        names = checks_for(ruleset)
     if ruleset.is_timed:
         return _run_timed(ruleset, names, domain, progress)
     chosen = [CHECKS[name] for name in dict.fromkeys(names)]
