@@ -152,12 +152,10 @@ class DslParser(RelationParser):
     def _read(self, read: Callable[[], _Read], what: str) -> _Read | None:
         """What `read` reads, to the end of the item; None if there was a problem."""
         self.begin_clause()
-        problems = len(self.problems)
         try:
             found = read()
             self.end_of(what)
         except Abandon:
-            self.at += self.kinds[self.at] in ITEM_STARTS and len(self.problems) == problems
             self.skip(ITEM_STARTS)
             return None
         return None if self.hurt else found

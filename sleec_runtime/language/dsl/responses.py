@@ -139,8 +139,8 @@ class ResponseParser(DefinitionParser):
         from sleec_runtime.model_time import Length
 
         first = self.at
-        if self.kinds[first] == "[":
-            self.expected("a length of time")
+        if self.kinds[first] == "[" or (self.token_text(first) in UNITS and self.kinds[first + 1] != "word"):
+            self.expected("a number before the unit", "as in: within 5 minutes")
         side = self._side("a length of time, such as 5 minutes")
         self._no_arithmetic()
         amount = None if self.hurt else self.names.number(side)
@@ -150,13 +150,13 @@ class ResponseParser(DefinitionParser):
                 side.span,
                 "times count from the trigger; nothing is due before it",
             )
+        if amount is None:
+            raise Abandon
         if may_lack_unit and self.kinds[self.at] in (",", "]"):
             unit: Unit = "seconds"
             span = NOWHERE
         else:
             unit, span = self._unit(), self.span(first)
-        if amount is None:
-            raise Abandon
         if getattr(amount, "value", 0) < 0:
             self.fail(
                 f"a window cannot be negative: {quoted(str(side.written))} is", side.span, "give it another value"
