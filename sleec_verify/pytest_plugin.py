@@ -5,7 +5,10 @@ Nothing of sleec is imported before a ruleset, a file of cases, a fixture or an 
 
 from __future__ import annotations
 
+import math
+import sys
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,7 +35,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--sleec-cov", action="store_true", help="Tell which clauses the tests made active.")
     group.addoption("--sleec-cov-mcdc", action="store_true", help="Tell also which conditions they showed to decide.")
     group.addoption(
-        "--sleec-cov-fail-under", metavar="PERCENT", type=float, help="Fail if less than this of the goals is reached."
+        "--sleec-cov-fail-under", metavar="PERCENT", help="Fail if less than this of the goals is reached, 0 to 100."
     )
     parser.addini("sleec_ruleset", "As --sleec-ruleset, from the root folder.", default="")
     parser.addini("sleec_target", "As --sleec-target, from the root folder.", default="")
@@ -45,6 +48,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    _see_ruleset(config)
     mcdc = _on(config, "sleec_cov_mcdc")
     if mcdc or _on(config, "sleec_cov") or _fail_under(config) is not None:
         from sleec_verify.testing.coverage import ClauseCoverage
@@ -64,7 +68,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
         from sleec_verify.testing.items import RulesetFile
 
         return RulesetFile.from_parent(parent, path=file_path)
-    if name.endswith(".cases.toml"):
+    if name.endswith(".cases.toml") and _are_cases(file_path):
         from sleec_verify.testing.items import CasesFile
 
         return CasesFile.from_parent(parent, path=file_path)
@@ -78,7 +82,8 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
         return
     config.stash[_SUMMARIES] = summaries = _summarised(config)
     least = _fail_under(config)
-    if least is not None and _share(summaries) < least and session.exitstatus == pytest.ExitCode.OK:
+    passed = session.exitstatus in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED)
+    if least is not None and passed and (not summaries or _share(summaries) < least):
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 
@@ -93,7 +98,9 @@ def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> Non
         for line in summary.lines():
             terminalreporter.write_line(line)
     least = _fail_under(config)
-    if least is not None and _share(found) < least:
+    if least is not None and not found:
+        terminalreporter.write_line(f"FAIL: {least:g} % of all goals is asked for, and there are none", red=True)
+    elif least is not None and _share(found) < least:
         terminalreporter.write_line(f"FAIL: {_share(found):.1f} % of all goals is less than {least:g} %", red=True)
 
 
@@ -137,11 +144,37 @@ def _on(config: pytest.Config, name: str) -> bool:
 
 def _fail_under(config: pytest.Config) -> float | None:
     value = config.getoption("sleec_cov_fail_under")
-    written = str(config.getini("sleec_cov_fail_under")) if value is None else value
+    written = str(config.getini("sleec_cov_fail_under") if value is None else value)
+    if written == "":
+        return None
     try:
-        return None if written == "" else float(written)
+        percent = float(written)
     except ValueError:
-        raise pytest.UsageError(f"sleec_cov_fail_under is {written!r}, and no number") from None
+        percent = math.nan
+    if not 0 <= percent <= 100:
+        raise pytest.UsageError(f"sleec_cov_fail_under is {written!r}, and no number from 0 to 100")
+    return percent
+
+
+def _see_ruleset(config: pytest.Config) -> None:
+    """A ruleset that is not there is said at once, not only when a test asks for it."""
+    if config.getoption("sleec_ruleset") or config.getini("sleec_ruleset"):
+        from sleec_verify.testing import settings
+
+        path = settings.ruleset_path(config)
+        if path is not None and not path.is_file():
+            raise pytest.UsageError(f"sleec_ruleset: there is no file {path}")
+
+
+def _are_cases(path: Path) -> bool:
+    """Whether a ``*.cases.toml`` is about rules: other tools have such files too."""
+    if path.with_name(path.name.removesuffix(".cases.toml") + ".sleec").is_file():
+        return True
+    toml = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+    try:
+        return "ruleset" in toml.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return False
 
 
 def _summarised(config: pytest.Config) -> list[Summary]:

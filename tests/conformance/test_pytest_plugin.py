@@ -234,10 +234,41 @@ def test_fixtures_say_what_is_missing(run, pytester: pytest.Pytester) -> None:
     pytester.makepyfile(test_house=TESTS)
     result = run("test_house.py")
     result.stdout.fnmatch_lines(["*there is no ruleset: say --sleec-ruleset FILE*"])
-    result = run("test_house.py", "--sleec-ruleset", "absent.sleec")
-    result.stdout.fnmatch_lines(["*absent.sleec*"])
     result = run("test_house.py", "--sleec-target", "robot.py:broken")
     result.stdout.fnmatch_lines(["*no arm*"])
+
+
+def test_cases_of_other_tools_are_left_alone(run) -> None:
+    for text in ("rows = 3\n", "no toml at all [", "[[case]]\nwhen = 'T'\n"):
+        result = run(".", other_cases_toml=text)
+        result.assert_outcomes(passed=14)
+        assert "other.cases.toml" not in result.stdout.str()
+    elsewhere = 'ruleset = "house.sleec"\n' + CASES
+    run(".", other_cases_toml=elsewhere).assert_outcomes(passed=16)
+
+
+def test_a_ruleset_that_is_not_there_is_a_usage_error(run, pytester: pytest.Pytester) -> None:
+    pytester.makepyfile(test_any="def test(): pass")
+    for arguments in (["--sleec-ruleset", "nope.sleec"], ["-o", "sleec_ruleset=nope.sleec"]):
+        result = run("test_any.py", *arguments)
+        result.stderr.fnmatch_lines(["*there is no file*nope.sleec*"])
+        assert result.ret == pytest.ExitCode.USAGE_ERROR
+
+
+@pytest.mark.parametrize("percent", ["nan", "-5", "150", "inf", "many"])
+def test_a_threshold_is_a_percentage(run, pytester: pytest.Pytester, percent: str) -> None:
+    pytester.makepyfile(test_any="def test(): pass")
+    for arguments in ([f"--sleec-cov-fail-under={percent}"], ["-o", f"sleec_cov_fail_under={percent}"]):
+        result = run("test_any.py", *arguments)
+        result.stderr.fnmatch_lines([f"*sleec_cov_fail_under is '{percent}', and no number from 0 to 100*"])
+        assert result.ret == pytest.ExitCode.USAGE_ERROR
+
+
+def test_a_threshold_is_not_met_by_using_no_rules(run, pytester: pytest.Pytester) -> None:
+    pytester.makepyfile(test_any="def test(): pass")
+    result = run("test_any.py", "--sleec-cov-fail-under", "50")
+    result.stdout.fnmatch_lines(["no ruleset was used", "FAIL: 50 % of all goals is asked for, and there are none"])
+    assert result.ret == pytest.ExitCode.TESTS_FAILED
 
 
 def test_a_project_without_rules_pays_nothing() -> None:
