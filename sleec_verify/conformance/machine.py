@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from typing import Any
 
@@ -16,8 +17,9 @@ from sleec_verify.conformance.subject import Bench, Observed
 from sleec_verify.report.words import value_text
 
 
-def state_machine(bench: Bench) -> type[RuleBasedStateMachine]:
-    """The machine for one bench; its `TestCase` is a test, and `run_state_machine_as_test` runs it."""
+def state_machine(bench: Bench, *, threads: bool = False) -> type[RuleBasedStateMachine]:
+    """The machine for one bench; its `TestCase` is a test, and `run_state_machine_as_test` runs it. With `threads`,
+    other threads make some of the changes and triggers, one at a time, so that each run can be repeated."""
     oracle = bench.oracle()
     ruleset = oracle.ruleset
     triggers = sorted(oracle.whole.triggers)
@@ -91,14 +93,48 @@ def state_machine(bench: Bench) -> type[RuleBasedStateMachine]:
         def teardown(self) -> None:
             self._open.close()
 
-    return Changes
+    class Threads(Changes):
+        """The same, where a step may be that of a thread which is new, or which made other steps before."""
+
+        def __init__(self) -> None:
+            super().__init__()
+            self._old = self._open.enter_context(ThreadPoolExecutor(1))
+
+        @rule(changes=changes, new=st.booleans())
+        def change_elsewhere(self, changes: dict[str, Value | None], new: bool) -> None:
+            """Another thread tells of a change."""
+            self._steps.append(f"{_thread(new)}: change: {_changes_text(changes)}")
+            self._elsewhere(new, lambda: self._running.change(changes))
+
+        @rule(names=some, new=st.booleans())
+        def trigger_elsewhere(self, names: Sequence[str], new: bool) -> None:
+            """One or several triggers occur in another thread."""
+            observed: list[Observed] = []
+            self._elsewhere(new, lambda: observed.append(self._running.observe(names)))
+            self._steps.append(f"{_thread(new)}: trigger {', '.join(names)}")
+            # The solver is this thread's.
+            for failure in self._compared(names, self._running.here(names), observed[0]):
+                raise failure
+
+        def _elsewhere(self, new: bool, work: Callable[[], object]) -> None:
+            if new:
+                with ThreadPoolExecutor(1) as pool:
+                    pool.submit(work).result()
+            else:
+                self._old.submit(work).result()
+
+    return Threads if threads else Changes
 
 
-def run_machine(bench: Bench, settings: Any) -> None:
+def run_machine(bench: Bench, settings: Any, *, threads: bool = False) -> None:
     """Runs the machine. Raises the smallest Nonconformance that Hypothesis finds."""
     from hypothesis.stateful import run_state_machine_as_test
 
-    run_state_machine_as_test(state_machine(bench), settings=settings)  # type: ignore[no-untyped-call]
+    run_state_machine_as_test(state_machine(bench, threads=threads), settings=settings)  # type: ignore[no-untyped-call]
+
+
+def _thread(new: bool) -> str:
+    return "in a new thread" if new else "in another thread"
 
 
 def _changes_text(changes: Mapping[str, Value | None]) -> str:

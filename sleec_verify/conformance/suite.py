@@ -71,10 +71,13 @@ def _replacement(bench: Bench, examples: int) -> object:
     return replaced(bench)
 
 
-def _threads(bench: Bench, examples: int) -> object:
+def _threads(bench: Bench, examples: int) -> None:
+    from sleec_verify.conformance.machine import run_machine
     from sleec_verify.conformance.threads import in_threads
 
-    return in_threads(bench)
+    in_threads(bench)
+    with _repeatable():
+        run_machine(bench, _settings(max(1, examples // 10)), threads=True)
 
 
 PARTS: dict[str, Part] = {

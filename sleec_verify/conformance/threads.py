@@ -1,4 +1,5 @@
-"""Many threads against one changing context: what each trigger does is due in some whole context."""
+"""Threads: each clause off the main thread, and many threads against one changing context, where what each trigger
+does is due in some whole context."""
 
 from __future__ import annotations
 
@@ -6,11 +7,13 @@ import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from itertools import islice
 
 from sleec_runtime.model import Context
 from sleec_verify.conformance.atomic import justified_by_one
-from sleec_verify.conformance.exhaustive import tried
+from sleec_verify.conformance.exhaustive import SAMPLED, groups, situations, tried
 from sleec_verify.conformance.failure import Nonconformance
+from sleec_verify.conformance.oracle import Expected, Oracle
 from sleec_verify.conformance.possible import Assumptions
 from sleec_verify.conformance.subject import Bench, Observed, Running
 from sleec_verify.conformance.telling import Pair, pairs
@@ -25,20 +28,37 @@ def in_threads(bench: Bench) -> int:
     """Raises Nonconformance where a thread does what no whole context calls for, or does not see the context that
     another has made. Returns the number of dispatches."""
     oracle = bench.oracle()
-    found = pairs(oracle, Assumptions(oracle.ruleset))[:PAIRS]
+    assumptions = Assumptions(oracle.ruleset)
+    clauses = 0
+    with bench.running() as running:
+        for context, expected in each_clause(oracle, assumptions):
+            _handed_over(running, context, expected)
+            clauses += 1
+    found = pairs(oracle, assumptions)[:PAIRS]
     for pair in found:
         with bench.running() as running, _hasty_threads():
             for context in (pair.before, pair.after):
-                _handed_over(running, context)
+                _handed_over(running, context, oracle.expected(context))
             _fought_over(running, pair)
-    return len(found) * THREADS * DISPATCHES
+    return clauses + len(found) * THREADS * DISPATCHES
 
 
-def _handed_over(running: Running, context: Context) -> None:
-    """What one thread reports, another acts upon."""
+def each_clause(oracle: Oracle, assumptions: Assumptions) -> Iterator[tuple[Context, Expected]]:
+    """A situation for each clause of each rule in which it is active, and no more of them than that takes."""
+    for group in groups(oracle, unreported=False):
+        clauses = {(rule.label, number) for rule in group.rules for number, _ in enumerate(rule.clauses())}
+        for context, expected in islice(situations(group, oracle, assumptions), 4 * SAMPLED):
+            new = clauses & {(one.rule, one.clause) for one in expected.active}
+            if new and not expected.conflict:
+                clauses -= new
+                yield context, expected
+            if not clauses:
+                break
+
+
+def _handed_over(running: Running, context: Context, expected: Expected) -> None:
+    """What one thread reports, another acts upon. `expected` is known beforehand: the solver is this thread's."""
     running.enter(context)
-    # The solver is this thread's: the others only execute.
-    expected = running.oracle.expected(context)
     failures: list[Nonconformance] = []
 
     def work() -> None:
