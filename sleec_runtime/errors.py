@@ -52,11 +52,23 @@ class LanguageError(SleecError):
         return lines
 
 
+class Unsayable(SleecError):
+    """Something in a ruleset that a language has no words for."""
+
+
 class UnreadableFile(SleecError):
     """A file that cannot be read as text: missing, forbidden, not UTF-8, or holding a NUL byte."""
 
 
 # What the runtime refuses, before anything is executed ----------------------------------------------------
+
+
+class UnsupportedTimes(SleecError):
+    """Rules with times, or relations, given to what cannot keep them yet. `lines` are those of the constructs."""
+
+    def __init__(self, message: str, lines: Sequence[int]) -> None:
+        super().__init__(message, "leave them out, or leave it at `sleec-verify check`, `entail` and `explain` for now")
+        self.lines = tuple(lines)
 
 
 class WrongType(SleecError):

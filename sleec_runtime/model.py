@@ -10,20 +10,28 @@ The names are the paper's (Section 3): a rule has a trigger C0, a default respon
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple, Union
 
 from sleec_runtime.errors import WrongType
+from sleec_runtime.spans import NOWHERE as NOWHERE
+from sleec_runtime.spans import Place as Place
+from sleec_runtime.spans import Source as Source
+from sleec_runtime.spans import Span as Span
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
+    from sleec_runtime.model_time import Claim, Relation, Timing
+
 Kind = Literal["trigger", "condition", "obligation"]
 Reading = Literal["cascade", "priority"]
+DeclaredKind = Literal["trigger", "condition", "obligation", "event"]
 Syntax = Literal["english", "dsl"]
+Dialect = Literal["sleec-tk", "legos"]
+Agent = Literal["system", "environment"]
 Operator = Literal["<", "<=", "=", "!=", ">=", ">"]
 MeasureKind = Literal["number", "integer", "scale"]
 
@@ -34,60 +42,6 @@ Rational = Union[int, "Fraction"]
 
 Value = Union[bool, int, "Fraction", str]
 """What a condition or measure may be worth: a truth value, an exact number, or a value of a scale."""
-
-
-class Span(NamedTuple):
-    """A stretch of the text, as offsets of characters: ``text[start:end]``."""
-
-    start: int
-    end: int
-
-
-NOWHERE = Span(0, 0)
-
-
-class Place(NamedTuple):
-    """A span as people count: lines and columns from 1, the end column one past the last character."""
-
-    line: int
-    column: int
-    end_line: int
-    end_column: int
-
-
-@dataclass(frozen=True)
-class Source:
-    """The text that a ruleset was read from.
-
-    `path` is what to call it (a file's path, or ``<stdin>``); `sha256` is of the bytes as they were read, if known.
-    """
-
-    path: str
-    text: str
-    sha256: str | None = None
-
-    @cached_property
-    def _line_starts(self) -> list[int]:
-        starts = [0]
-        position = self.text.find("\n")
-        while position >= 0:
-            starts.append(position + 1)
-            position = self.text.find("\n", position + 1)
-        return starts
-
-    def place(self, span: Span) -> Place:
-        """Lines and columns of `span`. O(log lines) after the first call."""
-        starts = self._line_starts
-        line = bisect_right(starts, span.start)
-        end_line = bisect_right(starts, span.end)
-        return Place(line, span.start - starts[line - 1] + 1, end_line, span.end - starts[end_line - 1] + 1)
-
-    def line(self, number: int) -> str:
-        """The text of a line (from 1), without its line break."""
-        starts = self._line_starts
-        start = starts[number - 1]
-        end = starts[number] if number < len(starts) else len(self.text)
-        return self.text[start:end].rstrip("\r\n")
 
 
 # Formulas -------------------------------------------------------------------------------------------------
@@ -214,11 +168,13 @@ NO_COMMENTS = Comments()
 
 @dataclass(frozen=True, slots=True)
 class Obligation:
-    """One literal of a response: a name, or ``NOT`` and a name (a prohibition)."""
+    """One literal of a response: a name, or ``NOT`` and a name (a prohibition). `timing` says when it is due, if that
+    is said."""
 
     name: str
     negated: bool = False
     span: Span = field(default=NOWHERE, compare=False, repr=False)
+    timing: Timing | None = None
 
     def __str__(self) -> str:
         return f"NOT {self.name}" if self.negated else self.name
@@ -286,13 +242,15 @@ def _in_text_order(clause: Clause) -> Iterator[Clause]:
 
 @dataclass(frozen=True, slots=True)
 class Declaration:
-    """``TRIGGER a, b``, ``CONDITION c`` or ``OBLIGATION d``: `kind` is that of the names."""
+    """``TRIGGER a, b``, ``CONDITION c`` or ``OBLIGATION d``: `kind` is that of the names. An event of the DSL may be a
+    trigger and an obligation; `agent` says whose it is, if that is said."""
 
-    kind: Kind
+    kind: DeclaredKind
     names: tuple[str, ...]
     span: Span = field(default=NOWHERE, compare=False, repr=False)
     name_spans: tuple[Span, ...] = field(default=(), compare=False, repr=False)
     comments: Comments = field(default=NO_COMMENTS, compare=False, repr=False)
+    agent: Agent | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -354,7 +312,19 @@ class Assume:
 
 
 Constraint = Union[Exclusive, Never, Assume]
-Statement = Union[Declaration, Measure, Constant, Exclusive, Never, Assume, Rule]
+Statement = Union[Declaration, Measure, Constant, Exclusive, Never, Assume, Rule, "Claim", "Relation"]
+
+DefectKind = Literal["repeated-label", "foreign-value"]
+
+
+class Defect(NamedTuple):
+    """What is wrong with a text that tools of others read all the same, so that it is read here too: it is a finding
+    of `check`."""
+
+    kind: DefectKind
+    message: str
+    span: Span
+    help: str
 
 
 @dataclass(frozen=True)
@@ -363,13 +333,15 @@ class Ruleset:
 
     `statements` holds everything in the order of the text. `inferred` are the measures that the rules compare but
     the text does not declare. `reading` is how chains of hedges are read; `reading_stated` says whether the text
-    says so itself.
+    says so itself. `dialect` is that of a text in the DSL, `defects` what of it is read only because others read it.
     """
 
     statements: tuple[Statement, ...]
     reading: Reading = "cascade"
     syntax: Syntax = "english"
     inferred: tuple[Measure, ...] = ()
+    dialect: Dialect | None = None
+    defects: tuple[Defect, ...] = field(default=(), compare=False)
     reading_stated: bool = field(default=False, compare=False)
     source: Source = field(default=Source("<memory>", ""), compare=False, repr=False)
     closing_comments: tuple[str, ...] = field(default=(), compare=False, repr=False)
@@ -397,13 +369,13 @@ class Ruleset:
         return {s.name: s for s in self.statements if isinstance(s, Constant)}
 
     @cached_property
-    def declared(self) -> Mapping[Kind, frozenset[str]]:
+    def declared(self) -> Mapping[DeclaredKind, frozenset[str]]:
         """The declared names of each kind; an empty set for a kind that the text does not declare."""
         return {
             kind: frozenset(
                 name for s in self.statements if isinstance(s, Declaration) and s.kind == kind for name in s.names
             )
-            for kind in ("trigger", "condition", "obligation")
+            for kind in ("trigger", "condition", "obligation", "event")
         }
 
     @cached_property
@@ -417,8 +389,9 @@ class Ruleset:
 
     @cached_property
     def triggers(self) -> frozenset[str]:
-        """T: the triggers that are declared, that rules have, or that assumptions speak of."""
-        return self.declared["trigger"] | {rule.trigger for rule in self.rules} | self._named_in_constraints("trigger")
+        """T: the triggers that are declared, as events too, that rules have, or that assumptions speak of."""
+        declared = self.declared["trigger"] | self.declared["event"]
+        return declared | {rule.trigger for rule in self.rules} | self._named_in_constraints("trigger")
 
     @cached_property
     def conditions(self) -> frozenset[str]:
@@ -435,7 +408,7 @@ class Ruleset:
     @cached_property
     def obligations(self) -> frozenset[str]:
         """O: the obligations that are declared, that rules oblige or forbid, or that constraints speak of."""
-        used = {o.name for rule in self.rules for clause in rule.clauses() for o in clause.obligations}
+        used = {o.name for rule in self.rules for clause in rule.clauses() for o in literals(clause)}
         exclusive = {name for c in self.constraints if isinstance(c, Exclusive) for name in c.names}
         return self.declared["obligation"] | used | exclusive | self._named_in_constraints("obligation")
 
@@ -465,14 +438,44 @@ class Ruleset:
             ),
         )
 
+    @cached_property
+    def is_timed(self) -> bool:
+        """Whether any of it needs `sleec_runtime.model_time`: times, concerns, purposes or relations."""
+        return any(
+            any(o.timing is not None for clause in s.clauses() for o in clause.obligations)
+            if isinstance(s, Rule)
+            else not isinstance(s, (Declaration, Measure, Constant, Exclusive, Never, Assume))
+            for s in self.statements
+        )
+
 
 def formulas_of(rule: Rule) -> Iterator[Formula]:
     """The guard and the conditions of a rule, in the order of the text."""
     if rule.guard is not None:
         yield rule.guard
     for clause in rule.clauses():
-        if clause.condition is not None:
-            yield clause.condition
+        yield from conditions_in(clause)
+
+
+def conditions_in(clause: Clause) -> Iterator[Formula]:
+    """The condition of a clause, and those of the hedges of what is due in place of its response."""
+    if clause.condition is not None:
+        yield clause.condition
+    for obligation in clause.obligations:
+        if obligation.timing is not None:
+            for alternative in obligation.timing.alternatives():
+                for inner in _in_text_order(alternative):
+                    yield from conditions_in(inner)
+
+
+def literals(clause: Clause) -> Iterator[Obligation]:
+    """What a clause obliges, and what is due in place of it."""
+    for obligation in clause.obligations:
+        yield obligation
+        if obligation.timing is not None:
+            for alternative in obligation.timing.alternatives():
+                for inner in _in_text_order(alternative):
+                    yield from literals(inner)
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,8 @@ class Decided:
 
 @dataclass(frozen=True)
 class Because:
-    """A clause that is active: what it obliges, and the conditions that made it the one.
+    """A clause that is active: what it obliges, when (in words, empty for at once), and the conditions that made it the
+    one.
 
     In a cascade these are the true prefix and the first false condition; by priority, the last true condition and
     the false ones after it.
@@ -44,6 +45,11 @@ class Because:
     obligations: tuple[str, ...]
     decisions: tuple[Decided, ...]
     span: Span
+    times: tuple[str, ...] = ()
+
+    def in_words(self) -> tuple[str, ...]:
+        """The obligations, each with when it is due if that is said."""
+        return tuple(f"{what} {when}".rstrip() for what, when in zip(self.obligations, self.times))
 
 
 @dataclass(frozen=True)
@@ -57,8 +63,12 @@ class Consequence:
 
 @dataclass(frozen=True)
 class Entailment:
-    """The answer to "what is due here?". Where it is not `consistent`, nothing is listed as due and `conflicts` says
-    why. `missing` are measures that were asked about and not given: comparisons with them count as false."""
+    """The answer to "what is due here?".
+
+    Where it is not `consistent`, nothing is listed as due and `conflicts` says why. `timed` are the literals due at
+    some later time; whether they can be kept with all else is not decided, and `consistent` says nothing of them.
+    `missing` are measures that were asked about and not given: comparisons with them count as false.
+    """
 
     consistent: bool
     obligations: tuple[str, ...]
@@ -68,6 +78,7 @@ class Entailment:
     conflicts: tuple[Finding, ...]
     broken_assumptions: tuple[Assume, ...]
     missing: tuple[str, ...]
+    timed: tuple[Obligation, ...] = ()
 
 
 class Definition1:
@@ -128,6 +139,11 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     """
     if domain is not None:
         ruleset = ruleset.in_domain(domain)
+    stated = {rule.label: rule for rule in ruleset.rules if rule.trigger in context.triggers}
+    if ruleset.is_timed:
+        from sleec_verify.timed import untimed
+
+        ruleset = untimed(ruleset)
     rules = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
     cones = Cones(ruleset)
     ruled_out = clashes(cones.constraints, {o for rule in rules for c in rule.clauses() for o in c.obligations})
@@ -158,15 +174,20 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     witness = Witness(tuple(sorted(context.triggers)), dict(context.conditions))
     conflicts = tuple(conflict_in(cones, active, here, witness))
     consistent = due is not None and not conflicts
+    later = [o for place in active for o in _clause(stated[cones.rules[place.rule].label], place.number) if o.timing]
+    due = frozenset((due or frozenset()) | set(later))
     return Entailment(
         consistent=consistent,
-        obligations=tuple(sorted(o.name for o in due or () if not o.negated)) if consistent else (),
-        prohibitions=tuple(sorted(o.name for o in due or () if o.negated)) if consistent else (),
-        because=tuple(_because(cones.rules[place.rule], place.number, ruleset.reading, truth) for place in active),
+        obligations=tuple(sorted({o.name for o in due if not o.negated})) if consistent else (),
+        prohibitions=tuple(sorted({o.name for o in due if o.negated})) if consistent else (),
+        because=tuple(
+            _because(stated[cones.rules[place.rule].label], place.number, ruleset.reading, truth) for place in active
+        ),
         consequences=tuple(_consequences(cones, obliged, context)) if consistent else (),
         conflicts=conflicts,
         broken_assumptions=tuple(a for a in cones.assumptions if not truth[id(a.formula)]),
         missing=tuple(sorted(missing)),
+        timed=tuple(later),
     )
 
 
@@ -178,6 +199,10 @@ def _conditions(rule: Rule) -> Iterator[tuple[Formula, int | None, Span]]:
             yield clause.condition, number, clause.condition.span
 
 
+def _clause(rule: Rule, number: int) -> tuple[Obligation, ...]:
+    return list(rule.clauses())[number].obligations
+
+
 def _because(rule: Rule, number: int, reading: str, truth: dict[int, bool]) -> Because:
     clause = list(rule.clauses())[number]
     decided = []
@@ -187,7 +212,8 @@ def _because(rule: Rule, number: int, reading: str, truth: dict[int, bool]) -> B
         assert hedge.condition is not None, "only hedges are looked at"
         decided.append(Decided(hedge.condition, truth[id(hedge.condition)], at, hedge.condition.span))
     obligations = tuple(str(o) for o in clause.obligations)
-    return Because(rule.label, number, rule.layer(number), obligations, tuple(decided), clause.span)
+    times = tuple(str(o.timing) if o.timing is not None else "" for o in clause.obligations)
+    return Because(rule.label, number, rule.layer(number), obligations, tuple(decided), clause.span, times)
 
 
 def _looked_at(rule: Rule, reading: str, truth: dict[int, bool]) -> list[tuple[Clause, int]]:

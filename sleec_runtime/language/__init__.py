@@ -9,20 +9,17 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.english import parse_english
 from sleec_runtime.language.printer import print_formula, print_rule, print_ruleset
 from sleec_runtime.language.source import read_source, tidy
-from sleec_runtime.model import Ruleset, Source, Span
+from sleec_runtime.model import Ruleset, Source
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 __all__ = ["load", "parse", "parse_source", "print_formula", "print_rule", "print_ruleset", "read_source"]
 
-_COMMENT = re.compile(r"\s*(?://|#)[^\n]*")
-_WORD = re.compile(r"\s*(\w+)")
-_DSL_STARTS = frozenset({"def_start", "rule_start", "concern_start", "purpose_start", "relation_start"})
+_DSL_BLOCK = re.compile(r"^[ \t]*(?:def|rule|concern|purpose|relation)_(?:start|end)\b", re.MULTILINE)
 
 
 def parse(text: str, path: str = "<memory>", sha256: str | None = None) -> Ruleset:
@@ -46,24 +43,9 @@ def load(path: str | Path) -> Ruleset:
 
 def parse_source(source: Source) -> Ruleset:
     """As `parse`, of a text that has been read already."""
-    word = _first_word(source.text)
-    if source.text[word.start : word.end] in _DSL_STARTS:
-        raise LanguageError(
-            source,
-            [
-                Problem(
-                    "this is a text in the .sleec DSL (def_start ... rule_end), which is not supported yet",
-                    word,
-                    "write the rules in structured English: WHEN trigger THEN response",
-                )
-            ],
-        )
+    # In structured English no statement begins with a word in small letters.
+    if "_start" in source.text and _DSL_BLOCK.search(source.text):
+        from sleec_runtime.language.dsl import parse_dsl
+
+        return parse_dsl(source)
     return parse_english(source)
-
-
-def _first_word(text: str) -> Span:
-    at = 0
-    while comment := _COMMENT.match(text, at):
-        at = comment.end()
-    word = _WORD.match(text, at)
-    return Span(*word.span(1)) if word else Span(at, at)

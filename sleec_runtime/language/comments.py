@@ -11,7 +11,7 @@ statement after them.
 from __future__ import annotations
 
 from array import array
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 from sleec_runtime.language.keywords import LINE_STARTS, SETTINGS
@@ -19,7 +19,8 @@ from sleec_runtime.model import NO_COMMENTS, Comments
 
 
 class Remark(NamedTuple):
-    """A comment with its marker, ``text[start:end]``, and the number of the token behind it."""
+    """A comment with its marker, ``text[start:end]``, or a line of one that has many lines, and the number of the token
+    behind it."""
 
     start: int
     end: int
@@ -27,9 +28,18 @@ class Remark(NamedTuple):
 
 
 def attach(
-    remarks: Sequence[Remark], text: str, kinds: list[str], starts: array[int], ends: array[int]
+    remarks: Sequence[Remark],
+    text: str,
+    kinds: list[str],
+    starts: array[int],
+    ends: array[int],
+    line_starts: Collection[str] = LINE_STARTS,
+    settings: Collection[str] = SETTINGS,
 ) -> tuple[dict[int, Comments], tuple[str, ...]]:
-    """The comments of each token that starts a line of rules, and those that come after the last one."""
+    """The comments of each token that starts a line of rules, and those that come after the last one.
+
+    `line_starts` are the kinds of the tokens that start a line; those of `settings` among them keep no comments.
+    """
     attached: dict[int, Comments] = {}
     pending: list[str] = []
     line = -1  # the token that starts the line of rules before the comment at hand
@@ -38,24 +48,24 @@ def attach(
 
     def hand_over(token: int) -> None:
         """The pending comments stand above `token`, which starts a line of rules."""
-        if kinds[token] in SETTINGS or text.count("\n", end_before, starts[token]) > 1:
+        if kinds[token] in settings or text.count("\n", end_before, starts[token]) > 1:
             _leave_gap(pending)
-        if kinds[token] not in SETTINGS:
+        if kinds[token] not in settings:
             before = attached.get(token, NO_COMMENTS)
             attached[token] = Comments(before.above + tuple(pending), before.behind)
             pending.clear()
 
     for remark in remarks:
         while seen < remark.token:
-            if kinds[seen] in LINE_STARTS:
+            if kinds[seen] in line_starts:
                 if pending:
                     hand_over(seen)
                 line = seen
             seen += 1
         words = _words(text, remark)
         behind = remark.token > 0 and "\n" not in text[max(ends[remark.token - 1], end_before) : remark.start]
-        inside = kinds[remark.token] not in LINE_STARTS and kinds[remark.token] != "end"
-        owner = line if line >= 0 and kinds[line] not in SETTINGS and (behind or inside) else -1
+        inside = kinds[remark.token] not in line_starts and kinds[remark.token] != "end"
+        owner = line if line >= 0 and kinds[line] not in settings and (behind or inside) else -1
         if owner >= 0:
             before = attached.get(owner, NO_COMMENTS)
             if behind and before.behind is None:
@@ -70,14 +80,14 @@ def attach(
                 _leave_gap(pending)
         end_before = remark.end
     while pending and kinds[seen] != "end":
-        if kinds[seen] in LINE_STARTS:
+        if kinds[seen] in line_starts:
             hand_over(seen)
         seen += 1
     return attached, tuple(pending)
 
 
 def _words(text: str, remark: Remark) -> str:
-    marker = 1 if text[remark.start] == "#" else 2
+    marker = 2 if text.startswith("//", remark.start) else 1 if text[remark.start] == "#" else 0
     return text[remark.start + marker : remark.end].strip()
 
 

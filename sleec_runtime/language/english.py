@@ -6,14 +6,14 @@ wherever they stand, and NEVER and ASSUME last: what a name in them is depends o
 
 from __future__ import annotations
 
-import gc
 from collections.abc import Callable
 from typing import TypeVar
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.cursor import Abandon, quoted
+from sleec_runtime.language.garbage import uncollected
 from sleec_runtime.language.keywords import DECLARATIONS, RULE_STARTS, STATEMENTS
-from sleec_runtime.language.resolve import MAX_PROBLEMS, Names
+from sleec_runtime.language.resolve import Names, first_problems
 from sleec_runtime.language.rules import RuleParser
 from sleec_runtime.language.scanner import scan
 from sleec_runtime.language.suggest import near_keyword, nearest
@@ -45,22 +45,12 @@ def parse_english(source: Source) -> Ruleset:
         LanguageError: with every problem, in the order of the text.
     """
     problems: list[Problem] = []
-    was_collecting = gc.isenabled()
-    # Parsing makes many objects and no cycles: looking for them again and again takes a fifth of its time.
-    gc.disable()
-    try:
+    with uncollected():
         tokens = scan(source.text)
         parser = EnglishParser(source, tokens, problems, Names(source, problems))
         statements = parser.statements()
-    finally:
-        if was_collecting:
-            if not gc.get_freeze_count():
-                # All that is new becomes old at once, unseen; else the first collection would walk through it.
-                gc.freeze()
-                gc.unfreeze()
-            gc.enable()
     if problems:
-        raise LanguageError(source, _shown(problems))
+        raise LanguageError(source, first_problems(problems))
     return Ruleset(
         statements=tuple(statements),
         reading=parser.reading or DEFAULT_READING,
@@ -280,13 +270,3 @@ class EnglishParser(RuleParser):
         self.leaf = self.names.assumed
         formula = self.formula()
         return Assume(formula, self.domains, self.span(first), self.comments_of(first))
-
-
-def _shown(problems: list[Problem]) -> list[Problem]:
-    """The first problems in the order of the text, and how many more there are."""
-    problems.sort(key=lambda problem: problem.span)
-    more = len(problems) - MAX_PROBLEMS
-    if more > 0:
-        span = problems[MAX_PROBLEMS].span
-        problems[MAX_PROBLEMS:] = [Problem(f"and {more:,} more problems", span, "mend the first ones and try again")]
-    return problems

@@ -18,7 +18,7 @@ MAX_DIGITS = 100
 _DECIMAL_COMMA = re.compile(r"-?[0-9]+,[0-9]+")
 _THOUSANDS = re.compile(r"-?[1-9][0-9]{0,2},[0-9]{3}")
 
-_OPERATORS: dict[str, Operator] = {
+OPERATORS: dict[str, Operator] = {
     "<": "<",
     "<=": "<=",
     "\u2264": "<=",
@@ -135,7 +135,7 @@ class FormulaParser(Cursor):
             self.expected(
                 "a comparison such as < or >= after the number", "a number is compared with a measure: 3 <= UserAge"
             )
-        operator = _OPERATORS[self.token_text(self.at)]
+        operator = OPERATORS[self.token_text(self.at)]
         self.at += 1
         right = self.side("a number or a name to compare with", "as in: UserAge < 18")
         span = self.span(first)

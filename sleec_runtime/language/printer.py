@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from sleec_runtime.errors import Unsayable
 from sleec_runtime.model import (
     NO_COMMENTS,
     And,
@@ -37,7 +38,15 @@ _INDENT = "    "
 
 
 def print_ruleset(ruleset: Ruleset) -> str:
-    """`ruleset` as a text in structured English, with its comments, ending in a line break (or empty)."""
+    """`ruleset` as a text in its own syntax, with its comments, ending in a line break (or empty).
+
+    Raises:
+        Unsayable: something in it cannot be said in that syntax.
+    """
+    if ruleset.syntax == "dsl":
+        from sleec_runtime.language.dsl.printer import print_dsl
+
+        return print_dsl(ruleset)
     return "".join(f"{line}\n" for line in _Printer(comments=True).ruleset(ruleset))
 
 
@@ -113,76 +122,79 @@ class _Printer:
             if isinstance(statement, Rule):
                 rules += 1
                 labelled = statement.labelled or statement.label != f"rule_{rules}"
-            heading, above = _split(_above(statement, labelled), bool(settings))
+            heading, above = split_heading(_above(statement, labelled), bool(settings))
             if before is not None and (settings or _stands_apart(before, statement)):
                 yield ""
             if settings:
-                yield from _comment_lines(heading)
+                yield from comment_lines(heading)
                 if heading and before is None:
                     yield ""
                 yield from settings
                 yield ""
                 settings = []
-            yield from _comment_lines(above)
+            yield from comment_lines(above)
             if isinstance(statement, Rule):
                 yield from self.rule(statement, labelled)
             else:
-                yield _behind(_statement(statement), statement.comments.behind)
+                yield behind(_statement(statement), statement.comments.behind)
             before = statement
-        closing = _trimmed(ruleset.closing_comments)
+        closing = trimmed(ruleset.closing_comments)
         if closing:
             if before is not None:
                 yield ""
-            yield from _comment_lines(closing)
+            yield from comment_lines(closing)
 
     def rule(self, rule: Rule, labelled: bool) -> Iterator[str]:
         """The lines of a rule, without the comments above it."""
         own = rule.comments if self._with_comments else NO_COMMENTS
         first = rule.default.comments if self._with_comments else NO_COMMENTS
         if labelled:
-            yield _behind(f"RULE {rule.label}", own.behind)
-            yield from _comment_lines(_trimmed(first.above))
-            behind = first.behind
+            yield behind(f"RULE {rule.label}", own.behind)
+            yield from comment_lines(trimmed(first.above))
+            remark = first.behind
         else:
-            behind = first.behind if own.behind is None else own.behind
+            remark = first.behind if own.behind is None else own.behind
         guard = ""
         if rule.guard is not None:
             guard = f" AND {_operand(rule.guard, Or)}"
         when = f"WHEN {rule.trigger}{guard} THEN "
-        yield from self._clause(when, rule.default, Comments(behind=behind), "", in_parentheses=False)
+        yield from self._clause(when, rule.default, Comments(behind=remark), "", in_parentheses=False)
         for hedge in rule.hedges:
             yield from self._hedge(hedge, "", "")
 
     def _hedge(self, hedge: Clause, indent: str, closing: str) -> Iterator[str]:
         assert hedge.condition is not None
         comments = hedge.comments if self._with_comments else NO_COMMENTS
-        for line in _comment_lines(_trimmed(comments.above)):
+        for line in comment_lines(trimmed(comments.above)):
             yield indent + line if line else line
         unless = f"{indent}UNLESS {print_formula(hedge.condition)}"
         if hedge.obligations or hedge.hedges:
             yield from self._clause(f"{unless} IN WHICH CASE ", hedge, comments, closing, in_parentheses=True)
         else:
-            yield _behind(unless + closing, comments.behind)
+            yield behind(unless + closing, comments.behind)
 
     def _clause(
         self, line: str, clause: Clause, comments: Comments, closing: str, in_parentheses: bool
     ) -> Iterator[str]:
         """The line of a clause, which `line` begins, and those of the chain that is nested in it."""
+        for obligation in clause.obligations:
+            if obligation.timing is not None:
+                raise Unsayable(f"structured English has no words yet for times, as of {obligation.name}")
         response = " AND ".join(str(obligation) for obligation in clause.obligations)
         if not clause.hedges:
             if in_parentheses and len(clause.obligations) > 1:
                 response = f"({response})"
-            yield _behind(line + response + closing, comments.behind)
+            yield behind(line + response + closing, comments.behind)
             return
         indent = line[: len(line) - len(line.lstrip())] + _INDENT
-        yield _behind(f"{line}({response}", comments.behind)
+        yield behind(f"{line}({response}", comments.behind)
         for nested in clause.hedges[:-1]:
             yield from self._hedge(nested, indent, "")
         yield from self._hedge(clause.hedges[-1], indent, f"){closing}")
 
 
-def _statement(statement: Declaration | Measure | Constant | Exclusive | Never | Assume) -> str:
-    if isinstance(statement, Declaration):
+def _statement(statement: Statement) -> str:
+    if isinstance(statement, Declaration) and statement.kind != "event":
         return f"{statement.kind.upper()} {', '.join(statement.names)}"
     if isinstance(statement, Measure):
         return f"MEASURE {statement.name}: {' < '.join(statement.values) or statement.kind}"
@@ -190,6 +202,8 @@ def _statement(statement: Declaration | Measure | Constant | Exclusive | Never |
         return f"CONSTANT {statement.name} = {statement.alias or print_number(statement.value)}"
     if isinstance(statement, Exclusive):
         return f"EXCLUSIVE {', '.join(statement.names)}"
+    if not isinstance(statement, (Never, Assume)):
+        raise Unsayable("structured English has no words yet for events, concerns, purposes and relations")
     return f"{'NEVER' if isinstance(statement, Never) else 'ASSUME'} {print_formula(statement.formula)}"
 
 
@@ -212,7 +226,7 @@ def _above(statement: Statement, labelled: bool) -> Sequence[str]:
     return (*above, one_too_many) if one_too_many else above
 
 
-def _split(above: Sequence[str], has_settings: bool) -> tuple[Sequence[str], Sequence[str]]:
+def split_heading(above: Sequence[str], has_settings: bool) -> tuple[Sequence[str], Sequence[str]]:
     """The comments above a statement: those above the DOMAIN or READING line before it, and those below that.
 
     An empty string is an empty line; the last one divides the two.
@@ -233,12 +247,14 @@ def _without_leading(comments: Sequence[str]) -> list[str]:
     return found
 
 
-def _trimmed(comments: Sequence[str]) -> list[str]:
+def trimmed(comments: Sequence[str]) -> list[str]:
+    """Comments without empty ones at the beginning and at the end."""
     found = _without_leading(comments)
     return found[:-1] if found and not found[-1] else found
 
 
-def _comment_lines(comments: Sequence[str]) -> Iterator[str]:
+def comment_lines(comments: Sequence[str]) -> Iterator[str]:
+    """Comments as lines; an empty one is an empty line."""
     for comment in comments:
         yield _comment(comment) if comment else ""
 
@@ -247,7 +263,8 @@ def _comment(text: str) -> str:
     return f"// {text}".rstrip()
 
 
-def _behind(line: str, comment: str | None) -> str:
+def behind(line: str, comment: str | None) -> str:
+    """A line with the comment behind it, if there is one."""
     if comment is None:
         return line
     return f"{line}  {_comment(' '.join(comment.splitlines()).strip())}"

@@ -297,3 +297,13 @@ def _role(kind: str, declared: bool) -> str:
 
 def did_you_mean(name: str | None) -> str:
     return f"did you mean {quoted(name)}?" if name else ""
+
+
+def first_problems(problems: list[Problem]) -> list[Problem]:
+    """The first problems in the order of the text, and how many more there are."""
+    problems.sort(key=lambda problem: problem.span)
+    more = len(problems) - MAX_PROBLEMS
+    if more > 0:
+        span = problems[MAX_PROBLEMS].span
+        problems[MAX_PROBLEMS:] = [Problem(f"and {more:,} more problems", span, "mend the first ones and try again")]
+    return problems

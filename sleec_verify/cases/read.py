@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sleec_runtime.language import load
 from sleec_runtime.language.suggest import nearest
+from sleec_runtime.untimed import require_untimed
 from sleec_verify.cases.case import Case, CasesError
 from sleec_verify.situation import SituationError, parse_situation
 
@@ -50,6 +51,7 @@ def read_cases(path: Path, ruleset: Ruleset | None = None) -> CaseFile:
     _known(path, "the file", table, _FILE_KEYS)
     if ruleset is None:
         ruleset = load(path.parent / _text(path, "ruleset", table.get("ruleset", _beside(path))))
+    require_untimed(ruleset, "a file of cases")
     reading = table.get("reading")
     if reading is not None:
         if reading not in ("cascade", "priority"):

@@ -11,6 +11,7 @@ from sleec_verify.checks.assumptions import ASSUMPTIONS
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.conflict import CONFLICT, Enough
 from sleec_verify.checks.dead import DEAD_HEDGE, DEAD_RULE
+from sleec_verify.checks.defects import DEFECTS
 from sleec_verify.checks.reading import READING
 from sleec_verify.checks.redundant import REDUNDANT_HEDGE, REDUNDANT_RULE
 from sleec_verify.checks.text import EMPTY_HEDGE, PHRASE_KEYWORD, TRIGGER_OBLIGATION, UNUSED_NAME
@@ -20,7 +21,7 @@ from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown,
 from sleec_verify.replay import replays
 from sleec_verify.solver import Undecided
 
-__all__ = ["CHECKS", "Check", "FindingKind", "run_checks"]
+__all__ = ["CHECKS", "Check", "FindingKind", "checks_for", "run_checks"]
 
 CHECKS: Mapping[str, Check] = {
     check.name: check
@@ -37,11 +38,23 @@ CHECKS: Mapping[str, Check] = {
         EMPTY_HEDGE,
         TRIGGER_OBLIGATION,
         PHRASE_KEYWORD,
+        DEFECTS,
     )
 }
 
 Progress = Callable[[str, int, int], None]
 """Called before each check with its name, how many are done, and how many there are."""
+
+
+def checks_for(ruleset: Ruleset) -> list[str]:
+    """The names of the checks that there are for a ruleset."""
+    # Structured English has no defects: it refuses them.
+    names = [name for name in CHECKS if name != DEFECTS.name or ruleset.syntax == "dsl"]
+    if ruleset.is_timed:
+        from sleec_verify.timed import claim_checks
+
+        names += claim_checks(ruleset)
+    return names
 
 
 def run_checks(
@@ -55,7 +68,11 @@ def run_checks(
     A ruleset is checked in each of its domains, with the rules that apply everywhere; `domain` picks one. A finding
     says in which domains it holds. Raises KeyError for an unknown check.
     """
-    chosen = list(CHECKS.values()) if names is None else [CHECKS[name] for name in dict.fromkeys(names)]
+    if names is None:
+        names = checks_for(ruleset)
+    if ruleset.is_timed:
+        return _run_timed(ruleset, names, domain, progress)
+    chosen = [CHECKS[name] for name in dict.fromkeys(names)]
     domains = ruleset.domains if domain is None else (domain,)
     by_domain = {d: Cones(ruleset.in_domain(d)) for d in domains}
     whole = Cones(ruleset)
@@ -70,6 +87,31 @@ def run_checks(
             verdict, reason = _verdict(check, by_domain)
         results.append(CheckResult(check.name, verdict, perf_counter() - started, reason))
     return tuple(results)
+
+
+def _run_timed(
+    ruleset: Ruleset, names: Sequence[str], domain: str | None, progress: Progress | None
+) -> tuple[CheckResult, ...]:
+    """As `run_checks`, where what depends on time stays undecided."""
+    from sleec_verify.timed import claim_results, may_find, undecided, undecided_verdict
+
+    wanted = set(names)
+    results = []
+    whole = Cones(ruleset if domain is None else ruleset.in_domain(domain))
+    chosen = [check for check in CHECKS.values() if check.name in wanted]
+    for done, check in enumerate(chosen):
+        if progress is not None:
+            progress(check.name, done, len(chosen))
+        started = perf_counter()
+        why = undecided(ruleset, check.name)
+        verdict: Verdict | None = None
+        reason: str | None = None
+        if why is None or may_find(check.name):
+            verdict, reason = _verdict(check, {"": whole})
+        if why is not None or verdict is None:
+            verdict = undecided_verdict(why or "", verdict)
+        results.append(CheckResult(check.name, verdict, perf_counter() - started, reason))
+    return (*results, *claim_results(ruleset, wanted))
 
 
 def _verdict(check: Check, by_domain: Mapping[str, Cones]) -> tuple[Verdict, str | None]:

@@ -10,9 +10,10 @@ from sleec_runtime.model import (
     Atom,
     Comparison,
     Constant,
+    DeclaredKind,
     Exclusive,
     Formula,
-    Kind,
+    MeasureRef,
     Never,
     Number,
     Rule,
@@ -20,11 +21,13 @@ from sleec_runtime.model import (
     Span,
     formulas_of,
     leaves,
+    literals,
     measures_of,
 )
 
 
 def _formulas(ruleset: Ruleset) -> Iterator[Formula]:
+    yield from _beside_rules(ruleset)[1]
     for rule in ruleset.rules:
         yield from formulas_of(rule)
     for constraint in ruleset.constraints:
@@ -32,9 +35,21 @@ def _formulas(ruleset: Ruleset) -> Iterator[Formula]:
             yield constraint.formula
 
 
-def names_used(ruleset: Ruleset) -> dict[Kind, set[str]]:
-    """The names that rules and constraints use, by kind; measures count as conditions."""
-    used: dict[Kind, set[str]] = {"trigger": set(), "condition": set(), "obligation": set()}
+def _beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Number | MeasureRef]]:
+    """The events and formulas of concerns, purposes and relations, and what the lengths of all windows are."""
+    if not ruleset.is_timed:
+        return set(), [], []
+    from sleec_verify.timed_names import beside_rules
+
+    return beside_rules(ruleset)
+
+
+def names_used(ruleset: Ruleset) -> dict[DeclaredKind, set[str]]:
+    """The names that rules and constraints use, by kind; measures count as conditions, and an event is used wherever
+    it stands."""
+    used: dict[DeclaredKind, set[str]] = {"trigger": set(), "condition": set(), "obligation": set()}
+    events, _, amounts = _beside_rules(ruleset)
+    used["condition"].update(amount.name for amount in amounts if isinstance(amount, MeasureRef))
     for formula in _formulas(ruleset):
         for leaf in leaves(formula):
             if isinstance(leaf, Atom):
@@ -43,16 +58,19 @@ def names_used(ruleset: Ruleset) -> dict[Kind, set[str]]:
                 used["condition"].update(measures_of(leaf))
     for rule in ruleset.rules:
         used["trigger"].add(rule.trigger)
-        used["obligation"].update(o.name for clause in rule.clauses() for o in clause.obligations)
+        used["obligation"].update(o.name for clause in rule.clauses() for o in literals(clause))
     for constraint in ruleset.constraints:
         if isinstance(constraint, Exclusive):
             used["obligation"].update(constraint.names)
+    used["event"] = events | used["trigger"] | used["obligation"]
     return used
 
 
 def constants_used(ruleset: Ruleset) -> set[str]:
     """The constants that comparisons, or other constants, name."""
     used = {s.alias for s in ruleset.statements if isinstance(s, Constant) and s.alias is not None}
+    amounts = _beside_rules(ruleset)[2]
+    used |= {a.constant for a in amounts if isinstance(a, Number) and a.constant is not None}
     for formula in _formulas(ruleset):
         for leaf in leaves(formula):
             if isinstance(leaf, Comparison):
@@ -78,7 +96,7 @@ def _spans(rule: Rule, name: str) -> Iterator[Span]:
     if rule.trigger == name:
         yield rule.trigger_span
     for clause in rule.clauses():
-        yield from (o.span for o in clause.obligations if o.name == name)
+        yield from (o.span for o in literals(clause) if o.name == name)
     for formula in formulas_of(rule):
         for leaf in leaves(formula):
             named = (leaf.name,) if isinstance(leaf, Atom) else measures_of(leaf)

@@ -75,9 +75,19 @@ def _finding(cones: Cones, position: int, rule: Rule, found: tuple[int, int]) ->
         obligations=tuple(sorted({o.name for n in deciding.values() for o in clauses[n].obligations})),
         witness=witness,
         note=f"with all else false: {'; '.join(said)}",
-        help=f"this ruleset is read as {reading}; if that is what you mean, say it in the text: READING {reading}"
-        if not cones.ruleset.reading_stated
-        else f"the text says READING {reading}; other tools may read it otherwise",
+        help=_help(cones),
+    )
+
+
+def _help(cones: Cones) -> str:
+    ruleset = cones.ruleset
+    if ruleset.syntax == "dsl":
+        return f"this ruleset is read as {ruleset.reading}; the DSL means priority, structured English cascade"
+    if ruleset.reading_stated:
+        return f"the text says READING {ruleset.reading}; other tools may read it otherwise"
+    return (
+        f"this ruleset is read as {ruleset.reading}; if that is what you mean, say it in the text: "
+        f"READING {ruleset.reading}"
     )
 
 

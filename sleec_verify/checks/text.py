@@ -65,6 +65,7 @@ def _constrained(cones: Cones) -> Iterator[tuple[str, Span]]:
 
 
 def _empty_hedges(cones: Cones) -> Iterator[Finding]:
+    then = "then" if cones.ruleset.syntax == "dsl" else "IN WHICH CASE"
     for rule, clauses in zip(cones.rules, cones.clauses):
         for number, clause in enumerate(clauses):
             if number and not clause.obligations:
@@ -74,13 +75,15 @@ def _empty_hedges(cones: Cones) -> Iterator[Finding]:
                     rules=(rule.label,),
                     clauses=(ClauseRef(rule.label, number),),
                     note="where it decides, the rule obliges nothing, and its default is not executed either",
-                    help="if that is meant, keep it; else add IN WHICH CASE and a response",
+                    help=f"if that is meant, keep it; else add {then} and a response",
                 )
 
 
 def _two_kinds(cones: Cones) -> Iterator[Finding]:
     ruleset = cones.ruleset
-    for name in sorted(ruleset.triggers & ruleset.obligations):
+    # An event of the DSL may be a trigger; it is one if a rule has it.
+    merely_declared = ruleset.declared["event"] - {rule.trigger for rule in ruleset.rules}
+    for name in sorted((ruleset.triggers - merely_declared) & ruleset.obligations):
         span, rules = mentions(ruleset, name)
         yield TRIGGER_OBLIGATION.finding(
             f"{name} is a trigger and an obligation",

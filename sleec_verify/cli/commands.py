@@ -15,6 +15,7 @@ _SUMMARIES = {
     "compile": "The rules as formulas or clauses (Equation 1).",
     "cases": "Few situations that reach every clause, for trials.",
     "conform": "Does a robot's code have the structure that the rules ask for?",
+    "convert": "The rules in another language or reading.",
     "fmt": "The rules in their usual layout.",
     "rules": "List and explain every finding code.",
 }

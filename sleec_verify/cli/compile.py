@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from sleec_runtime.untimed import require_untimed
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import note_mixed_domains, one_ruleset
 from sleec_verify.cli.output import write_data
@@ -31,6 +32,7 @@ def command(path: str, form: str, domain: str | None, reading: Reading | None) -
     solvers: clauses, linear in the size of the rules, with a map from variables to names.
     """
     ruleset = one_ruleset(path, reading, domain)
+    require_untimed(ruleset, "Equation 1")
     if domain is None:
         note_mixed_domains(ruleset)
     text = compile_to(ruleset, form, domain)

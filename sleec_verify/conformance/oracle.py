@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from sleec_runtime.model import Assume, Context, Exclusive, Never, Obligation, Rule, Ruleset
+from sleec_runtime.untimed import require_untimed
 from sleec_verify.clashes import Clash, clashes
 from sleec_verify.entailment import Definition1
 
@@ -47,6 +48,7 @@ class Oracle:
     """
 
     def __init__(self, whole: Ruleset, domain: str | None = None) -> None:
+        require_untimed(whole, "a test of what is executed")
         self.whole = whole
         self.domain = domain
         self.ruleset = whole if domain is None else whole.in_domain(domain)

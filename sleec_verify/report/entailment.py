@@ -28,7 +28,7 @@ def _full(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[st
         yield f"{palette('error', 'The rules contradict one another here')}: nothing is listed as due.\n"
     for because in answer.because:
         line = source.place(because.span).line
-        says = " AND ".join(because.obligations) or "nothing"
+        says = " AND ".join(because.in_words()) or "nothing"
         yield f"  {because.layer or because.rule} ({source.path}:{line}): {says}\n"
     yield from caveats(ruleset, answer, palette)
     yield f"reading: {ruleset.reading}\n"
@@ -64,6 +64,8 @@ def _json(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[st
         said["conflicts"] = [finding_json(finding, source) for finding in answer.conflicts]
     if answer.broken_assumptions:
         said["broken_assumptions"] = [span_json(assume.span, source) for assume in answer.broken_assumptions]
+    if answer.timed:
+        said["timed"] = [{"obligation": o.name, "negated": o.negated, "when": str(o.timing)} for o in answer.timed]
     if answer.missing:
         said["missing"] = list(answer.missing)
     yield dump(said)
@@ -76,6 +78,10 @@ def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[
         yield (
             f"{palette('warning', 'warning')}: this situation cannot be, by the ASSUME of line {lines} "
             f"of {ruleset.source.path}; checks leave it out\n"
+        )
+    if answer.timed:
+        yield (
+            f"{palette('note', 'note')}: whether what is due at other times can be kept with it is not decided yet\n"
         )
     if answer.missing:
         yield (

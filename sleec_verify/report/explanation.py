@@ -46,7 +46,7 @@ def _decided(ruleset: Ruleset, context: Context, because: Because, palette: Pale
     number = because.clause
     clause = f"its hedge {number} decides, the layer {because.layer}" if number else "its default decides"
     yield f"{palette('strong', because.rule)} is triggered by {_trigger(ruleset, because)}, and {clause}: "
-    yield f"{_due(because.obligations)} ({_at(ruleset, because.span)}).\n"
+    yield f"{_due(because.in_words())} ({_at(ruleset, because.span)}).\n"
     for position, decision in enumerate(because.decisions):
         yield f"    {'because' if position == 0 else 'and'} {_truth(ruleset, context, decision)}\n"
     yield "\n"

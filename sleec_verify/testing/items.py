@@ -15,7 +15,7 @@ from sleec_runtime.language import load
 from sleec_runtime.model import Rule, Ruleset
 from sleec_verify.cases.case import Case
 from sleec_verify.cases.read import read_cases
-from sleec_verify.checks import CHECKS, run_checks
+from sleec_verify.checks import checks_for, run_checks
 from sleec_verify.conformance.exhaustive import each_rule, tried
 from sleec_verify.conformance.failure import Nonconformance, situation_text
 from sleec_verify.conformance.subject import Bench, Factory, whole_ruleset
@@ -52,7 +52,7 @@ class RulesetFile(pytest.File):
             target = target_for(ruleset, self.path, self.config)
         except SleecError as error:
             raise self.CollectError(str(error)) from None
-        for name in CHECKS:
+        for name in checks_for(ruleset):
             yield CheckItem.from_parent(self, name=f"check[{name}]", ruleset=ruleset, check=name)
         for rule in ruleset.rules:
             yield RuleItem.from_parent(self, name=f"rule[{rule.label}]", ruleset=ruleset, rule=rule, target=target)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from sleec_runtime.untimed import require_untimed
 from sleec_verify.conformance.structure.kinds import KINDS
 from sleec_verify.conformance.structure.report import NAME
 from sleec_verify.finding import CheckResult, Proved, Refuted, Unknown
@@ -29,6 +30,7 @@ def check_structure(ruleset: Ruleset, files: tuple[PythonFile, ...], domain: str
     domain, only its rules need code."""
     from sleec_verify.conformance.structure.whole import findings_on
 
+    require_untimed(ruleset, "the structure check")
     started = perf_counter()
     try:
         findings = findings_on(ruleset, files, domain)

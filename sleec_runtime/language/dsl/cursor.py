@@ -1,0 +1,212 @@
+"""A place in the tokens of a text in the DSL: reading names, reporting, and finding one's feet again.
+
+One mistake is reported once: after a problem the rest of its clause is silent (`hurt`), and parsing goes on at the next
+keyword that surely starts something new.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import NoReturn
+
+from sleec_runtime.errors import Problem
+from sleec_runtime.language.cursor import MAX_DEPTH, MAX_NAME, Abandon, composed, quoted
+from sleec_runtime.language.dsl.scanner import BLOCK_MARKS, BLOCKS, DEFINITIONS, KEYWORDS
+from sleec_runtime.language.scanner import Tokens
+from sleec_runtime.language.suggest import nearest
+from sleec_runtime.model import NO_COMMENTS, Comments, Dialect, Source, Span
+
+ITEM_STARTS = BLOCK_MARKS | DEFINITIONS | {"label", "relation", "end"}
+"""The kinds of token that start a definition, a rule, a claim or a relation, or end a block."""
+
+_SUGGESTED = sorted(KEYWORDS)
+_INSTEAD = {
+    "&": "write and",
+    "&&": "write and",
+    "|": "write or",
+    "||": "write or",
+    "!": "write not, or <> between two values",
+    "=>": "write >=",
+    "=<": "write <=",
+    ";": "rules need no punctuation between them; leave it out",
+    ".": "whole numbers only; leave out the full stop",
+    "#": "comments start with //",
+    "/": "comments start with //",
+    "/*": "close this comment with */",
+    '"': "write names without quotation marks",
+    "'": "write names without quotation marks",
+}
+
+
+class Cursor:
+    """Where the parser stands in `tokens`, and the problems that it has met so far."""
+
+    def __init__(self, source: Source, tokens: Tokens, dialect: Dialect, problems: list[Problem]) -> None:
+        self.source = source
+        self.dialect = dialect
+        self.problems = problems
+        self.text = source.text
+        self.kinds = tokens.kinds
+        self.starts = tokens.starts
+        self.ends = tokens.ends
+        self.comments = tokens.comments
+        self.at = 0
+        self.depth = 0
+        self.hurt = False
+
+    # Places ---------------------------------------------------------------------------------------------------
+
+    def span(self, first: int) -> Span:
+        """From token `first` to the last one read."""
+        return Span(self.starts[first], self.ends[self.at - 1])
+
+    def token_span(self, token: int) -> Span:
+        return Span(self.starts[token], self.ends[token])
+
+    def token_text(self, token: int) -> str:
+        return self.text[self.starts[token] : self.ends[token]]
+
+    def comments_of(self, token: int) -> Comments:
+        return self.comments.get(token, NO_COMMENTS)
+
+    def line_of(self, token: int) -> int:
+        return self.source.place(self.token_span(token)).line
+
+    # Problems -------------------------------------------------------------------------------------------------
+
+    def begin_clause(self) -> None:
+        """From here on a problem is a new one."""
+        self.hurt = False
+        self.depth = 0
+
+    def problem(self, message: str, span: Span, hint: str | None = None) -> None:
+        """Reports a problem, unless this clause already has one."""
+        if not self.hurt:
+            self.hurt = True
+            self.problems.append(Problem(message, span, hint))
+
+    def fail(self, message: str, span: Span, hint: str | None = None) -> NoReturn:
+        """Reports a problem and gives the clause up."""
+        self.problem(message, span, hint)
+        raise Abandon
+
+    def expected(self, what: str, hint: str | None = None) -> NoReturn:
+        """Gives up because the token at hand is not `what`."""
+        at = self.at
+        kind = self.kinds[at]
+        written = self.token_text(at)
+        if kind in ("strange", "/*") and written in _INSTEAD:
+            self.fail(f"unexpected {quoted(written)}", self.token_span(at), _INSTEAD[written])
+        if kind == "word":
+            meant = written.lower() if written.lower() in KEYWORDS else nearest(written, _SUGGESTED)
+            if meant is not None and meant in what.split():
+                self.fail(
+                    f"{quoted(written)} is no keyword; did you mean {meant}?",
+                    self.token_span(at),
+                    "keywords are written in small letters",
+                )
+        if kind in ITEM_STARTS:
+            end = self.ends[at - 1] if at else 0
+            ends = {"end": "the text ends here", "label": f"here the rule {quoted(written)} begins"}
+            self.fail(
+                f"expected {what}, but {ends.get(kind, f'{written} comes next')}",
+                Span(end, end),
+                hint or self._unsaid(kind),
+            )
+        self.fail(f"expected {what}, but found {quoted(written)}", self.token_span(at), hint)
+
+    def _unsaid(self, kind: str) -> str | None:
+        return "a rule looks like this: R1 when Event then Response" if kind == "label" else None
+
+    def skip(self, stops: Collection[str]) -> None:
+        """On to the next token whose kind is among `stops`, or to the end."""
+        kinds, at = self.kinds, self.at
+        while kinds[at] not in stops and kinds[at] != "end":
+            at += 1
+        self.at = at
+
+    # Small things ---------------------------------------------------------------------------------------------
+
+    def accept(self, kind: str) -> bool:
+        """Reads the token at hand if it is of this kind."""
+        if self.kinds[self.at] != kind:
+            return False
+        self.at += 1
+        return True
+
+    def require(self, kind: str, what: str, hint: str | None = None) -> None:
+        if not self.accept(kind):
+            self.expected(what, hint)
+
+    def name(self, what: str, hint: str | None = None) -> str:
+        """Reads a name."""
+        at = self.at
+        kind = self.kinds[at]
+        if kind == "digits" or kind == "number":
+            self.fail(
+                f"expected {what}, but found {quoted(self.token_text(at))}: a name begins with a letter",
+                self.token_span(at),
+                hint,
+            )
+        if kind in KEYWORDS and kind not in ITEM_STARTS:
+            self.fail(
+                f"expected {what}, but found the keyword {kind}",
+                self.token_span(at),
+                hint or "a keyword cannot be a name",
+            )
+        if kind != "word":
+            self.expected(what, hint)
+        self.at = at + 1
+        word = self.token_text(at)
+        if len(word) > MAX_NAME:
+            self.fail(
+                f"this name has {len(word):,} characters, more than {MAX_NAME}",
+                Span(self.starts[at], self.starts[at] + MAX_NAME),
+                "is a blank missing?",
+            )
+        return word if word.isascii() else composed(word)
+
+    def close(self, mark: str, opened: int) -> None:
+        """Reads the `mark` that closes what token `opened` opened."""
+        if not self.accept(mark):
+            place = self.source.place(self.token_span(opened))
+            what = "brace" if mark == "}" else "bracket" if mark == "]" else "parenthesis"
+            self.expected(
+                f"a closing {what} for the one opened in line {place.line}, column {place.column}",
+                "close it, or delete the opening one",
+            )
+
+    def deeper(self) -> None:
+        """One parenthesis, brace or `not` further in."""
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            self.fail(
+                f"nested too deeply: more than {MAX_DEPTH} levels of parentheses, braces or not",
+                self.token_span(self.at),
+                "name a part of the condition, or split the rule in two",
+            )
+
+    def end_of(self, what: str) -> None:
+        """Makes sure that the next token starts something new."""
+        kind = self.kinds[self.at]
+        if kind in ITEM_STARTS:
+            return
+        if kind in (")", "}", "]"):
+            self.fail(f"this closing {quoted(kind)} has no opening one", self.token_span(self.at), "delete it")
+        self.expected(what)
+
+    def end_of_block(self, opened: int) -> None:
+        """Reads the keyword that closes the block of token `opened`, or says that it is missing."""
+        closing = BLOCKS[self.kinds[opened]]
+        if self.accept(closing):
+            return
+        self.begin_clause()
+        end = self.ends[self.at - 1]
+        where = "before the text ends" if self.kinds[self.at] == "end" else f"before {self.token_text(self.at)}"
+        self.problem(
+            f"{closing} is missing {where}: {self.kinds[opened]} is in line {self.line_of(opened)}",
+            Span(end, end),
+            f"write {closing} behind what belongs to the block",
+        )
+        if self.kinds[self.at] in BLOCKS.values():
+            self.at += 1

@@ -1,0 +1,103 @@
+"""Definitions: ``event E``, ``measure m: boolean``, ``constant K = 5``."""
+
+from __future__ import annotations
+
+from sleec_runtime.language.cursor import quoted
+from sleec_runtime.language.dsl.formulas import FormulaParser
+from sleec_runtime.language.dsl.names import Side
+from sleec_runtime.language.suggest import nearest
+from sleec_runtime.model import Agent, Constant, Declaration, Measure, Span
+
+_TYPES = ("boolean", "numeric", "scale")
+
+
+class DefinitionParser(FormulaParser):
+    """Reads definitions; of a constant the value is not settled before all of them are read."""
+
+    constants: dict[str, tuple[Side, Constant]]
+
+    def definition(self) -> Declaration | Measure | Constant:
+        kind = self.kinds[self.at]
+        if kind == "event":
+            return self._event()
+        return self._measure() if kind == "measure" else self._constant()
+
+    def _event(self) -> Declaration:
+        first = self.at
+        self.at += 1
+        name = self.name("the name of an event")
+        span = self.token_span(self.at - 1)
+        agent: Agent | None = None
+        if self.kinds[self.at] == "word" and self.token_text(self.at) == "as":
+            self.at += 1
+            written = self.token_text(self.at)
+            if written not in ("system", "environment"):
+                near = nearest(written, ("system", "environment"))
+                self.expected("system or environment", f"did you mean {near}?" if near else "as in: event E as system")
+            agent = "system" if written == "system" else "environment"
+            self.at += 1
+        self.names.define("event", name, span)
+        return Declaration("event", (name,), self.span(first), (span,), self.comments_of(first), agent)
+
+    def _measure(self) -> Declaration | Measure:
+        first = self.at
+        self.at += 1
+        name = self.name("the name of a measure")
+        name_span = self.token_span(self.at - 1)
+        self.require(":", "a colon after the name of the measure", f"as in: measure {name}: boolean")
+        at_type = self.at
+        written = self.token_text(at_type)
+        if self.kinds[at_type] != "word" or written not in _TYPES:
+            near = nearest(written, _TYPES) if self.kinds[at_type] == "word" else None
+            self.expected(
+                "boolean, numeric or scale(...)",
+                f"did you mean {near}?" if near else "as in: measure riskLevel: scale(low, medium, high)",
+            )
+        self.at += 1
+        comments = self.comments_of(first)
+        if written == "boolean":
+            self.names.define("boolean", name, name_span)
+            return Declaration("condition", (name,), self.span(first), (name_span,), comments)
+        values, spans = self._scale() if written == "scale" else ([], [])
+        measure = Measure(
+            name, "scale" if written == "scale" else "integer", tuple(values), True, self.span(first), comments
+        )
+        self.names.define_measure(measure, name_span, spans)
+        return measure
+
+    def _scale(self) -> tuple[list[str], list[Span]]:
+        opened = self.at
+        self.require("(", "the values of the scale in parentheses", "as in: scale(low, medium, high)")
+        values: list[str] = []
+        spans: list[Span] = []
+        while True:
+            values.append(self.name("a value of the scale"))
+            spans.append(self.token_span(self.at - 1))
+            if not self.accept(","):
+                break
+        if self.kinds[self.at] == "word":
+            self.expected("a comma between the values of the scale")
+        self.close(")", opened)
+        if len(values) < 2:
+            self.fail(
+                f"the scale has one value, {quoted(values[0])}, so it says nothing",
+                spans[0],
+                "a scale has two values or more, lowest first",
+            )
+        return values, spans
+
+    def _constant(self) -> Constant:
+        first = self.at
+        self.at += 1
+        name = self.name("the name of a constant")
+        name_span = self.token_span(self.at - 1)
+        if self.kinds[self.at] != "operator" or self.token_text(self.at) != "=":
+            self.expected("= after the name of the constant", f"as in: constant {name} = 18")
+        self.at += 1
+        side = self._side("a whole number or the name of another constant")
+        alias = side.written if isinstance(side.written, str) else None
+        value = 0 if isinstance(side.written, str) else side.written
+        constant = Constant(name, value, alias, self.span(first), self.comments_of(first))
+        if self.names.define("constant", name, name_span):
+            self.constants[name] = (side, constant)
+        return constant

@@ -1,0 +1,152 @@
+"""Conditions: comparisons bind tightest, then `not`, then `and` and `or`, alike and from the left.
+
+Measures may stand in braces or not, whatever the dialect.
+"""
+
+from __future__ import annotations
+
+from sleec_runtime.errors import Problem
+from sleec_runtime.language.cursor import quoted
+from sleec_runtime.language.dsl.cursor import Cursor
+from sleec_runtime.language.dsl.names import Names, Side
+from sleec_runtime.language.formulas import MAX_DIGITS, OPERATORS
+from sleec_runtime.language.scanner import Tokens
+from sleec_runtime.model import And, Atom, Dialect, Formula, Not, Or, Source, Span, Truth
+
+
+class FormulaParser(Cursor):
+    """Reads conditions."""
+
+    def __init__(self, source: Source, tokens: Tokens, dialect: Dialect, problems: list[Problem], names: Names) -> None:
+        super().__init__(source, tokens, dialect, problems)
+        self.names = names
+
+    def formula(self) -> Formula:
+        first = self.at
+        formula = self._unary()
+        operands = [formula]
+        joined = ""
+        while (kind := self.kinds[self.at]) in ("and", "or"):
+            if joined and kind != joined:
+                operands = [self._join(joined, operands, self.span(first))]
+            joined = kind
+            self.at += 1
+            operands.append(self._unary())
+        return self._join(joined, operands, self.span(first)) if joined else formula
+
+    def _join(self, word: str, operands: list[Formula], span: Span) -> Formula:
+        """A chain of one connective. LEGOS writes two operands at a time; nested to the right they are one chain."""
+        kind = And if word == "and" else Or
+        last = operands[-1]
+        if self.dialect == "legos" and isinstance(last, kind):
+            operands[-1:] = last.operands
+        return kind(tuple(operands), span)
+
+    def _unary(self) -> Formula:
+        first = self.at
+        if self.kinds[first] != "not":
+            return self._primary()
+        self.deeper()
+        self.at += 1
+        operand = self._unary()
+        self.depth -= 1
+        return Not(operand, self.span(first))
+
+    def _primary(self) -> Formula:
+        first = self.at
+        kind = self.kinds[first]
+        if kind == "(":
+            self.deeper()
+            self.at += 1
+            formula = self.formula()
+            self.close(")", first)
+            self.depth -= 1
+            if self.kinds[self.at] == "operator":
+                self.fail(
+                    "a comparison has a name or a number on each side, without parentheses",
+                    self.token_span(self.at),
+                    "as in: ({riskLevel} > low)",
+                )
+            return formula
+        if kind in ("true", "false"):
+            self.at += 1
+            return Truth(kind == "true", self.token_span(first))
+        left = self._side("a condition")
+        if self.kinds[self.at] != "operator":
+            self._no_arithmetic()
+            if not isinstance(left.written, str):
+                self.expected("a comparison such as < or >= after the number")
+            if not self.hurt:
+                self.names.boolean(left.written, left.span)
+            return Atom("condition", left.written, left.span)
+        return self._comparison(first, left)
+
+    def _comparison(self, first: int, left: Side) -> Formula:
+        operator = OPERATORS[self.token_text(self.at)]
+        self.at += 1
+        if self.kinds[self.at] in ("true", "false"):
+            return self._truth_of(first, left, operator)
+        right = self._side("a number or a name to compare with")
+        span = self.span(first)
+        self._no_arithmetic()
+        if self.kinds[self.at] == "operator":
+            self.fail(
+                "only two things are compared at a time",
+                self.token_span(self.at),
+                "write two comparisons with and between them",
+            )
+        found = None if self.hurt else self.names.comparison(left, operator, right, span)
+        return found if found is not None else Truth(True, span)
+
+    def _truth_of(self, first: int, left: Side, operator: str) -> Formula:
+        """``{measure} = true`` is the measure itself."""
+        value = self.kinds[self.at] == "true"
+        self.at += 1
+        span = self.span(first)
+        if operator not in ("=", "!=") or not isinstance(left.written, str):
+            self.fail("true and false have no order", span, "write the measure alone, or not and the measure")
+        if not self.hurt:
+            self.names.boolean(left.written, left.span)
+        atom = Atom("condition", left.written, left.span)
+        return atom if value == (operator == "=") else Not(atom, span)
+
+    def _side(self, what: str) -> Side:
+        first = self.at
+        kind = self.kinds[first]
+        if kind == "{":
+            self.at += 1
+            name = self.name("the name of a measure", "braces hold one measure: {riskLevel}")
+            self.close("}", first)
+            return Side(name, self.span(first), True)
+        if kind == "->":
+            self.at += 1
+            return Side(self.name("the name of a constant"), self.token_span(self.at - 1))
+        if kind == "number" or kind == "-":
+            return Side(self.number(), self.span(first))
+        if kind in ("and", "or", "then"):
+            self.expected(what, f"there is nothing before {kind}")
+        return Side(self.name(what), self.span(first))
+
+    def number(self) -> int:
+        """Reads the whole number at hand."""
+        first = self.at
+        negative = self.accept("-")
+        if self.kinds[self.at] != "number":
+            self.expected("a number")
+        text = self.token_text(self.at)
+        self.at += 1
+        if "." in text:
+            self.fail(
+                f"{quoted(text)} is no whole number", self.span(first), "choose a smaller unit: tenths, or seconds"
+            )
+        if len(text) > MAX_DIGITS:
+            self.fail(f"this number has more than {MAX_DIGITS} digits", self.span(first), "is a blank missing?")
+        return -int(text) if negative else int(text)
+
+    def _no_arithmetic(self) -> None:
+        if self.kinds[self.at] in ("+", "-", "*"):
+            self.fail(
+                f"arithmetic with {quoted(self.kinds[self.at])} is not supported yet",
+                self.token_span(self.at),
+                "compare measures with numbers and constants only",
+            )

@@ -1,0 +1,314 @@
+"""What each name of a text in the DSL is: event, measure, constant, or value of a scale. Every one is defined."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple, Union
+
+from sleec_runtime.errors import Problem
+from sleec_runtime.language.cursor import quoted
+from sleec_runtime.language.resolve import MAX_PROBLEMS, did_you_mean
+from sleec_runtime.language.suggest import Suggester
+from sleec_runtime.model import (
+    Comparison,
+    Constant,
+    Defect,
+    Measure,
+    MeasureRef,
+    Number,
+    Operator,
+    Rational,
+    ScaleValue,
+    Source,
+    Span,
+    Term,
+)
+
+NameKind = Literal["event", "boolean", "measure", "constant"]
+_ARTICLE = {"event": "an event", "boolean": "a boolean measure", "measure": "a measure", "constant": "a constant"}
+
+
+class Side(NamedTuple):
+    """One side of a comparison as it is written; `braced` if it is a measure in braces."""
+
+    written: str | Rational
+    span: Span
+    braced: bool = False
+
+
+class Names:
+    """The names of one text and what they stand for."""
+
+    def __init__(self, source: Source, problems: list[Problem]) -> None:
+        self.kinds: dict[str, NameKind] = {}
+        self.measures: dict[str, Measure] = {}
+        self.constants: dict[str, Constant] = {}
+        self.defects: list[Defect] = []
+        self.complete = True
+        """False once a definition could not be read: then a name without one is no news."""
+        self._source = source
+        self._problems = problems
+        self._spans: dict[str, Span] = {}
+        self._owners: dict[str, str] = {}
+        self._labels: dict[str, tuple[Span, int]] = {}
+        self._refs: dict[str, MeasureRef] = {}
+        self._nearest = Suggester().nearest
+
+    def problem(self, message: str, span: Span, hint: str | None) -> None:
+        self._problems.append(Problem(message, span, hint))
+
+    def line(self, span: Span) -> int:
+        return self._source.place(span).line
+
+    # Definitions ----------------------------------------------------------------------------------------------
+
+    def define(self, kind: NameKind, name: str, span: Span) -> bool:
+        """Takes a definition in; False, and a problem, if the name is taken."""
+        first = self._spans.setdefault(name, span)
+        if first is span:
+            self.kinds[name] = kind
+            return True
+        other = self.kinds[name]
+        if other == kind:
+            message = f"{quoted(name)} is defined twice; the first time in line {self.line(first)}"
+        else:
+            message = f"{quoted(name)} is {_ARTICLE[kind]} here, and {_ARTICLE[other]} in line {self.line(first)}"
+        self.problem(message, span, "delete or rename one of them")
+        return False
+
+    def define_measure(self, measure: Measure, span: Span, value_spans: list[Span]) -> None:
+        if self.define("measure", measure.name, span):
+            self.measures[measure.name] = measure
+        seen: set[str] = set()
+        for value, value_span in zip(measure.values, value_spans):
+            if value in seen:
+                self.problem(
+                    f"the scale of {quoted(measure.name)} names {quoted(value)} twice",
+                    value_span,
+                    "each value of a scale has one place in it",
+                )
+            seen.add(value)
+            # As in the tools of others, a literal of the wrong scale counts by its place in the last scale with it.
+            self._owners[value] = measure.name
+
+    def define_constants(self, written: dict[str, tuple[Side, Constant]]) -> None:
+        """The constants with their values: each is a number or the value of another, wherever that stands."""
+        from dataclasses import replace
+
+        for name in written:
+            chain: dict[str, None] = {}
+            at = name
+            while at not in self.constants and at not in chain:
+                chain[at] = None
+                alias = written[at][0].written
+                if not isinstance(alias, str):
+                    self.constants[at] = written[at][1]
+                elif alias in written:
+                    at = alias
+                else:
+                    self._no_constant(written[at][0], written)
+                    self.constants[at] = written[at][1]
+            if at not in self.constants:
+                self._circular(at, list(chain), written)
+            value = self.constants[at].value
+            for link in chain:
+                self.constants[link] = replace(written[link][1], value=value)
+
+    def _no_constant(self, side: Side, known: dict[str, tuple[Side, Constant]]) -> None:
+        name = str(side.written)
+        if name in self.kinds:
+            message = f"{quoted(name)} is {_ARTICLE[self.kinds[name]]}, not a constant"
+            hint = "a constant is a whole number or another constant"
+        else:
+            message, hint = f"there is no constant {quoted(name)}", did_you_mean(self._nearest(name, known))
+        self.problem(message, side.span, hint or f"write a number, or define it: constant {name} = 18")
+
+    def _circular(self, name: str, chain: list[str], written: dict[str, tuple[Side, Constant]]) -> None:
+        circle = chain[chain.index(name) :]
+        by_way = f", by way of {', '.join(quoted(other) for other in circle[1:4])}" if len(circle) > 1 else ""
+        self.problem(
+            f"the constant {quoted(name)} is defined by itself{by_way}",
+            written[name][0].span,
+            "give one of them a number",
+        )
+        self.constants[name] = written[name][1]
+
+    def label(self, label: str, span: Span) -> str:
+        """The label to call a rule or claim by. Others read texts in which two have the same; the second one becomes
+        ``label#2``."""
+        first, count = self._labels.get(label, (span, 0))
+        self._labels[label] = first, count + 1
+        if not count:
+            return label
+        self.defects.append(
+            Defect(
+                "repeated-label",
+                f"there is another {label} in line {self.line(first)}; this one is called {label}#{count + 1} here",
+                span,
+                "give each rule a label of its own",
+            )
+        )
+        return f"{label}#{count + 1}"
+
+    # Uses -----------------------------------------------------------------------------------------------------
+
+    def event(self, name: str, span: Span, what: str) -> None:
+        """A name that stands where an event must."""
+        kind = self.kinds.get(name)
+        if kind == "event" or (kind is None and not self.complete):
+            return
+        if kind is None:
+            self._undefined(name, span, "event", "event")
+        else:
+            self.problem(
+                f"{quoted(name)} is {_ARTICLE[kind]} (line {self.line(self._spans[name])}); {what} is an event",
+                span,
+                "measures belong into conditions, behind and or unless"
+                if kind != "constant"
+                else "constants belong into comparisons and windows",
+            )
+
+    def boolean(self, name: str, span: Span) -> None:
+        """A name that stands alone in a condition."""
+        kind = self.kinds.get(name)
+        if kind == "boolean" or (kind is None and not self.complete):
+            return
+        if kind is None:
+            self._undefined(name, span, "boolean measure", "boolean")
+        elif kind == "event":
+            self.problem(
+                f"{quoted(name)} is an event (line {self.line(self._spans[name])}), and conditions speak of measures",
+                span,
+                f"define what is to be known as a measure: measure {name[:1].lower()}{name[1:]}: boolean",
+            )
+        else:
+            measure = self.measures.get(name)
+            example = f"= {measure.values[0]}" if measure is not None and measure.values else "> 0"
+            self.problem(
+                f"{quoted(name)} is {_ARTICLE[kind]} that is no boolean, and is not compared with anything",
+                span,
+                f"as in: {name} {example}",
+            )
+
+    def _undefined(self, name: str, span: Span, what: str, kind: NameKind) -> None:
+        known = [other for other, its in self.kinds.items() if its == kind]
+        near = self._nearest(name, known) if len(self._problems) < MAX_PROBLEMS else None
+        as_in = (
+            f"event {name}" if kind == "event" else f"measure {name}: {'boolean' if kind == 'boolean' else 'numeric'}"
+        )
+        self.problem(
+            f"there is no {what} {quoted(name)}",
+            span,
+            did_you_mean(near) or f"define it, between def_start and def_end: {as_in}",
+        )
+
+    def number(self, side: Side) -> Union[Number, MeasureRef, None]:
+        """A number, a constant or a numeric measure; None, and a problem, if it is nothing of that."""
+        name = side.written
+        if not isinstance(name, str):
+            return Number(name)
+        constant = self.constants.get(name)
+        if constant is not None and not side.braced:
+            return Number(constant.value, name)
+        measure = self.measures.get(name)
+        if measure is not None and measure.kind != "scale":
+            return self._ref(name)
+        if name not in self.kinds:
+            if self.complete:
+                self._undefined(name, side.span, "constant or numeric measure", "measure")
+        else:
+            self.problem(
+                f"{quoted(name)} is {'a scale' if measure is not None else _ARTICLE[self.kinds[name]]}, not a number",
+                side.span,
+                "write a whole number, a constant or a numeric measure",
+            )
+        return None
+
+    def _ref(self, name: str) -> MeasureRef:
+        ref = self._refs.get(name)
+        if ref is None:
+            ref = self._refs[name] = MeasureRef(name)
+        return ref
+
+    # Comparisons ----------------------------------------------------------------------------------------------
+
+    def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison | None:
+        """``left operator right``; None, and a problem, if the sides do not fit."""
+        one, two = self._scale(left), self._scale(right)
+        terms: tuple[Term | None, Term | None]
+        if one is not None and two is not None:
+            if one.values != two.values:
+                self.problem(
+                    f"{quoted(one.name)} and {quoted(two.name)} have different scales: "
+                    f"{_values(one)}, and {_values(two)}",
+                    span,
+                    "only measures of the same scale can be compared with each other",
+                )
+                return None
+            terms = self._ref(one.name), self._ref(two.name)
+        elif one is not None:
+            terms = self._ref(one.name), self._value(one, right)
+        elif two is not None:
+            terms = self._value(two, left), self._ref(two.name)
+        else:
+            if self._stray(left, right) or self._stray(right, left):
+                return None
+            terms = self.number(left), self.number(right)
+            if isinstance(terms[0], Number) and isinstance(terms[1], Number):
+                self.problem(
+                    "both sides are fixed numbers, so the answer is always the same",
+                    span,
+                    "compare a measure with a number, or write true or false",
+                )
+                return None
+        first, second = terms
+        return None if first is None or second is None else Comparison(first, operator, second, span)
+
+    def _scale(self, side: Side) -> Measure | None:
+        measure = self.measures.get(side.written) if isinstance(side.written, str) else None
+        return measure if measure is not None and measure.kind == "scale" else None
+
+    def _value(self, measure: Measure, side: Side) -> ScaleValue | None:
+        """The other side of a comparison with a scale. A literal of another scale is read by its place there, as others
+        read it, and is a defect."""
+        value = side.written
+        if isinstance(value, str) and not side.braced:
+            if value in measure.values:
+                return ScaleValue(value, measure.values.index(value))
+            owner = self.measures.get(self._owners.get(value, ""))
+            rank = owner.values.index(value) if owner is not None else len(measure.values)
+            if owner is not None and rank < len(measure.values):
+                self.defects.append(
+                    Defect(
+                        "foreign-value",
+                        f"{value} is no value of {measure.name} but of {owner.name}; "
+                        f"it is read as {measure.values[rank]}, which has the same place",
+                        side.span,
+                        f"write {measure.values[rank]}, if that is meant; {measure.name} can be {_values(measure)}",
+                    )
+                )
+                return ScaleValue(value, rank)
+        near = self._nearest(value, measure.values) if isinstance(value, str) else None
+        self.problem(
+            f"{quoted(str(value))} is no value of {quoted(measure.name)}",
+            side.span,
+            f"{did_you_mean(near) + ' ' if near else ''}{quoted(measure.name)} can be {_values(measure)}",
+        )
+        return None
+
+    def _stray(self, side: Side, other: Side) -> bool:
+        """Whether one side is a value of a scale and the other no scale, which is then reported."""
+        value = side.written
+        if not isinstance(value, str) or value in self.kinds or value not in self._owners:
+            return False
+        self.problem(
+            f"{quoted(str(other.written))} is no scale, and {quoted(value)} is a value of "
+            f"{quoted(self._owners[value])}: they cannot be compared",
+            side.span,
+            f"compare {quoted(self._owners[value])} with it, or write a number",
+        )
+        return True
+
+
+def _values(measure: Measure) -> str:
+    values = measure.values
+    return " < ".join((*values[:4], "...", values[-1]) if len(values) > 8 else values)

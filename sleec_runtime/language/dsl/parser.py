@@ -1,0 +1,205 @@
+"""A text in the DSL as a whole: its blocks, and the rules, concerns, purposes and relations in them.
+
+Definitions are read first, wherever their block stands; then everything in the order of the text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar, cast
+
+from sleec_runtime.errors import LanguageError, Problem
+from sleec_runtime.language.cursor import Abandon
+from sleec_runtime.language.dsl.cursor import ITEM_STARTS
+from sleec_runtime.language.dsl.names import Names
+from sleec_runtime.language.dsl.relations import RelationParser
+from sleec_runtime.language.dsl.scanner import BLOCKS, DEFINITIONS, scan, sniff
+from sleec_runtime.language.garbage import uncollected
+from sleec_runtime.language.resolve import first_problems
+from sleec_runtime.model import Clause, Constant, Formula, Rule, Ruleset, Source, Span, Statement
+from sleec_runtime.model_time import ClaimKind
+
+_Read = TypeVar("_Read")
+_CLAUSES = ITEM_STARTS | {"unless"}
+_BELONGS = {
+    "def_start": ("an event, a measure or a constant", "define something, as in: event SmokeDetected"),
+    "rule_start": ("a rule", "a rule looks like this: R1 when Event then Response"),
+    "concern_start": ("a concern", "a concern looks like this: c1 when Event and {condition} then not Response"),
+    "purpose_start": ("a purpose", "a purpose looks like this: p1 exists Event and {condition}"),
+    "relation_start": ("a relation", "a relation looks like this: mutualExclusive A B"),
+}
+
+
+def parse_dsl(source: Source) -> Ruleset:
+    """The ruleset that `source` spells out, in either dialect.
+
+    Raises:
+        LanguageError: with every problem, in the order of the text.
+    """
+    problems: list[Problem] = []
+    with uncollected():
+        tokens = scan(source.text)
+        dialect = sniff(tokens)
+        names = Names(source, problems)
+        statements = DslParser(source, tokens, dialect, problems, names).statements()
+    if problems:
+        raise LanguageError(source, first_problems(problems))
+    return Ruleset(
+        statements=tuple(statements),
+        reading="priority",
+        syntax="dsl",
+        dialect=dialect,
+        defects=tuple(sorted(names.defects, key=lambda defect: defect.span)),
+        source=source,
+        closing_comments=tokens.closing,
+    )
+
+
+class DslParser(RelationParser):
+    """Reads a whole text, once."""
+
+    def statements(self) -> list[Statement]:
+        """Everything in the text, in its order; what could not be read is among the problems instead."""
+        self.constants = {}
+        defined = self._definitions()
+        found: list[Statement] = []
+        self.at = 0
+        rules = 0
+        while self.kinds[self.at] != "end":
+            opened = self._open()
+            if opened is None:
+                break
+            block = self.kinds[opened]
+            before = len(found)
+            while True:
+                kind = self.kinds[self.at]
+                if block == "def_start" and self.at in defined:
+                    statement, self.at = defined[self.at]
+                    if isinstance(statement, Constant):
+                        statement = self.names.constants.get(statement.name, statement)
+                elif kind in BLOCKS.values() or kind in BLOCKS or kind == "end":
+                    break
+                else:
+                    statement = self._item(block)
+                if statement is not None:
+                    found.append(statement)
+            rules += sum(isinstance(s, Rule) for s in found[before:]) if block == "rule_start" else 0
+            self.end_of_block(opened)
+        if not rules and not self.problems:
+            self.problems.append(
+                Problem("there are no rules in this text", Span(0, 0), "write them between rule_start and rule_end")
+            )
+        return found
+
+    def _definitions(self) -> dict[int, tuple[Statement | None, int]]:
+        """The definitions by the token they start at, each with the token behind it."""
+        defined: dict[int, tuple[Statement | None, int]] = {}
+        inside = False
+        for token, kind in enumerate(self.kinds):
+            if kind in BLOCKS or kind in BLOCKS.values():
+                inside = kind == "def_start"
+            elif inside and kind in DEFINITIONS:
+                self.at = token
+                statement = self._read(self.definition, "the next definition")
+                self.names.complete = self.names.complete and statement is not None
+                defined[token] = statement, self.at
+        self.names.define_constants(self.constants)
+        return defined
+
+    def _open(self) -> int | None:
+        """Reads the keyword that opens a block; None at the end."""
+        if self.kinds[self.at] not in BLOCKS:
+            self.begin_clause()
+            try:
+                if self.kinds[self.at] in BLOCKS.values():
+                    self.fail(f"this {self.token_text(self.at)} closes no block", self.token_span(self.at), "delete it")
+                self.expected("the start of a block, such as rule_start", "rules stand between rule_start and rule_end")
+            except Abandon:
+                self.names.complete = False
+                self.at += 1
+                self.skip(BLOCKS)
+        if self.kinds[self.at] == "end":
+            return None
+        self.at += 1
+        return self.at - 1
+
+    def _item(self, block: str) -> Statement | None:
+        kind = self.kinds[self.at]
+        if block == "relation_start" and kind == "relation":
+            return self._read(self.relation, "the next relation")
+        if block == "rule_start" and kind == "label" and self.kinds[self.at + 1] == "when":
+            return self._rule()
+        if block in ("concern_start", "purpose_start") and kind == "label":
+            of = cast("ClaimKind", block[:7])
+            return self._read(lambda: self.claim(of), f"the next {of}")
+        what, hint = _BELONGS[block]
+        self.begin_clause()
+        try:
+            if block == "rule_start" and kind in ("when", "word") and self.kinds[self.at - 1] not in BLOCKS:
+                hint = "every rule begins with its name: R1 when Event then Response"
+            if kind == "label":
+                self.fail(
+                    f"exists asks whether something can be, and {what} says what must be",
+                    self.token_span(self.at + 1),
+                    "write when, or move it to the concerns or purposes",
+                )
+            self.expected(f"{what}", hint)
+        except Abandon:
+            self.at += 1
+            self.skip(ITEM_STARTS)
+            return None
+
+    def _read(self, read: Callable[[], _Read], what: str) -> _Read | None:
+        """What `read` reads, to the end of the item; None if there was a problem."""
+        self.begin_clause()
+        try:
+            found = read()
+            self.end_of(what)
+        except Abandon:
+            self.skip(ITEM_STARTS)
+            return None
+        return None if self.hurt else found
+
+    def recover(self) -> None:
+        self.skip(_CLAUSES)
+
+    # Rules ----------------------------------------------------------------------------------------------------
+
+    def _rule(self) -> Rule | None:
+        first = self.at
+        label_span = self.token_span(first)
+        label = self.names.label(self.token_text(first), label_span)
+        self.at += 2
+        opening: tuple[str, Span, Formula | None, Clause] | None = None
+        self.begin_clause()
+        try:
+            trigger, trigger_span, guard = self.occasion("a trigger")
+            at_then = self.at
+            self.require(
+                "then", "then and a response", "every rule says what is to be done: R1 when Event then Response"
+            )
+            opening = trigger, trigger_span, guard, self.chain(None, at_then)
+            end = self.at
+            if self.kinds[self.at] != "unless":
+                self.end_of("unless or the next rule")
+        except Abandon:
+            self.recover()
+        hedges: list[Clause] = []
+        self.hedges(hedges, "unless or the next rule")
+        if opening is None:
+            return None
+        trigger, trigger_span, guard, default = opening
+        end_of_rule = hedges[-1].span.end if hedges else self.ends[end - 1] if not self.hurt else default.span.end
+        return Rule(
+            label,
+            trigger,
+            guard,
+            default,
+            tuple(hedges),
+            None,
+            True,
+            Span(label_span.start, end_of_rule),
+            label_span,
+            trigger_span,
+            self.comments_of(first),
+        )

@@ -1,0 +1,149 @@
+"""Concerns and purposes, and relations among events and measures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+from sleec_runtime.language.cursor import quoted
+from sleec_runtime.language.dsl.responses import ResponseParser
+from sleec_runtime.language.suggest import nearest
+from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Span
+from sleec_runtime.model_time import (
+    Claim,
+    Effect,
+    EventRelation,
+    Lasting,
+    MeasureRelation,
+)
+
+if TYPE_CHECKING:
+    from sleec_runtime.model_time import ClaimForm, ClaimKind, EffectKind, EventRelationKind, MeasureRelationKind
+
+_EVENT_RELATIONS = ("witness", "equal", "mutualExclusive", "happenBefore")
+_MEASURE_RELATIONS = ("imply", "iff", "mutualExclusive", "opposite", "invariant")
+
+
+class RelationParser(ResponseParser):
+    """Reads what a ruleset says besides its rules."""
+
+    def occasion(self, what: str) -> tuple[str, Span, Formula | None]:
+        """``Event [and condition]``."""
+        at_event = self.at
+        if self.kinds[at_event] == "not":
+            self.expected(f"the name of {what}", f"{what} is something that happens; put what is not so behind and")
+        name = self.name(f"the name of {what}", "the name of an event, without braces and parentheses")
+        span = self.token_span(at_event)
+        if not self.hurt:
+            self.names.event(name, span, what)
+        return name, span, self.formula() if self.accept("and") else None
+
+    # Concerns and purposes ------------------------------------------------------------------------------------
+
+    def claim(self, kind: ClaimKind) -> Claim:
+        first = self.at
+        self.at += 1
+        label = self.names.label(self.token_text(first), self.token_span(first))
+        return self._claim(kind, label, first)
+
+    def _claim(self, kind: ClaimKind, label: str, first: int) -> Claim:
+        form: ClaimForm = "exists" if self.kinds[self.at] == "exists" else "when"
+        self.at += 1
+        event, event_span, condition = self.occasion(f"the event of a {kind}")
+        responses: list[Clause] = []
+        word = "while" if form == "exists" else "then"
+        while self.kinds[self.at] == word:
+            self.at += 1
+            responses.append(self._response())
+            word = "while"
+        meanwhile: Claim | None = None
+        if self.kinds[self.at] == "meanwhile":
+            self.at += 1
+            opened = self.at
+            self.require("(", "a parenthesis after meanwhile", "as in: meanwhile (exists Event and {condition})")
+            self.deeper()
+            if self.kinds[self.at] not in ("exists", "when"):
+                self.expected("exists or when", "as in: meanwhile (exists Event and {condition})")
+            meanwhile = self._claim(kind, "", self.at)
+            self.close(")", opened)
+            self.depth -= 1
+        return Claim(
+            kind,
+            label,
+            form,
+            event,
+            condition,
+            tuple(responses),
+            meanwhile,
+            self.span(first),
+            self.token_span(first) if label else NOWHERE,
+            event_span,
+            self.comments_of(first) if label else NO_COMMENTS,
+        )
+
+    def _response(self) -> Clause:
+        """A response with the hedges behind it, which need no braces here."""
+        first = self.at
+        clause = self.chain(None, first)
+        hedges: list[Clause] = []
+        while self.kinds[self.at] == "unless":
+            hedges.append(self.hedge())
+        if not hedges:
+            return clause
+        if clause.hedges:
+            self.fail("a chain in braces has its hedges inside them", hedges[0].span, "move it inside the braces")
+        return Clause(None, clause.obligations, tuple(hedges), self.span(first))
+
+    # Relations ------------------------------------------------------------------------------------------------
+
+    def relation(self) -> EventRelation | MeasureRelation | Effect | Lasting:
+        first = self.at
+        word = self.token_text(first)
+        self.at += 1
+        if word == "when":
+            return self._lasting(first)
+        comments = self.comments_of(first)
+        if word == "measure":
+            return self._of_measures(first)
+        event = self._event_in(word)
+        if word in _EVENT_RELATIONS:
+            other = self._event_in(word)
+            return EventRelation(cast("EventRelationKind", word), event, other, self.span(first), comments)
+        return Effect(cast("EffectKind", word), event, self.formula(), self.span(first), comments)
+
+    def _event_in(self, relation: str) -> str:
+        hint = f"as in: {relation} A B" if relation in _EVENT_RELATIONS else f"as in: {relation} A {{condition}}"
+        name = self.name("the name of an event", hint)
+        if not self.hurt:
+            self.names.event(name, self.token_span(self.at - 1), f"what {relation} speaks of")
+        return name
+
+    def _of_measures(self, first: int) -> MeasureRelation:
+        word = self.token_text(self.at)
+        if word not in _MEASURE_RELATIONS:
+            near = nearest(word, _MEASURE_RELATIONS)
+            self.fail(
+                f"there is no relation measure {quoted(word)}",
+                self.token_span(self.at),
+                f"did you mean {near}?" if near else f"there are {', '.join(_MEASURE_RELATIONS)}",
+            )
+        self.at += 1
+        left = self.formula()
+        right = self.formula() if word != "invariant" else None
+        relation = cast("MeasureRelationKind", word)
+        return MeasureRelation(relation, left, right, self.span(first), self.comments_of(first))
+
+    def _lasting(self, first: int) -> Lasting:
+        event, _, condition = self.occasion("the event of a relation")
+        self.require("then", "then and a condition", "as in: when A then {p} until B")
+        formula = self.formula()
+        end: str | None = None
+        end_condition: Formula | None = None
+        duration = None
+        if self.accept("for"):
+            duration = self.length()
+        else:
+            self.require("until", "until and an event, or for and a length of time", "as in: when A then {p} until B")
+            end, _, end_condition = self.occasion("the event that ends it")
+        return Lasting(
+            event, condition, formula, end, end_condition, duration, self.span(first), self.comments_of(first)
+        )

@@ -1,0 +1,198 @@
+"""Responses: ``[not] Event [within … | eventually] [otherwise …] [else …]``, and chains of hedges.
+
+What follows `otherwise`, `else` and the `then` of a hedge has hedges of its own only inside braces: an `unless` without
+them belongs to the rule.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+from sleec_runtime.language.cursor import Abandon, quoted
+from sleec_runtime.language.dsl.definitions import DefinitionParser
+from sleec_runtime.language.dsl.scanner import UNITS
+from sleec_runtime.language.suggest import nearest
+from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Obligation, Span
+
+if TYPE_CHECKING:
+    from sleec_runtime.model_time import Length, Timing, Unit, Window
+
+
+class ResponseParser(DefinitionParser):
+    """Reads responses."""
+
+    def chain(self, condition: Formula | None, first: int) -> Clause:
+        """A response as a clause that begins with token `first`: one event, or a chain in braces."""
+        comments = NO_COMMENTS if condition is None else self.comments_of(first)
+        if self.kinds[self.at] != "{":
+            obligation = self._occurrence()
+            return Clause(condition, (obligation,), (), self.span(first), comments)
+        opened = self.at
+        self.deeper()
+        self.at += 1
+        obligation = self._occurrence()
+        hedges: list[Clause] = []
+        while self.kinds[self.at] == "unless":
+            hedges.append(self.hedge())
+        self.close("}", opened)
+        self.depth -= 1
+        return Clause(condition, (obligation,), tuple(hedges), self.span(first), comments)
+
+    def hedge(self) -> Clause:
+        """``unless condition [then response]``."""
+        first = self.at
+        self.at += 1
+        condition = self.formula()
+        if self.kinds[self.at] != "then":
+            return Clause(condition, (), (), self.span(first), self.comments_of(first))
+        self.at += 1
+        return self.chain(condition, first)
+
+    def hedges(self, found: list[Clause], what: str) -> None:
+        """The hedges at hand; a problem in one leaves the others readable."""
+        while self.kinds[self.at] == "unless":
+            self.begin_clause()
+            try:
+                found.append(self.hedge())
+                if self.kinds[self.at] != "unless":
+                    self.end_of(what if found[-1].obligations else "and, or or then")
+            except Abandon:
+                self.recover()
+
+    def recover(self) -> None:
+        raise NotImplementedError
+
+    def _occurrence(self) -> Obligation:
+        first = self.at
+        negated = self.accept("not")
+        if negated and self.kinds[self.at] == "not":
+            self.expected("the name of an event", "not stands before one event, once")
+        at_name = self.at
+        if self.kinds[at_name] == "{":
+            self.expected("the name of an event", "a response is an event; braces hold a measure or a whole chain")
+        name = self.name("the name of an event", self._hint_at_response())
+        if not self.hurt:
+            self.names.event(name, self.token_span(at_name), "a response")
+        kind = self.kinds[self.at]
+        if kind in ("and", "or"):
+            self.fail(
+                f"a response is one event, so {kind} cannot follow it",
+                self.token_span(self.at),
+                "write a rule for each event" if kind == "and" else "write else between the two",
+            )
+        window = self._window()
+        alternatives: dict[str, Clause] = {}
+        for word in ("otherwise", "else"):
+            if self.accept(word):
+                alternatives[word] = self.chain(None, self.at)
+        if self.kinds[self.at] == "otherwise":
+            self.expected("the end of the response", "a response has one otherwise; put the second into braces")
+        return Obligation(name, negated, self.span(first), self._timing(window, alternatives))
+
+    def _hint_at_response(self) -> str | None:
+        return "say what is to be done" if self.kinds[self.at] in ("unless", "within", "otherwise") else None
+
+    def _timing(self, window: Window | None, alternatives: dict[str, Clause]) -> Timing | None:
+        if window is None and not alternatives:
+            return None
+        from sleec_runtime.model_time import Timing
+
+        return Timing(window, alternatives.get("otherwise"), alternatives.get("else"))
+
+    # Windows --------------------------------------------------------------------------------------------------
+
+    def _window(self) -> Window | None:
+        first = self.at
+        if self.kinds[first] not in ("within", "eventually"):
+            return None
+        from sleec_runtime.model_time import Window
+
+        self.at += 1
+        if self.kinds[first] == "eventually":
+            return Window(None, None, self.span(first))
+        start: Length | None = None
+        if self.kinds[self.at] == "[":
+            opened = self.at
+            self.at += 1
+            start = self.length(may_lack_unit=True)
+            self.require(",", "a comma between the two ends of the window", "as in: within [1, 5] minutes")
+            end = self.length(may_lack_unit=True)
+            self.close("]", opened)
+            start, end = self._same_unit(start, end, first)
+        else:
+            end = self.length()
+        if self.kinds[self.at] == "eventually":
+            self.expected("the end of the response", "a response has a window, or is due eventually: delete one")
+        span = self.span(first)
+        if start is not None and not self.hurt:
+            begins, ends = start.seconds, end.seconds
+            if begins is not None and ends is not None and begins > ends:
+                self.problem(
+                    f"this window ends, after {end}, before it begins, after {start}",
+                    span,
+                    "write the earlier end first, as in: within [1, 5] minutes",
+                )
+        return Window(end, start, span)
+
+    def length(self, may_lack_unit: bool = False) -> Length:
+        """``5 minutes``; the number may be a constant or a measure. In brackets the unit may stand behind them."""
+        from sleec_runtime.model_time import Length
+
+        first = self.at
+        if self.kinds[first] == "[" or (self.token_text(first) in UNITS and self.kinds[first + 1] != "word"):
+            self.expected("a number before the unit", "as in: within 5 minutes")
+        side = self._side("a length of time, such as 5 minutes")
+        self._no_arithmetic()
+        amount = None if self.hurt else self.names.number(side)
+        if isinstance(side.written, int) and side.written < 0:
+            self.fail(
+                f"a window cannot be negative: {side.written}",
+                side.span,
+                "times count from the trigger; nothing is due before it",
+            )
+        if amount is None:
+            raise Abandon
+        if may_lack_unit and self.kinds[self.at] in (",", "]"):
+            unit: Unit = "seconds"
+            span = NOWHERE
+        else:
+            unit, span = self._unit(), self.span(first)
+        if getattr(amount, "value", 0) < 0:
+            self.fail(
+                f"a window cannot be negative: {quoted(str(side.written))} is", side.span, "give it another value"
+            )
+        return Length(amount, unit, span)
+
+    def _unit(self) -> Unit:
+        if self.kinds[self.at] != "word" or self.token_text(self.at) not in UNITS:
+            written = self.token_text(self.at)
+            if self.kinds[self.at] != "word":
+                self.expected("a unit after the number: seconds, minutes, hours or days")
+            if "\n" in self.text[self.ends[self.at - 1] : self.starts[self.at]]:
+                end = self.ends[self.at - 1]
+                self.fail("a unit is missing after the number", Span(end, end), "as in: within 5 minutes")
+            near = nearest(written, ("seconds", "minutes", "hours", "days"))
+            self.fail(
+                f"there is no unit {quoted(written)}",
+                self.token_span(self.at),
+                f"did you mean {near}?" if near else "the units are seconds, minutes, hours and days",
+            )
+        unit = self.token_text(self.at)
+        self.at += 1
+        return cast("Unit", unit if unit.endswith("s") else f"{unit}s")
+
+    def _same_unit(self, start: Length, end: Length, first: int) -> tuple[Length, Length]:
+        """``[a, b] UNIT``: the unit behind the brackets is that of both ends, which then have none of their own."""
+        from sleec_runtime.model_time import Length
+
+        bare = [length for length in (start, end) if length.span is NOWHERE]
+        if not bare:
+            return start, end
+        if self.kinds[self.at] == "word":
+            unit = self._unit()
+            span: Span = self.span(first)
+        elif start.span is NOWHERE and end.span is not NOWHERE:
+            unit, span = end.unit, end.span
+        else:
+            self.expected("a unit: seconds, minutes, hours or days", "as in: within [1, 5] minutes")
+        return tuple(Length(o.amount, unit, span) if o.span is NOWHERE else o for o in (start, end))  # type: ignore[return-value]

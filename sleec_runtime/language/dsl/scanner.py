@@ -1,0 +1,149 @@
+"""From the characters of a text in the DSL to tokens, in parallel sequences as those of structured English."""
+
+from __future__ import annotations
+
+import re
+from array import array
+
+from sleec_runtime.language.comments import Remark, attach
+from sleec_runtime.language.scanner import Tokens
+from sleec_runtime.model import Dialect
+
+BLOCKS = {f"{name}_start": f"{name}_end" for name in ("def", "rule", "concern", "purpose", "relation")}
+"""The keywords that open a block, each with the one that closes it."""
+
+BLOCK_MARKS = frozenset(BLOCKS) | frozenset(BLOCKS.values())
+DEFINITIONS = frozenset({"event", "measure", "constant"})
+KEYWORDS = (
+    BLOCK_MARKS
+    | DEFINITIONS
+    | {"when", "then", "unless", "within", "otherwise", "else", "not", "and", "or", "eventually"}
+    | {"exists", "while", "meanwhile", "until", "for", "true", "false"}
+)
+UNITS = frozenset({"seconds", "minutes", "hours", "days", "second", "minute", "hour", "day"})
+EVENT_RELATIONS = frozenset({"witness", "equal", "mutualExclusive", "happenBefore"})
+EFFECTS = frozenset({"causation", "includes", "forbid"})
+
+LINE_STARTS = BLOCK_MARKS | DEFINITIONS | {"label", "relation", "unless"}
+"""The kinds of token that begin a line where the printer writes one."""
+
+_TOKEN = re.compile(
+    r"\s+|//[^\n]*|/\*(?s:.*?)\*/|[^\W\d]\w*|[0-9]+(?:\.[0-9]+)?(?!\w)|\d\w*"
+    r"|->|<=|>=|<>|!=|==|=<|=>|&&|\|\||/\*|\S"
+)
+_MARKS = {
+    **{word: word for word in KEYWORDS},
+    **dict.fromkeys(["<", "<=", ">", ">=", "=", "==", "!=", "<>", "\u2264", "\u2265", "\u2260"], "operator"),
+    **{mark: mark for mark in ("(", ")", "{", "}", "[", "]", ",", ":", "->", "-", "+", "*", "/*")},
+}
+
+
+def scan(text: str) -> Tokens:
+    """The tokens of `text`, in time linear in its length. Nothing is refused here; the parser says what is wrong.
+
+    A name before ``when`` or ``exists`` is a ``label``, and what begins a relation is a ``relation``.
+    """
+    kinds: list[str] = []
+    starts = array("q")
+    ends = array("q")
+    remarks: list[Remark] = []
+    for match in _TOKEN.finditer(text):
+        token = match[0]
+        kind = _MARKS.get(token)
+        if kind is None:
+            first = token[0]
+            if first.isspace():
+                continue
+            if first == "/" and len(token) > 1:
+                remarks += _remarks(token, match.start(), len(kinds))
+                continue
+            kind = _kind(token, first)
+        elif kind in ("when", "exists") and kinds and kinds[-1] == "word":
+            kinds[-1] = "label"
+        kinds.append(kind)
+        starts.append(match.start())
+        ends.append(match.end())
+    for _ in range(3):
+        kinds.append("end")
+        starts.append(len(text))
+        ends.append(len(text))
+    _mark_relations(text, kinds, starts, ends)
+    comments, closing = attach(remarks, text, kinds, starts, ends, LINE_STARTS, BLOCK_MARKS)
+    return Tokens(kinds, starts, ends, comments, closing)
+
+
+def _kind(token: str, first: str) -> str:
+    if first.isalpha() or first == "_":
+        return "word"
+    if first.isdecimal():
+        return "number" if token.isascii() and token.replace(".", "").isdecimal() else "digits"
+    return "strange"
+
+
+def _remarks(comment: str, start: int, token: int) -> list[Remark]:
+    """A comment to the end of the line, or the lines of one between ``/*`` and ``*/`` that say something."""
+    if comment.startswith("//"):
+        return [Remark(start, start + len(comment), token)]
+    found = []
+    at = start + 2
+    for line in comment[2:-2].split("\n"):
+        said = line.strip().strip("*").strip()
+        if said:
+            begin = at + line.index(said)
+            found.append(Remark(begin, begin + len(said), token))
+        at += len(line) + 1
+    return found
+
+
+def _mark_relations(text: str, kinds: list[str], starts: array[int], ends: array[int]) -> None:
+    """Marks what begins a relation, which only a block of relations has words of its own for."""
+    try:
+        at = kinds.index("relation_start")
+    except ValueError:
+        return
+    inside = False
+    for token in range(at, len(kinds)):
+        kind = kinds[token]
+        if kind in BLOCK_MARKS:
+            inside = kind == "relation_start"
+        elif inside:
+            if kind == "label":
+                kinds[token] = kind = "word"
+            of_measures = kinds[token - 1] == "relation" and text[starts[token - 1] : ends[token - 1]] == "measure"
+            if kind in ("when", "measure") or (
+                kind == "word" and not of_measures and text[starts[token] : ends[token]] in EVENT_RELATIONS | EFFECTS
+            ):
+                kinds[token] = "relation"
+
+
+def sniff(tokens: Tokens) -> Dialect:
+    """The dialect of a text: LEGOS's has measures in braces and constructs of its own, SLEEC-TK's has conditions
+    without braces. A text that has neither is taken for one of LEGOS."""
+    kinds = tokens.kinds
+    bare = False
+    for token, kind in enumerate(kinds):
+        if kind in _LEGOS_ONLY:
+            return "legos"
+        if kind == "{" and kinds[token + 1] == "word" and kinds[token + 2] == "}":
+            if kinds[token - 1] not in ("then", "otherwise"):
+                return "legos"
+        elif kind == "word" and not bare:
+            before = kinds[token - 2] if kinds[token - 1] == "not" else kinds[token - 1]
+            bare = before in ("and", "or", "unless")
+    return "sleec-tk" if bare else "legos"
+
+
+_LEGOS_ONLY = frozenset(
+    {
+        "concern_start",
+        "purpose_start",
+        "relation_start",
+        "exists",
+        "while",
+        "meanwhile",
+        "eventually",
+        "else",
+        "->",
+        "[",
+    }
+)

@@ -1,0 +1,62 @@
+"""The text that rules were read from, and stretches of it."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+
+class Span(NamedTuple):
+    """A stretch of the text, as offsets of characters: ``text[start:end]``."""
+
+    start: int
+    end: int
+
+
+NOWHERE = Span(0, 0)
+
+
+class Place(NamedTuple):
+    """A span as people count: lines and columns from 1, the end column one past the last character."""
+
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+
+@dataclass(frozen=True)
+class Source:
+    """The text that a ruleset was read from.
+
+    `path` is what to call it (a file's path, or ``<stdin>``); `sha256` is of the bytes as they were read, if known.
+    """
+
+    path: str
+    text: str
+    sha256: str | None = None
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        starts = [0]
+        position = self.text.find("\n")
+        while position >= 0:
+            starts.append(position + 1)
+            position = self.text.find("\n", position + 1)
+        return starts
+
+    def place(self, span: Span) -> Place:
+        """Lines and columns of `span`. O(log lines) after the first call."""
+        starts = self._line_starts
+        line = bisect_right(starts, span.start)
+        end_line = bisect_right(starts, span.end)
+        return Place(line, span.start - starts[line - 1] + 1, end_line, span.end - starts[end_line - 1] + 1)
+
+    def line(self, number: int) -> str:
+        """The text of a line (from 1), without its line break."""
+        starts = self._line_starts
+        start = starts[number - 1]
+        end = starts[number] if number < len(starts) else len(self.text)
+        return self.text[start:end].rstrip("\r\n")

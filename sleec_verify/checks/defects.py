@@ -1,0 +1,48 @@
+"""What is wrong with a text in the DSL that tools of others read all the same."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sleec_verify.checks.base import Check, FindingKind
+from sleec_verify.cone import Cones
+from sleec_verify.finding import Finding
+
+_KINDS = {"repeated-label": 0, "foreign-value": 1}
+
+
+def _defects(cones: Cones) -> Iterator[Finding]:
+    for defect in cones.ruleset.defects:
+        yield DEFECTS.finding(defect.message, defect.span, kind=_KINDS[defect.kind], help=defect.help)
+
+
+_DEFINED = "def_start\nevent Called\nevent Answer\nevent Wait\nmeasure risk: scale(low, high)\n"
+
+DEFECTS = Check(
+    "defect",
+    "Does the text keep to its own definitions?",
+    (
+        FindingKind(
+            "SLEEC506",
+            "error",
+            "a label that two rules have",
+            "Tools tell of a rule by its label, and some keep only the last rule of each label. The second rule is "
+            "called label#2 here, so that both count.",
+            _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nR1 when Answer then Wait\nrule_end\n",
+            _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nR2 when Answer then Wait\nrule_end\n",
+        ),
+        FindingKind(
+            "SLEEC507",
+            "error",
+            "a value of another scale",
+            "A measure is compared with a value that its scale does not have. Tools that keep the values of all scales "
+            "in one table take its place in the other scale, which need not be what is meant.",
+            _DEFINED + "measure noise: scale(quiet, loud)\ndef_end\nrule_start\n"
+            "R1 when Called and ({noise} = high) then Answer\nrule_end\n",
+            _DEFINED + "measure noise: scale(quiet, loud)\ndef_end\nrule_start\n"
+            "R1 when Called and ({noise} = loud) then Answer\nrule_end\n",
+        ),
+    ),
+    _defects,
+    scope="text",
+)

@@ -1,0 +1,69 @@
+"""A ruleset in another language or reading, obliging the same in every situation (docs/dsl.md).
+
+What the other language cannot say is refused, never dropped.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from sleec_runtime.errors import LanguageError, Unsayable
+from sleec_runtime.language import parse, print_ruleset
+from sleec_runtime.model import Assume, Dialect, Exclusive, Never, Reading, Rule, Ruleset
+from sleec_verify.conversion.readings import reread
+
+Target = Literal["english", "dsl", "legos"]
+TARGETS: tuple[Target, ...] = ("english", "dsl", "legos")
+_DIALECTS: dict[Target, Dialect] = {"dsl": "sleec-tk", "legos": "legos"}
+
+
+@dataclass(frozen=True)
+class Converted:
+    """A text that obliges the same, the ruleset that it spells out, and what to know about it."""
+
+    text: str
+    ruleset: Ruleset
+    notes: Sequence[str] = ()
+
+
+def of_domain(ruleset: Ruleset, domain: str) -> Ruleset:
+    """What counts in `domain`, as a ruleset without domains."""
+    statements = ruleset.in_domain(domain).statements
+    return replace(
+        ruleset,
+        statements=tuple(
+            replace(s, domains=None) if isinstance(s, (Rule, Exclusive, Never, Assume)) else s for s in statements
+        ),
+    )
+
+
+def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Converted:
+    """`ruleset` in the language `to`, its hedges rewritten for `reading` if that is another than its own.
+
+    Without `reading`, structured English keeps the ruleset's reading and states it; the DSL has only `priority`.
+
+    Raises:
+        Unsayable: something in it cannot be said there.
+    """
+    notes: list[str] = []
+    if to == "english":
+        from sleec_verify.conversion.to_english import in_english
+
+        converted = in_english(reread(ruleset, reading or ruleset.reading))
+    else:
+        if reading == "cascade":
+            raise Unsayable("the DSL reads hedges by priority only", "leave --reading out")
+        from sleec_verify.conversion.to_dsl import in_dsl
+
+        converted, notes = in_dsl(reread(ruleset, "priority"), _DIALECTS[to])
+    text = print_ruleset(converted)
+    try:
+        again = parse(text)
+    except LanguageError as error:
+        first = error.problems[0]
+        raise Unsayable(f"this cannot be said in the other language: {first.message}", first.hint) from None
+    if replace(again, dialect=converted.dialect) != converted:
+        raise AssertionError("the converted text would not say the same, which is a bug in sleec-verify")
+    return Converted(text, again, notes)

@@ -1,0 +1,50 @@
+"""What SLEEC-TK's dialect has no words for, though the DSL has."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from sleec_runtime.model import Clause, MeasureRef, Obligation, Rule, Ruleset, Span, Statement, literals
+from sleec_runtime.model_time import RELATIONS, Claim
+from sleec_verify.conversion.to_dsl import refuse
+
+
+def refuse_unsayable(ruleset: Ruleset, statements: Iterable[Statement]) -> None:
+    """Raises Unsayable for the first thing that SLEEC-TK cannot say."""
+    for statement in statements:
+        if isinstance(statement, (Claim, *RELATIONS)):
+            refuse(ruleset, "SLEEC-TK has no concerns, purposes or relations", statement.span, _HINT)
+        if isinstance(statement, Rule):
+            for clause in statement.clauses():
+                for message, span in _unsayable(clause):
+                    refuse(ruleset, message, span, _HINT)
+
+
+_HINT = "write --to legos"
+
+
+def _unsayable(clause: Clause) -> Iterator[tuple[str, Span]]:
+    for literal in literals(clause):
+        said = _of_literal(literal)
+        if said is not None:
+            yield said, literal.span
+
+
+def _of_literal(literal: Obligation) -> str | None:
+    timing = literal.timing
+    window = timing.window if timing is not None else None
+    if literal.negated and (window is None or window.end is None):
+        return f"SLEEC-TK has no prohibition without a window, as of {literal.name}"
+    if timing is None:
+        return None
+    if timing.instead is not None:
+        return "SLEEC-TK has no else"
+    if timing.otherwise is not None and (window is None or literal.negated):
+        return "SLEEC-TK has otherwise only after a response with a window"
+    if window is not None and window.end is None:
+        return "SLEEC-TK has no eventually"
+    if window is not None and window.start is not None:
+        return "SLEEC-TK has no windows that begin later"
+    if window is not None and window.end is not None and isinstance(window.end.amount, MeasureRef):
+        return "SLEEC-TK has no windows as long as a measure says"
+    return None

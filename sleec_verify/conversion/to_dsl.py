@@ -1,0 +1,157 @@
+"""From structured English, or the other dialect, to a dialect of the DSL."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import NoReturn
+
+from sleec_runtime.errors import Unsayable
+from sleec_runtime.language.dsl.scanner import KEYWORDS
+from sleec_runtime.model import (
+    NO_COMMENTS,
+    And,
+    Clause,
+    Comments,
+    Constant,
+    Declaration,
+    DeclaredKind,
+    Dialect,
+    Formula,
+    Measure,
+    Not,
+    Or,
+    Rule,
+    Ruleset,
+    Span,
+    Statement,
+)
+from sleec_verify.conversion.rules import split
+
+_NAME = re.compile(r"[^\W\d]\w*")
+
+
+def in_dsl(ruleset: Ruleset, dialect: Dialect) -> tuple[Ruleset, list[str]]:
+    """`ruleset`, which is read by priority, as `dialect` says it, and what to know about the result.
+
+    Raises:
+        Unsayable: it holds what the dialect has no words for.
+    """
+    notes: list[str] = []
+    english = ruleset.syntax == "english"
+    statements = list(_from_english(ruleset, notes) if english else ruleset.statements)
+    if dialect == "sleec-tk":
+        from sleec_verify.conversion.sleec_tk import refuse_unsayable
+
+        refuse_unsayable(ruleset, statements)
+    else:
+        statements = [_in_pairs(s) if isinstance(s, Rule) else s for s in statements]
+    converted = replace(
+        ruleset, statements=tuple(statements), syntax="dsl", dialect=dialect, inferred=(), reading_stated=False
+    )
+    return converted, notes
+
+
+def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
+    """The statements with every name defined: declared ones where they are declared, the others first."""
+    defined: set[str] = set()
+    declared = {name for names in ruleset.declared.values() for name in names}
+    for name in _undeclared(ruleset.triggers | ruleset.obligations, declared):
+        defined.add(_name(ruleset, name))
+        yield Declaration("event", (name,))
+    for name in _undeclared(ruleset.conditions, declared):
+        yield Declaration("condition", (_name(ruleset, name),))
+    for measure in ruleset.inferred:
+        yield _measure(ruleset, replace(measure, declared=True), notes)
+    labels = {rule.label for rule in ruleset.rules}
+    for statement in ruleset.statements:
+        if isinstance(statement, Declaration):
+            yield from _declarations(ruleset, statement, defined)
+        elif isinstance(statement, Measure):
+            yield _measure(ruleset, statement, notes)
+        elif isinstance(statement, Constant):
+            if statement.value.denominator != 1:
+                refuse(ruleset, f"{statement.name} is no whole number", statement.span, "choose a smaller unit")
+            _name(ruleset, statement.name)
+            yield statement
+        elif isinstance(statement, Rule):
+            if statement.domains is not None:
+                said = f"the DSL has no domains, and {statement.label} has one"
+                refuse(ruleset, said, statement.span, "pick one with --domain")
+            _name(ruleset, statement.label, statement.label_span)
+            yield from split(replace(statement, comments=_comments(statement), labelled=True), labels)
+        else:
+            word = type(statement).__name__.upper()
+            refuse(ruleset, f"the DSL has nothing that means what {word} does", statement.span)
+
+
+def _undeclared(names: Iterable[str], declared: set[str]) -> list[str]:
+    return sorted(set(names) - declared)
+
+
+def _declarations(ruleset: Ruleset, statement: Declaration, defined: set[str]) -> Iterator[Declaration]:
+    """A definition for each name; what is declared as a trigger and as an obligation is one event."""
+    comments = statement.comments
+    kind: DeclaredKind = "condition" if statement.kind == "condition" else "event"
+    for name, span in zip(statement.names, statement.name_spans or [statement.span] * len(statement.names)):
+        if name not in defined:
+            defined.add(_name(ruleset, name, span))
+            yield Declaration(kind, (name,), span, (span,), comments)
+            comments = NO_COMMENTS
+    if comments != NO_COMMENTS:
+        refuse(ruleset, "a comment stands at a declaration that the DSL does not need", statement.span, "move it")
+
+
+def _measure(ruleset: Ruleset, measure: Measure, notes: list[str]) -> Measure:
+    for name in (measure.name, *measure.values):
+        _name(ruleset, name, measure.span)
+    if measure.kind == "number":
+        notes.append(f"{measure.name} is any number here, and numeric, a whole number, in the DSL")
+        return replace(measure, kind="integer")
+    return measure
+
+
+def _comments(rule: Rule) -> Comments:
+    """The comments of a rule's two lines in structured English, the label's and the one below, for one line."""
+    own, default = rule.comments, rule.default.comments
+    one_too_many = (default.behind,) if own.behind is not None and default.behind is not None else ()
+    return Comments((*own.above, *default.above, *one_too_many), own.behind or default.behind)
+
+
+def _name(ruleset: Ruleset, name: str, span: Span | None = None) -> str:
+    if _NAME.fullmatch(name) is None or name in KEYWORDS:
+        what = "is a keyword of the DSL" if name in KEYWORDS else "is no name of the DSL: letters, digits and _ only"
+        refuse(ruleset, f"\u201c{name}\u201d {what}", span, "rename it first, everywhere in the rules")
+    return name
+
+
+def refuse(ruleset: Ruleset, message: str, span: Span | None = None, hint: str | None = None) -> NoReturn:
+    if span:
+        place = ruleset.source.place(span)
+        message = f"{ruleset.source.path}:{place.line}:{place.column}: {message}"
+    raise Unsayable(message, hint)
+
+
+# Formulas as LEGOS writes them ----------------------------------------------------------------------------
+
+
+def _in_pairs(rule: Rule) -> Rule:
+    """A rule whose chains of `and`, and of `or`, do not end in one of the same kind, as LEGOS's are read."""
+    guard = rule.guard and _normal(rule.guard)
+    return replace(rule, guard=guard, default=_of_clause(rule.default), hedges=tuple(map(_of_clause, rule.hedges)))
+
+
+def _of_clause(clause: Clause) -> Clause:
+    condition = clause.condition and _normal(clause.condition)
+    return replace(clause, condition=condition, hedges=tuple(map(_of_clause, clause.hedges)))
+
+
+def _normal(formula: Formula) -> Formula:
+    if isinstance(formula, Not):
+        return replace(formula, operand=_normal(formula.operand))
+    if isinstance(formula, (And, Or)):
+        *first, last = map(_normal, formula.operands)
+        ending = last.operands if isinstance(last, (And, Or)) and type(last) is type(formula) else (last,)
+        return replace(formula, operands=(*first, *ending))
+    return formula

@@ -1,0 +1,296 @@
+"""The DSL of SLEEC-TK and LEGOS-SLEEC: what is read, and that it is printed back."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from pathlib import Path
+from time import perf_counter
+
+import pytest
+
+from sleec_runtime.language import load, parse, print_ruleset
+from sleec_runtime.model import And, Atom, Comparison, MeasureRef, Not, Number, Or, Ruleset, ScaleValue, literals
+from sleec_runtime.model_time import (
+    Claim,
+    Effect,
+    EventRelation,
+    Lasting,
+    Length,
+    MeasureRelation,
+    claims,
+    constructs,
+)
+
+STUDIES = Path(__file__).parents[3] / "shared" / "case-studies"
+FILES = sorted(STUDIES.glob("*/*.sleec"))
+
+DEFINITIONS = """def_start
+  event A
+  event B as system
+  event C as environment
+  measure m: boolean
+  measure n: boolean
+  measure x: numeric
+  measure risk: scale(low, middle, high)
+  constant K = 5
+  constant L = K
+def_end
+"""
+
+
+def rules(text: str) -> Ruleset:
+    return parse(f"{DEFINITIONS}rule_start\n{text}\nrule_end\n")
+
+
+def timing(text: str):
+    (rule,) = rules(f"R1 when A then {text}").rules
+    return rule.default.obligations[0].timing
+
+
+# Conditions -----------------------------------------------------------------------------------------------
+
+M, N = Atom("condition", "m"), Atom("condition", "n")
+HIGH = Comparison(MeasureRef("risk"), "=", ScaleValue("high", 2))
+MANY = Comparison(MeasureRef("x"), ">", Number(5, "K"))
+
+
+@pytest.mark.parametrize(
+    ("text", "formula"),
+    [
+        ("m", M),
+        ("{m}", M),
+        ("not m", Not(M)),
+        ("m and n or risk = high", Or((And((M, N)), HIGH))),
+        ("m or n and risk = high", And((Or((M, N)), HIGH))),
+        ("m or n or m", Or((M, N, M))),
+        ("not m and n", And((Not(M), N))),
+        ("not risk = high and m", And((Not(HIGH), M))),
+        ("({m} and ({n} and {m}))", And((M, N, M))),
+        ("(({m} and {n}) and {m})", And((And((M, N)), M))),
+        ("({x} > K)", MANY),
+        ("({x} > -> K)", MANY),
+        ("m = true", M),
+        ("m <> true", Not(M)),
+        ("high = risk", Comparison(ScaleValue("high", 2), "=", MeasureRef("risk"))),
+        ("x >= -3", Comparison(MeasureRef("x"), ">=", Number(-3))),
+    ],
+)
+def test_conditions(text, formula):
+    (rule,) = rules(f"R1 when A and {text} then B").rules
+    assert rule.guard == formula
+
+
+def test_dialects_are_told_apart():
+    assert rules("R1 when A and m then B").dialect == "sleec-tk"
+    assert rules("R1 when A then B within 5 minutes otherwise {C unless m}").dialect == "sleec-tk"
+    assert rules("R1 when A and {m} then B").dialect == "legos"
+    assert rules("R1 when A then B eventually").dialect == "legos"
+    assert rules("R1 when A then B").dialect == "legos"
+
+
+def test_rules_of_the_dsl_are_read_by_priority():
+    ruleset = rules("R1 when A then B unless m then C unless n")
+    assert (ruleset.reading, ruleset.syntax) == ("priority", "dsl")
+    (rule,) = ruleset.rules
+    assert [hedge.obligations != () for hedge in rule.hedges] == [True, False]
+
+
+# Times ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "seconds"),
+    [("5 minutes", 300), ("1 minute", 60), ("2 hours", 7200), ("1 day", 86400), ("K seconds", 5), ("L hours", 18000)],
+)
+def test_windows_have_exact_seconds_and_keep_what_is_written(text, seconds):
+    window = timing(f"B within {text}").window
+    assert window.end.seconds == Fraction(seconds)
+    assert window.start is None
+    assert f"within {text}".rstrip("s") in print_ruleset(rules(f"R1 when A then B within {text}"))
+
+
+@pytest.mark.parametrize(
+    "text", ["[1, 5] minutes", "[1 minutes, 5 minutes]", "[1, 5 minutes]", "[60 seconds, 5 minutes]"]
+)
+def test_windows_with_two_ends(text):
+    window = timing(f"B within {text}").window
+    assert (window.start.seconds, window.end.seconds) == (60, 300)
+
+
+def test_a_measure_may_say_how_long():
+    assert timing("B within {x} seconds").window.end == Length(MeasureRef("x"), "seconds")
+
+
+def test_otherwise_and_else_belong_to_the_nearest_response():
+    found = timing("B within 5 minutes otherwise C else A")
+    (otherwise,) = found.otherwise.obligations
+    assert found.instead is None
+    assert otherwise.timing.instead.obligations[0].name == "A"
+    found = timing("B within 5 minutes otherwise {C} else not A eventually")
+    assert found.otherwise.obligations[0].timing is None
+    assert found.instead.obligations[0].negated
+    assert found.instead.obligations[0].timing.window.end is None
+
+
+def test_an_unless_without_braces_belongs_to_the_rule():
+    (rule,) = rules("R1 when A then B within 1 hours otherwise C unless m").rules
+    assert len(rule.hedges) == 1
+    (rule,) = rules("R1 when A then B within 1 hours otherwise {C unless m}").rules
+    assert not rule.hedges
+    assert len(timing("B within 1 hours otherwise {C unless m}").otherwise.hedges) == 1
+    assert {"A", "B", "C"} == rules("R1 when A then B within 1 hours otherwise {C unless m}").obligations | {"A"}
+
+
+# What stands beside the rules -----------------------------------------------------------------------------
+
+BESIDE = f"""// about this file
+
+{DEFINITIONS}
+rule_start
+  // the only rule
+  R1 when A then B  // now
+     // unless it is known
+     unless {{m}} then not C within 2 minutes else B
+rule_end
+concern_start
+  c1 when A and ({{x}} > K) then not B within [1 minutes, 2 minutes] while C
+  c2 exists A while B eventually unless {{m}} then C while C meanwhile (when B then A)
+concern_end
+/* purposes
+ * follow
+ */
+purpose_start
+  p1 exists A
+  p2 when A and {{m}} meanwhile (exists B and {{n}} meanwhile (exists C))
+purpose_end
+relation_start
+  witness A B
+  equal A B
+  mutualExclusive A B
+  happenBefore A B
+  measure imply {{m}} ({{x}} > 3)
+  measure iff {{m}} {{n}}
+  measure mutualExclusive {{m}} {{n}}
+  measure opposite {{m}} {{n}}
+  measure invariant (not {{m}})
+  causation A {{m}}
+  includes A (not {{m}})
+  forbid A {{m}}
+  when A and {{m}} then {{n}} until B and ({{risk}} > low)
+  when A then {{n}} for 5 minutes
+relation_end
+// the end
+"""
+
+
+def test_concerns_purposes_and_relations():
+    ruleset = parse(BESIDE)
+    one, two = claims(ruleset, "concern")
+    assert (one.form, one.event, len(one.responses)) == ("when", "A", 2)
+    assert (two.form, len(two.responses), len(two.responses[0].hedges)) == ("exists", 2, 1)
+    assert two.meanwhile is not None
+    assert two.meanwhile.form == "when"
+    assert [p.label for p in claims(ruleset, "purpose")] == ["p1", "p2"]
+    kinds = [type(s) for s in ruleset.statements[10:]]
+    assert kinds == [Claim] * 4 + [EventRelation] * 4 + [MeasureRelation] * 5 + [Effect] * 3 + [Lasting] * 2
+    assert len(list(constructs(ruleset))) == 2 + 14
+
+
+def test_what_is_printed_says_the_same_and_keeps_the_comments():
+    ruleset = parse(BESIDE)
+    text = print_ruleset(ruleset)
+    again = parse(text)
+    assert again == ruleset
+    assert print_ruleset(again) == text
+    for comment in ("about this file", "the only rule", "now", "unless it is known", "purposes", "follow", "the end"):
+        assert f"// {comment}" in text
+
+
+def test_every_node_has_its_span():
+    ruleset = parse(BESIDE)
+    source = ruleset.source.text
+    (rule,) = ruleset.rules
+    assert source[slice(*rule.span)].startswith("R1 when A")
+    assert source[slice(*rule.span)].endswith("else B")
+    assert source[slice(*rule.hedges[0].span)].startswith("unless {m}")
+    assert source[slice(*rule.hedges[0].obligations[0].span)] == "not C within 2 minutes else B"
+    for statement in ruleset.statements:
+        assert source[slice(*statement.span)].strip()
+
+
+def test_labels_and_values_that_others_read_are_defects():
+    ruleset = rules("R1 when A and risk = low then B\nR1 when A then C")
+    assert [rule.label for rule in ruleset.rules] == ["R1", "R1#2"]
+    assert [defect.kind for defect in ruleset.defects] == ["repeated-label"]
+    assert parse(print_ruleset(ruleset)) == ruleset
+    ruleset = parse(
+        "def_start\nevent A\nmeasure one: scale(a, b)\nmeasure two: scale(c, d)\ndef_end\n"
+        "rule_start\nR1 when A and ({one} = d) then A\nrule_end\n"
+    )
+    assert [defect.kind for defect in ruleset.defects] == ["foreign-value"]
+    assert ruleset.rules[0].guard == Comparison(MeasureRef("one"), "=", ScaleValue("d", 1))
+    assert parse(print_ruleset(ruleset)) == ruleset
+
+
+def test_ten_megabytes_of_rules_are_read_in_time_linear_in_their_size():
+    line = "R{} when A and ({{risk}} > low) then B within 5 minutes unless {{m}} then C\n"
+    seconds = []
+    for size in (3_000, 12_000):
+        text = "".join(line.format(n) for n in range(size))
+        started = perf_counter()
+        assert len(rules(text).rules) == size
+        seconds.append(perf_counter() - started)
+    assert seconds[1] < 12 * seconds[0]
+
+
+# The case studies -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(not FILES, reason="the case studies are not here")
+def test_all_case_studies_are_here():
+    assert len(FILES) == 17
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_nothing_of_a_case_study_is_dropped(path: Path) -> None:
+    ruleset = load(path)
+    text = re.sub(r"//[^\n]*|/\*.*?\*/", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+    blocks = dict(re.findall(r"\b(\w+)_start\b(.*?)\b\1_end\b", text, flags=re.DOTALL))
+
+    def count(block: str, pattern: str) -> int:
+        return len(re.findall(pattern, blocks.get(block, "")))
+
+    assert len(ruleset.rules) == count("rule", r"\w+\s+when\b")
+    clauses = [clause for rule in ruleset.rules for clause in rule.clauses()]
+    alternatives = [a for clause in clauses for o in clause.obligations if o.timing for a in o.timing.alternatives()]
+    hedges = [c for c in clauses if c.condition is not None] + [h for a in alternatives for h in a.hedges]
+    assert len(hedges) == count("rule", r"\bunless\b")
+    times = [o.timing for clause in clauses for o in literals(clause) if o.timing is not None]
+    windows = [time.window for time in times if time.window is not None]
+    assert len([w for w in windows if w.end is not None]) == count("rule", r"\bwithin\b")
+    assert len([w for w in windows if w.end is None]) == count("rule", r"\beventually\b")
+    assert len([time for time in times if time.otherwise is not None]) == count("rule", r"\botherwise\b")
+    assert len(ruleset.declared["event"]) == count("def", r"\bevent\s")
+    assert len(ruleset.measures) + len(ruleset.declared["condition"]) == count("def", r"\bmeasure\s")
+    assert len(ruleset.constants) == count("def", r"\bconstant\s")
+    for kind in ("concern", "purpose"):
+        found = claims(ruleset, kind)
+        assert len(found) == count(kind, r"\w+\s+(?:when|exists)\b")
+        assert sum(len(claim.responses) for claim in found) == count(kind, r"\b(?:then|while)\b")
+    assert ruleset.dialect == ("sleec-tk" if path.parent.name == "sleec-tk" else "legos")
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_a_case_study_is_printed_back(path: Path) -> None:
+    ruleset = load(path)
+    text = print_ruleset(ruleset)
+    again = parse(text)
+    assert again == ruleset
+    assert print_ruleset(again) == text
+
+    def words(source: str) -> list[str]:
+        comments = re.findall(r"//([^\n]*)|/\*(.*?)\*/", source, flags=re.DOTALL)
+        return sorted(word for pair in comments for half in pair for word in re.findall(r"\w+", half))
+
+    assert words(text) == words(path.read_text(encoding="utf-8"))

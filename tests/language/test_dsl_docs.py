@@ -1,0 +1,38 @@
+"""Every example of docs/dsl.md is what the page says it is."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from sleec_runtime.errors import LanguageError
+from sleec_runtime.language import parse, print_ruleset
+
+PAGE = (Path(__file__).parents[2] / "docs" / "dsl.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^```(dsl(?:-bad)?)\n(.*?)^```$", PAGE, flags=re.MULTILINE | re.DOTALL)
+RESPONSES = re.findall(r"^\| `(.*?)`(?:, `(.*?)`)? \|", PAGE.split("may say when:")[1].split("An `unless`")[0], re.M)
+NAMES = "def_start event A event E event F measure c: boolean measure m: numeric constant K = 5 def_end\n"
+
+
+@pytest.mark.parametrize("text", [text for kind, text in BLOCKS if kind == "dsl"])
+def test_good_examples_parse(text: str) -> None:
+    ruleset = parse(text)
+    assert parse(print_ruleset(ruleset)) == ruleset
+
+
+@pytest.mark.parametrize("text", [text for kind, text in BLOCKS if kind == "dsl-bad"])
+def test_bad_examples_are_refused(text: str) -> None:
+    with pytest.raises(LanguageError):
+        parse(text)
+
+
+def test_the_page_has_examples_of_both() -> None:
+    assert {kind for kind, _ in BLOCKS} == {"dsl", "dsl-bad"}
+
+
+@pytest.mark.parametrize("response", [response for row in RESPONSES for response in row if response])
+def test_responses_of_the_table_are_responses(response: str) -> None:
+    ruleset = parse(f"{NAMES}rule_start R1 when A then {response} rule_end")
+    assert parse(print_ruleset(ruleset)).rules == ruleset.rules

@@ -1,0 +1,183 @@
+"""What is converted obliges the same in every situation; what cannot be said is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from sleec_runtime.errors import Unsayable
+from sleec_runtime.language import load, parse
+from sleec_runtime.model import Rule, Ruleset
+from sleec_verify.cli.convert import command
+from sleec_verify.conversion import TARGETS, convert, of_domain
+from sleec_verify.conversion.readings import reread
+from tests.brute import contexts, due
+from tests.verify.small import small_rulesets
+
+RULESETS = Path(__file__).parents[2] / "rulesets"
+RULES_ONLY = small_rulesets(constraints=False, assumptions=False, rules=2)
+
+
+def oblige_the_same(one: Ruleset, other: Ruleset) -> None:
+    for context in contexts(one):
+        assert due(one, context) == due(other, context), context
+
+
+@settings(max_examples=150)
+@given(RULES_ONLY, st.sampled_from(("cascade", "priority")))
+def test_a_rewritten_reading_obliges_the_same(ruleset, reading):
+    rewritten = reread(ruleset, reading)
+    assert rewritten.reading == reading
+    oblige_the_same(ruleset, rewritten)
+
+
+@settings(max_examples=150)
+@given(RULES_ONLY)
+def test_structured_english_and_legos_oblige_the_same_there_and_back(ruleset):
+    there = convert(ruleset, "legos")
+    assert there.ruleset.reading == "priority"
+    oblige_the_same(ruleset, there.ruleset)
+    back = convert(there.ruleset, "english", "cascade")
+    assert (back.ruleset.reading, back.ruleset.syntax) == ("cascade", "english")
+    oblige_the_same(ruleset, back.ruleset)
+
+
+@settings(max_examples=80)
+@given(small_rulesets(constraints=False, assumptions=False, rules=2, measures=True))
+def test_sleec_tk_obliges_the_same_or_refuses_prohibitions(ruleset):
+    assume(all(rule.default.obligations for rule in ruleset.rules))
+    prohibits = any(o.negated for rule in ruleset.rules for clause in rule.clauses() for o in clause.obligations)
+    if prohibits:
+        with pytest.raises(Unsayable, match="no prohibition without a window"):
+            convert(ruleset, "dsl")
+    else:
+        oblige_the_same(ruleset, convert(ruleset, "dsl").ruleset)
+
+
+def test_comments_and_the_order_stay():
+    ruleset = parse(
+        "// the file\n\nMEASURE x: integer  // how many\nRULE a  // first\n// when it happens\nWHEN t THEN p AND q\n"
+        "// but\nUNLESS x > 3  // many\nRULE b WHEN u THEN r\n// the end\n"
+    )
+    for to in TARGETS:
+        text = convert(ruleset, to).text
+        said = ("the file", "how many", "first", "when it happens", "but", "many", "the end")
+        assert [text.count(f"// {comment}") for comment in said] == [1] * len(said), to
+        assert text.index("p") < text.index("q")
+    assert convert(parse(convert(ruleset, "legos").text), "english").ruleset.reading == "priority"
+
+
+def test_a_response_of_several_obligations_becomes_several_rules():
+    ruleset = parse("RULE a_2 WHEN t THEN p\nRULE a WHEN t THEN p AND q UNLESS c UNLESS d IN WHICH CASE r")
+    found = convert(ruleset, "legos").ruleset
+    assert [rule.label for rule in found.rules] == ["a_2", "a", "a_2_"]
+
+
+REFUSED = {
+    "NEVER a AND b\nWHEN t THEN a": "NEVER",
+    "EXCLUSIVE a, b\nWHEN t THEN a": "EXCLUSIVE",
+    "ASSUME c\nWHEN t THEN a UNLESS c": "ASSUME",
+    "DOMAIN home\nWHEN t THEN a": "no domains",
+    "WHEN t THEN a UNLESS the user sleeps": "no name of the DSL",
+    "RULE a.b WHEN t THEN a": "no name of the DSL",
+    "WHEN event THEN a": "keyword of the DSL",
+    "CONSTANT k = 1.5\nWHEN t AND x > k THEN a": "no whole number",
+    "WHEN t AND x > 1.5 THEN a": "no whole number",
+}
+
+
+@pytest.mark.parametrize("text", REFUSED)
+def test_what_the_dsl_cannot_say_is_refused(text):
+    with pytest.raises(Unsayable, match=REFUSED[text]):
+        convert(parse(text), "legos")
+
+
+DSL = """def_start
+  event A{agent}
+  event B
+  measure m: boolean
+  measure one: scale(a, b)
+  measure two: scale(c, d)
+def_end
+rule_start
+  R1 when A {rest}
+rule_end
+"""
+
+
+def dsl(rest, beside="", agent=""):
+    return parse(DSL.replace("{rest}", rest).replace("{agent}", agent) + beside)
+
+
+@pytest.mark.parametrize(
+    ("rest", "beside", "why"),
+    [
+        ("then B within 5 minutes", "", "within"),
+        ("then B otherwise A", "", "otherwise"),
+        ("then B eventually", "", "eventually"),
+        ("then B", "purpose_start p1 exists A purpose_end", "the purpose p1"),
+        ("then B", "relation_start equal A B relation_end", "the relation equal"),
+        ("and {one} = d then B", "", "no value of one"),
+        ("then B R1 when B then A", "", "another R1"),
+    ],
+)
+def test_what_structured_english_cannot_say_is_refused(rest, beside, why):
+    with pytest.raises(Unsayable, match=why):
+        convert(dsl(rest, beside), "english")
+    again = convert(dsl(rest, beside), "legos")
+    assert again.ruleset == dsl(rest, beside)
+
+
+def test_whose_an_event_is_stays_in_the_dsl():
+    with pytest.raises(Unsayable, match="the system's"):
+        convert(dsl("then B", agent=" as system"), "english")
+    assert "event A as system" in convert(dsl("then B", agent=" as system"), "dsl").text
+
+
+@pytest.mark.parametrize(
+    "rest",
+    [
+        "then not B",
+        "then not B eventually",
+        "then B eventually",
+        "then B otherwise A",
+        "then B else A",
+        "then B within [1, 2] days",
+        "then not B within 1 days otherwise A",
+        "then B within 1 days otherwise {A eventually unless m}",
+    ],
+)
+def test_what_sleec_tk_cannot_say_is_refused(rest):
+    with pytest.raises(Unsayable, match="SLEEC-TK has"):
+        convert(dsl(rest), "dsl")
+
+
+def test_the_dsl_has_one_reading():
+    with pytest.raises(Unsayable, match="by priority only"):
+        convert(parse("WHEN t THEN a"), "legos", "cascade")
+
+
+@pytest.mark.parametrize("path", sorted(RULESETS.glob("*.sleec")), ids=lambda path: path.stem)
+def test_rulesets_that_people_copy_are_rewritten_for_the_other_reading(path):
+    ruleset = load(path)
+    other = convert(ruleset, "english", "priority").ruleset
+    assert other.reading == "priority"
+    assert len(other.rules) == len(ruleset.rules)
+
+
+def test_one_domain_can_be_converted():
+    ruleset = of_domain(load(RULESETS / "hospital.sleec"), "hospital")
+    found = convert(ruleset, "legos")
+    assert found.notes
+    assert len([s for s in found.ruleset.statements if isinstance(s, Rule)]) == len(ruleset.rules)
+
+
+def test_the_command_prints_notes_apart():
+    result = CliRunner().invoke(command, [str(RULESETS / "hospital.sleec"), "--to", "legos", "--domain", "hospital"])
+    assert result.exit_code == 0
+    assert "rule_end" in result.stdout
+    assert "note: " in result.stderr

@@ -1,0 +1,169 @@
+"""Rulesets with times: what needs them stays undecided and says so, all else is answered."""
+
+from __future__ import annotations
+
+import pytest
+
+import sleec_runtime
+from sleec_runtime.errors import UnsupportedTimes
+from sleec_runtime.language import parse
+from sleec_runtime.model import Context
+from sleec_runtime.runtime import Sleec
+from sleec_verify.checks import CHECKS, run_checks
+from sleec_verify.compilation import FORMS
+from sleec_verify.entailment import entail
+from sleec_verify.finding import Proved, Refuted, Unknown
+
+TEXT = """def_start
+  event A
+  event B
+  event C
+  event Unused
+  measure m: boolean
+  measure n: boolean
+  measure x: numeric
+  constant K = 5
+  constant J = 6
+def_end
+rule_start
+  R1 when A then {response}
+  R2 when A then not B
+  R3 when A then C unless (m and (not m)) then B
+  R4 when A and (x > 3 and x < 3) then B
+rule_end
+"""
+NEEDS_TIME = ("conflict", "vacuous-conflict", "redundant-rule", "redundant-hedge")
+
+
+def verdicts(text):
+    return {result.name: result for result in run_checks(parse(text))}
+
+
+def text(response, beside=""):
+    return TEXT.replace("{response}", response) + beside
+
+
+def test_without_times_all_is_decided():
+    found = verdicts(text("B unless n"))
+    assert set(found) == set(CHECKS)
+    assert not [name for name, result in found.items() if isinstance(result.verdict, Unknown)]
+    assert isinstance(found["conflict"].verdict, Refuted)
+
+
+@pytest.mark.parametrize(
+    ("response", "construct"),
+    [
+        ("B within 5 minutes", "within in line 13"),
+        ("B eventually", "eventually in line 13"),
+        ("B otherwise C", "otherwise in line 13"),
+        ("B else {C unless n}", "else in line 13"),
+        ("C unless n then B within K days", "within in line 13"),
+    ],
+)
+def test_times_leave_undecided_only_what_needs_them(response, construct):
+    found = verdicts(text(response))
+    for name, result in found.items():
+        assert isinstance(result.verdict, Unknown) == (name in NEEDS_TIME), name
+    for name in NEEDS_TIME:
+        assert found[name].verdict == Unknown(f"{construct}: not analysed yet")
+    assert [f.rules for f in found["dead-rule"].findings] == [("R4",)]
+    assert [f.rules for f in found["dead-hedge"].findings] == [("R3",)]
+
+
+def test_the_readings_part_where_only_times_differ():
+    found = verdicts(text("B within 1 hours unless m then B within 2 hours unless n then B within 3 hours"))
+    assert [f.rules for f in found["reading"].findings] == [("R1",)]
+
+
+def test_relations_leave_undecided_what_they_may_rule_out():
+    found = verdicts(text("B", "relation_start measure invariant {m} relation_end"))
+    for name, result in found.items():
+        undecided = (*NEEDS_TIME, "dead-rule", "dead-hedge", "reading")
+        assert isinstance(result.verdict, Unknown) == (name in undecided), name
+    assert [f.rules for f in found["dead-rule"].findings] == [("R4",)]
+
+
+def test_concerns_and_purposes_are_named_and_disturb_nothing():
+    beside = "concern_start c1 when A then not B within 2 minutes concern_end purpose_start p1 exists A purpose_end"
+    found = verdicts(text("B", beside))
+    assert found["concern"].verdict == Unknown("the concern c1 in line 18: not analysed yet")
+    assert found["purpose"].verdict == Unknown("the purpose p1 in line 18: not analysed yet")
+    assert isinstance(found["conflict"].verdict, Refuted)
+    (result,) = run_checks(parse(text("B", beside)), ["purpose"])
+    assert result.name == "purpose"
+
+
+def test_names_are_used_wherever_they_stand():
+    def unused(found):
+        return {finding.message.split(" is ")[0] for finding in found["unused-name"].findings}
+
+    assert unused(verdicts(text("B"))) == {"the event Unused", "the condition n", "the constant K", "the constant J"}
+    assert unused(verdicts(text("B within K days otherwise {C unless n}"))) == {"the event Unused", "the constant J"}
+    beside = "relation_start causation Unused {n} when A then {n} for J days relation_end"
+    assert unused(verdicts(text("B", beside))) == {"the constant K"}
+    beside = "concern_start c1 when Unused and {n} then B within J days concern_end"
+    assert unused(verdicts(text("B", beside))) == {"the constant K"}
+
+
+def test_defects_are_errors():
+    ruleset = parse(
+        text("B")
+        .replace("R2 when", "R1 when")
+        .replace("numeric", "scale(low, high)\nmeasure y: scale(a, b)")
+        .replace("x > 3", "x = b")
+        .replace("x < 3", "x = low")
+    )
+    (result,) = run_checks(ruleset, ["defect"])
+    assert [finding.code for finding in result.findings] == ["SLEEC506", "SLEEC507"]
+    assert isinstance(run_checks(parse(text("B")), ["defect"])[0].verdict, Proved)
+
+
+def test_what_is_due_is_said_with_its_time():
+    ruleset = parse(text("B within 5 minutes otherwise not C"))
+    answer = entail(ruleset, Context(frozenset({"A"})))
+    assert answer.consistent, "forbidden now and due within five minutes may both be kept"
+    assert answer.obligations == ("B", "C")
+    assert answer.prohibitions == ("B",)
+    assert [str(o.timing) for o in answer.timed] == ["within 5 minutes, otherwise NOT C"]
+    assert answer.because[0].in_words() == ("B within 5 minutes, otherwise NOT C",)
+
+
+@pytest.mark.parametrize("response", ["B within 5 minutes", "B eventually", "B otherwise C"])
+def test_the_runtime_refuses_what_it_cannot_keep(response, tmp_path):
+    path = tmp_path / "timed.sleec"
+    path.write_text(text(response), encoding="utf-8")
+    with pytest.raises(UnsupportedTimes, match="in line 13") as caught:
+        sleec_runtime.load(path)
+    assert caught.value.lines == (13,)
+
+
+def test_the_runtime_takes_rules_of_the_dsl_without_times():
+    sleec = Sleec(parse(text("B unless m").replace("R2 when A then not B", "R2 when A then C")))
+    sleec.implement({"B": lambda: None, "C": lambda: None})
+    assert sleec.trigger("A").obligations == ("B", "C")
+    sleec.update({"m": True})
+    assert sleec.trigger("A").obligations == ("C",)
+
+
+@pytest.mark.parametrize("arguments", [["cases"], ["conform", "robot.py", "--ruleset"]])
+def test_commands_refuse_what_they_cannot_keep(arguments, tmp_path, monkeypatch):
+    from click.testing import CliRunner
+
+    from sleec_verify.cli.commands import sleec_verify
+
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "robot.py").write_text("", encoding="utf-8")
+    (tmp_path / "timed.sleec").write_text(text("B eventually"), encoding="utf-8")
+    assert isinstance(CliRunner().invoke(sleec_verify, [*arguments, "timed.sleec"]).exception, UnsupportedTimes)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_equation_1_has_no_times(form, tmp_path):
+    from click.testing import CliRunner
+
+    from sleec_verify.cli.compile import command
+
+    path = tmp_path / "timed.sleec"
+    path.write_text(text("B eventually"), encoding="utf-8")
+    result = CliRunner().invoke(command, [str(path), "--to", form])
+    assert isinstance(result.exception, UnsupportedTimes)
