@@ -192,6 +192,59 @@ def test_a_rule_whose_guard_is_false_is_not_vacuous():
     assert not oracle.vacuous(rules("A and ({m} and (not {m})) then B"), "R1").found
 
 
+@pytest.mark.parametrize(
+    ("rule", "claim", "expected"),
+    [
+        # In place of what is not done in time, at the end of the time.
+        ("A then B within 2 seconds otherwise C", "exists A while not B within 2 seconds while not C", True),
+        ("A then B within 2 seconds otherwise C", "exists A while not B while not C within 2 seconds", True),
+        (
+            "A then B within 2 seconds otherwise C",
+            "exists A while not B within 2 seconds while not C within [2, 2] seconds",
+            False,
+        ),
+        (
+            "A then B within 1 second otherwise C within 2 seconds",
+            "exists A while not B within 1 second while not C within [1, 3] seconds",
+            False,
+        ),
+        (
+            "A then B within 1 second otherwise C within 2 seconds",
+            "exists A while not B within 1 second while not C within 2 seconds",
+            True,
+        ),
+        # In place of it, at once.
+        ("A then B within 2 seconds else C", "exists A while not B within 2 seconds while not C", False),
+        ("A then B eventually otherwise C", "exists A while not B eventually while not C", False),
+        ("A then B otherwise C", "exists A while not B while C", True),
+    ],
+)
+def test_what_is_due_in_place_of_a_response(rule, claim, expected):
+    assert found_in(rules(rule), claim) is expected
+
+
+@pytest.mark.parametrize(
+    ("lasting", "claim", "expected"),
+    [
+        # D shows that m is false.
+        ("when A then {m} for 2 seconds", "exists A while D within 1 second", False),
+        ("when A then {m} for 2 seconds", "exists A while D within [2, 2] seconds", True),
+        ("when A and {n} then {m} for 2 seconds", "exists A while D within 1 second", True),
+        ("when A then {m} until B", "exists A while D within 1 second while not B within 1 second", False),
+        ("when A then {m} until B", "exists A while D within [1, 1] seconds while B within [1, 1] seconds", True),
+        ("when A then {m} until B and {m}", "exists A while D while B while not B within [1, 9] seconds", False),
+    ],
+)
+def test_what_lasts(lasting, claim, expected):
+    assert found_in(rules("C then C", relations=f"forbid D {{m}}\n{lasting}"), claim) is expected
+
+
+def found_in(ruleset, claim):
+    whole = parse(f"{ruleset.source.text}concern_start\nc1 {claim}\nconcern_end\n")
+    (concern,) = claims(whole, "concern")
+    return oracle.concern(whole, concern).found
+
+
 def test_lengths_and_values_of_measures():
     definitions = "def_start\nevent A\nevent B\nmeasure x: numeric\nmeasure s: scale(low, high)\ndef_end\n"
     text = (
