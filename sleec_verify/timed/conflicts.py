@@ -23,7 +23,7 @@ from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.timeline import Timeline, excerpt
 from sleec_verify.timed.unfolding import Unfolding
 
-MOST_PAST = 6
+MOST_PAST = 4
 """Instants before now that are tried."""
 
 MOST_PLANS = 200
@@ -46,11 +46,13 @@ class _Search:
     ) -> None:
         self.program = program
         self.cone = cone
+        self.rule = rule
         self._impossible = impossible
         self.outer = Unfolding(program, impossible=impossible)
         self.true = self.outer.formula.true
         self.add = self.outer.add
-        self.past = [self.outer.instant() for _ in range(past)]
+        # Histories of fewer instants have been looked at before.
+        self.past = [self.outer.instant(self.true) for _ in range(past)]
         self.now = self.outer.instant(self.true)
         self.outer.now = self.now
         self.outer.spared.add((rule.label, self.now))
@@ -87,7 +89,8 @@ class _Search:
     def find(self) -> tuple[Fixed, ...] | None:
         """A history that cannot be continued, or None if every one can."""
         plans = {Plan(frozenset())}
-        while self.outer.ask():
+        # What the history leaves to be done later is taken on trust, as most histories can be continued and show how.
+        while self.outer.trusting():
             clauses = self.plans.loops()
             if clauses:
                 self.outer.formula.clauses += clauses
@@ -95,7 +98,11 @@ class _Search:
             beginning = self._beginning()
             inner = Unfolding(self.program, beginning=beginning, impossible=self._impossible)
             if not inner.ask():
-                return beginning
+                if _goes_on(self.program, beginning, spared=self.rule):
+                    return beginning
+                # It was lost before the rule came to it.
+                self.outer.grow()
+                continue
             plan = self._plan(inner, len(beginning) - 1)
             if plan in plans or len(plans) > MOST_PLANS:
                 raise Undecided(f"no answer after {len(plans)} ways to go on")

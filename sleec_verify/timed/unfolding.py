@@ -38,6 +38,9 @@ from sleec_verify.timed.times import Times
 MOST = 12
 """Instants that may be added before the search for a trace is given up. Published rulesets need three."""
 
+MOST_CLAUSES = 8_000
+"""Clauses with which no more instants are added: from there, each takes seconds."""
+
 
 @dataclass
 class _Need:
@@ -165,7 +168,11 @@ class Unfolding:
             return -event if what.negated else event
         if not what.negated:
             later = what.event if what.start is not None and what.start >= 0 else None
-            return self.exists(lambda other: self._occurrence(at, other, what), later)
+            literal = self.exists(lambda other: self._occurrence(at, other, what), later)
+            if at <= self.now and what.end is not None and what.end < 0:
+                # Nothing is added before now.
+                self.add([-self._needs.pop().rest])
+            return literal
         never = self.formula.fresh()
 
         def not_there(other: int) -> None:
@@ -342,11 +349,15 @@ class Unfolding:
                 return False
             if not self._solve(required, let_in, lambda need: True):
                 return False
-            for need in [need for need in self._needs if self.true(need.rest)]:
-                self._grow(need)
+            self.grow()
+
+    def grow(self) -> None:
+        """Add an instant for each thing that the model found last trusts to come about at some other instant."""
+        for need in [need for need in self._needs if self.true(need.rest)]:
+            self._grow(need)
 
     def _grow(self, need: _Need) -> None:
-        if self._grown >= self._most:
+        if self._grown >= self._most or len(self.formula.clauses) > MOST_CLAUSES:
             raise Undecided(f"no answer with up to {len(self.instants)} instants")
         self._grown += 1
         self._needs.remove(need)
@@ -372,7 +383,7 @@ class Unfolding:
             if not self._expand() and not self._refine():
                 return True
 
-    def trusting(self, *required: int, but: Set[str]) -> bool:
+    def trusting(self, *required: int, but: Set[str] = frozenset()) -> bool:
         """Whether the instants that there are can be part of a trace for all that can be told without adding any, if
         the events of `but` do not occur later."""
         return self._solve(required, None, lambda need: need.later not in but)
