@@ -218,9 +218,9 @@ class Rule:
     def clauses(self) -> Iterator[Clause]:
         """Every clause in the order of the text, nested ones after the clause that holds them. The place in this
         order is the clause's number: 0 for the default, i for the layer ``label.hci``."""
-        yield from _in_text_order(self.default)
+        yield from in_text_order(self.default)
         for hedge in self.hedges:
-            yield from _in_text_order(hedge)
+            yield from in_text_order(hedge)
 
     def layer(self, number: int) -> str | None:
         """The name of the layer of clause `number`; None for the default, which has the rule's own ε."""
@@ -231,10 +231,11 @@ class Rule:
         return domain is None or self.domains is None or domain in self.domains
 
 
-def _in_text_order(clause: Clause) -> Iterator[Clause]:
+def in_text_order(clause: Clause) -> Iterator[Clause]:
+    """A clause and those nested in it, in the order of the text."""
     yield clause
     for hedge in clause.hedges:
-        yield from _in_text_order(hedge)
+        yield from in_text_order(hedge)
 
 
 # What else a ruleset holds --------------------------------------------------------------------------------
@@ -242,8 +243,8 @@ def _in_text_order(clause: Clause) -> Iterator[Clause]:
 
 @dataclass(frozen=True, slots=True)
 class Declaration:
-    """``TRIGGER a, b``, ``CONDITION c`` or ``OBLIGATION d``: `kind` is that of the names. An event of the DSL may be a
-    trigger and an obligation; `agent` says whose it is, if that is said."""
+    """``TRIGGER a, b``, ``CONDITION c``, ``OBLIGATION d`` or ``EVENT e BY system``: `kind` is that of the names. An
+    event may be a trigger and an obligation; `agent` says whose it is, if that is said."""
 
     kind: DeclaredKind
     names: tuple[str, ...]
@@ -464,7 +465,7 @@ def conditions_in(clause: Clause) -> Iterator[Formula]:
     for obligation in clause.obligations:
         if obligation.timing is not None:
             for alternative in obligation.timing.alternatives():
-                for inner in _in_text_order(alternative):
+                for inner in in_text_order(alternative):
                     yield from conditions_in(inner)
 
 
@@ -474,7 +475,7 @@ def literals(clause: Clause) -> Iterator[Obligation]:
         yield obligation
         if obligation.timing is not None:
             for alternative in obligation.timing.alternatives():
-                for inner in _in_text_order(alternative):
+                for inner in in_text_order(alternative):
                     yield from literals(inner)
 
 
