@@ -104,9 +104,10 @@ def _lower_case_keywords(cones: Cones) -> Iterator[Finding]:
     measures = set(ruleset.measures)
     for name in sorted(ruleset.triggers | ruleset.conditions | ruleset.obligations | measures):
         words = name.split()
-        keywords = _KEYWORDS | _TIMES if name in ruleset.obligations else _KEYWORDS
+        # "call someone else" is fine, too: a time, or what is due instead, would follow.
+        times = _TIMES if name in ruleset.obligations and words[-1].lower() not in _TIMES else frozenset[str]()
         # "the user does not answer" is fine as one condition; "not asleep" most likely is not.
-        found = [w for n, w in enumerate(words) if w.lower() in keywords or (n == 0 and w.lower() == "not")]
+        found = [w for n, w in enumerate(words) if w.lower() in _KEYWORDS | times or (n == 0 and w.lower() == "not")]
         if len(words) > 1 and found:
             span, rules = mentions(ruleset, name)
             yield PHRASE_KEYWORD.finding(
