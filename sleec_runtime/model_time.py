@@ -29,6 +29,7 @@ Unit = Literal["seconds", "minutes", "hours", "days"]
 SECONDS: Mapping[Unit, int] = {"seconds": 1, "minutes": 60, "hours": 3600, "days": 86400}
 
 ClaimKind = Literal["concern", "purpose"]
+CLAIM_KINDS: tuple[ClaimKind, ...] = ("concern", "purpose")
 ClaimForm = Literal["exists", "when"]
 EventRelationKind = Literal["witness", "equal", "mutualExclusive", "happenBefore"]
 MeasureRelationKind = Literal["imply", "iff", "mutualExclusive", "opposite", "invariant"]

@@ -39,13 +39,19 @@ class Encoder:
     Call `close` when all is in: it adds what orders the regions of the measures.
     """
 
-    def __init__(self, measures: Mapping[str, Measure], missing: frozenset[str] = frozenset()) -> None:
-        """`missing` are measures without a value: a comparison with one of them is false."""
+    def __init__(
+        self,
+        measures: Mapping[str, Measure],
+        missing: frozenset[str] = frozenset(),
+        clauses: list[list[int]] | None = None,
+    ) -> None:
+        """`missing` are measures without a value: a comparison with one of them is false. `clauses` is where the
+        clauses go, where several encoders grow one formula."""
         self._missing = missing
         self.described: dict[int, tuple[str, str]] = {}
         """Literals to what part of a rule they stand for: ``("prefix", "label.i")`` is C0 ∧ … ∧ Ci, ``("guard",
         "label.i")`` the guard of clause i (``label.i.j`` in a chain nested in clause i)."""
-        self.clauses: list[list[int]] = []
+        self.clauses: list[list[int]] = [] if clauses is None else clauses
         self.variables: dict[Key, int] = {}
         self.top = 0
         self._true = 0
@@ -61,8 +67,7 @@ class Encoder:
     def variable(self, key: Key) -> int:
         variable = self.variables.get(key)
         if variable is None:
-            self.top += 1
-            variable = self.variables[key] = self.top
+            variable = self.variables[key] = self.fresh()
         return variable
 
     def true(self) -> int:
@@ -128,15 +133,24 @@ class Encoder:
 
     # Rules -------------------------------------------------------------------------------------------------
 
-    def guards(self, rule: Rule, reading: Reading) -> list[int]:
-        """For each clause of the rule, in the order of `Rule.clauses`, a literal equal to its guard."""
-        triggered = self.variable(("trigger", rule.trigger))
+    def guards(self, rule: Rule, reading: Reading, triggered: int | None = None) -> list[int]:
+        """For each clause of the rule, in the order of `Rule.clauses`, a literal equal to its guard. `triggered` stands
+        in for the rule's trigger, if given."""
+        if triggered is None:
+            triggered = self.variable(("trigger", rule.trigger))
         if rule.guard is not None:
             triggered = self.both(triggered, self.literal(rule.guard))
         guards: list[int] = []
         decides = self._split(triggered, rule.hedges, reading, rule.label)
         for number, (clause, literal) in enumerate(zip((rule.default, *rule.hedges), decides)):
             self._descend(literal, clause, reading, guards, f"{rule.label}.{number}" if clause.hedges else "")
+        return guards
+
+    def chain(self, clause: Clause, reading: Reading) -> list[int]:
+        """For each clause of a chain that stands by itself (what is due in place of a response), in the order of
+        `in_text_order`, a literal equal to "this one decides"."""
+        guards: list[int] = []
+        self._descend(self.true(), clause, reading, guards, "")
         return guards
 
     def _descend(self, decides: int, clause: Clause, reading: Reading, guards: list[int], path: str) -> None:

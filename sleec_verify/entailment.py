@@ -141,7 +141,7 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
         ruleset = ruleset.in_domain(domain)
     stated = {rule.label: rule for rule in ruleset.rules if rule.trigger in context.triggers}
     if ruleset.is_timed:
-        from sleec_verify.timed import untimed
+        from sleec_verify.timed.untimed import untimed
 
         ruleset = untimed(ruleset)
     rules = [rule for rule in ruleset.rules if rule.trigger in context.triggers]

@@ -17,6 +17,12 @@ def replays(cones: Cones, finding: Finding) -> bool:
     """Whether the evaluator agrees. A finding without a witness has nothing to replay."""
     if finding.witness is None:
         return True
+    if finding.timeline is not None:
+        from sleec_verify.timed.replay import plays
+        from sleec_verify.timed.traces import Traces
+
+        assert isinstance(cones, Traces), "only the checks of traces make timelines"
+        return plays(cones, finding)
     context = finding.witness.context()
     possible = not broken_assumptions(cones.ruleset, context)
     return possible and _CLAIMS[finding.check](_about(cones, finding, context), finding, context)

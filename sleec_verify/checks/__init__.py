@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from time import perf_counter
 
 from sleec_runtime.model import Ruleset
@@ -20,6 +21,8 @@ from sleec_verify.cone import Cones
 from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
 from sleec_verify.replay import replays
 from sleec_verify.solver import Undecided
+from sleec_verify.timed.responses import Untimed
+from sleec_verify.timed.traces import speaks_of_traces
 
 __all__ = ["CHECKS", "Check", "FindingKind", "checks_for", "run_checks"]
 
@@ -49,11 +52,15 @@ Progress = Callable[[str, int, int], None]
 def checks_for(ruleset: Ruleset) -> list[str]:
     """The names of the checks that there are for a ruleset."""
     # Structured English has no defects: it refuses them.
-    names = [name for name in CHECKS if name != DEFECTS.name or ruleset.syntax == "dsl"]
+    left_out = {DEFECTS.name} if ruleset.syntax != "dsl" else set()
+    if speaks_of_traces(ruleset):
+        # There, what is done happens, and triggers what it triggers.
+        left_out.add(TRIGGER_OBLIGATION.name)
+    names = [name for name in CHECKS if name not in left_out]
     if ruleset.is_timed:
-        from sleec_verify.timed import claim_checks
+        from sleec_runtime.model_time import CLAIM_KINDS, claims
 
-        names += claim_checks(ruleset)
+        names += [kind for kind in CLAIM_KINDS if claims(ruleset, kind)]
     return names
 
 
@@ -62,20 +69,28 @@ def run_checks(
     names: Sequence[str] | None = None,
     domain: str | None = None,
     progress: Progress | None = None,
+    untimed: Untimed = "at",
 ) -> tuple[CheckResult, ...]:
     """The verdicts of the checks (all, or those of `names`), in their own order.
 
     A ruleset is checked in each of its domains, with the rules that apply everywhere; `domain` picks one. A finding
-    says in which domains it holds. Raises KeyError for an unknown check.
+    says in which domains it holds. `untimed` is what a response without a window means, in rules that speak of time.
+    Raises KeyError for an unknown check.
     """
     if names is None:
         names = checks_for(ruleset)
-    if ruleset.is_timed:
-        return _run_timed(ruleset, names, domain, progress)
-    chosen = [CHECKS[name] for name in dict.fromkeys(names)]
+    checks: Mapping[str, Check] = CHECKS
+    known: Callable[[Ruleset], Cones] = Cones
+    if speaks_of_traces(ruleset):
+        from sleec_verify.checks.timed import TIMED
+        from sleec_verify.timed.traces import Traces
+
+        checks = {**CHECKS, **TIMED}
+        known = partial(Traces, untimed=untimed)
+    chosen = [checks[name] for name in dict.fromkeys(names)]
     domains = ruleset.domains if domain is None else (domain,)
-    by_domain = {d: Cones(ruleset.in_domain(d)) for d in domains}
-    whole = Cones(ruleset)
+    by_domain = {d: known(ruleset.in_domain(d)) for d in domains}
+    whole = known(ruleset)
     results = []
     for done, check in enumerate(chosen):
         if progress is not None:
@@ -87,31 +102,6 @@ def run_checks(
             verdict, reason = _verdict(check, by_domain)
         results.append(CheckResult(check.name, verdict, perf_counter() - started, reason))
     return tuple(results)
-
-
-def _run_timed(
-    ruleset: Ruleset, names: Sequence[str], domain: str | None, progress: Progress | None
-) -> tuple[CheckResult, ...]:
-    """As `run_checks`, where what depends on time stays undecided."""
-    from sleec_verify.timed import claim_results, may_find, undecided, undecided_verdict
-
-    wanted = set(names)
-    results = []
-    whole = Cones(ruleset if domain is None else ruleset.in_domain(domain))
-    chosen = [check for check in CHECKS.values() if check.name in wanted]
-    for done, check in enumerate(chosen):
-        if progress is not None:
-            progress(check.name, done, len(chosen))
-        started = perf_counter()
-        why = undecided(ruleset, check.name)
-        verdict: Verdict | None = None
-        reason: str | None = None
-        if why is None or may_find(check.name):
-            verdict, reason = _verdict(check, {"": whole})
-        if why is not None or verdict is None:
-            verdict = undecided_verdict(why or "", verdict)
-        results.append(CheckResult(check.name, verdict, perf_counter() - started, reason))
-    return (*results, *claim_results(ruleset, wanted))
 
 
 def _verdict(check: Check, by_domain: Mapping[str, Cones]) -> tuple[Verdict, str | None]:

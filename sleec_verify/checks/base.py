@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from sleec_runtime.model import Clause, Formula, Obligation, Rule, Span
 from sleec_verify.cone import Cones, Place
 from sleec_verify.equation import implications
 from sleec_verify.finding import ClauseRef, Finding, Severity, Witness
+
+if TYPE_CHECKING:
+    from sleec_verify.timed.timeline import Timeline
 
 Scope = Literal["some domain", "every domain", "text"]
 """Where a finding must hold to count: in some domain, in every domain in which its first rule applies, or whatever
@@ -55,11 +58,24 @@ class Check:
         note: str | None = None,
         help: str | None = None,
         related: tuple[tuple[Span, str], ...] = (),
+        timeline: Timeline | None = None,
     ) -> Finding:
         """A finding of this check, of its first kind unless told."""
         code, severity = self.kinds[kind].code, self.kinds[kind].severity
         return Finding(
-            self.name, code, severity, message, span, rules, clauses, obligations, witness, note, help, related
+            self.name,
+            code,
+            severity,
+            message,
+            span,
+            rules,
+            clauses,
+            obligations,
+            witness,
+            note,
+            help,
+            related,
+            timeline=timeline,
         )
 
 

@@ -39,7 +39,7 @@ def _beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Numbe
     """The events and formulas of concerns, purposes and relations, and what the lengths of all windows are."""
     if not ruleset.is_timed:
         return set(), [], []
-    from sleec_verify.timed_names import beside_rules
+    from sleec_verify.timed.names import beside_rules
 
     return beside_rules(ruleset)
 

@@ -32,7 +32,7 @@ from sleec_runtime.model import (
 from sleec_runtime.model_time import RELATIONS, Claim
 from sleec_verify.conversion.parts import with_formulas
 from sleec_verify.conversion.rules import narrow, split
-from sleec_verify.timed_names import beside_rules
+from sleec_verify.timed.names import beside_rules
 
 _NAME = re.compile(r"[^\W\d]\w*")
 

@@ -44,7 +44,13 @@ def finding_lines(finding: Finding, source: Source, palette: Palette) -> Iterato
     marks += (Mark(span, "help", word) for span, word in finding.related)
     yield from excerpt(source, marks, palette)
     margin = " " * len(str(max(source.place(mark.span).end_line for mark in marks)))
-    if finding.witness is not None:
+    if finding.timeline is not None:
+        from sleec_verify.report.timeline import chart, in_words
+
+        for lines, title in ((in_words(finding.timeline), "timeline"), (chart(finding), "chart")):
+            yield f"{margin} = {palette('strong', title)}:"
+            yield from (f"{margin}     {line}" for line in lines)
+    elif finding.witness is not None:
         yield f"{margin} = {palette('strong', 'situation')}: {witness_text(finding.witness)}"
     if finding.domains:
         yield f"{margin} = {palette('strong', 'domain')}: {listed(finding.domains)}"

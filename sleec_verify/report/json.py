@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from sleec_runtime.model import Source, Span, Value
     from sleec_verify.finding import CheckResult, Finding, Witness
     from sleec_verify.report.palette import Palette
+    from sleec_verify.timed.timeline import Timeline
 
 Json = Union[None, bool, int, float, str, "list[Json]", "dict[str, Json]"]
 
@@ -78,6 +79,7 @@ def finding_json(finding: Finding, source: Source) -> dict[str, Json]:
         "obligations": list(finding.obligations),
         "span": span_json(finding.span, source),
         "witness": None if finding.witness is None else _witness(finding.witness),
+        **({} if finding.timeline is None else {"timeline": _timeline(finding.timeline)}),
         "domains": list(finding.domains),
         "related": [{"span": span_json(span, source), "message": word} for span, word in finding.related],
         "note": finding.note,
@@ -106,6 +108,31 @@ def span_json(span: Span, source: Source) -> dict[str, Json]:
 
 def _witness(witness: Witness) -> Json:
     return {"triggers": list(witness.triggers), "conditions": values_json(witness.conditions)}
+
+
+def _timeline(timeline: Timeline) -> Json:
+    """Times are seconds from the first moment; `now` is the moment after which all is open, or null."""
+    moments: list[Json] = [
+        {
+            "time": moment.time,
+            "events": list(moment.events),
+            "conditions": values_json(moment.conditions),
+            "due": [
+                {
+                    "rule": due.rule,
+                    "clause": due.clause,
+                    "response": due.words,
+                    "event": due.event,
+                    "negated": due.negated,
+                    "from": due.start,
+                    "until": due.end,
+                }
+                for due in moment.due
+            ],
+        }
+        for moment in timeline.moments
+    ]
+    return {"moments": moments, "now": timeline.now}
 
 
 def values_json(values: Mapping[str, Value]) -> dict[str, Json]:

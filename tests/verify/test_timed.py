@@ -32,7 +32,6 @@ rule_start
   R4 when A and (x > 3 and x < 3) then B
 rule_end
 """
-NEEDS_TIME = ("conflict", "vacuous-conflict", "redundant-rule", "redundant-hedge")
 
 
 def verdicts(text):
@@ -43,31 +42,42 @@ def text(response, beside=""):
     return TEXT.replace("{response}", response) + beside
 
 
-def test_without_times_all_is_decided():
-    found = verdicts(text("B unless n"))
-    assert set(found) == set(CHECKS)
-    assert not [name for name, result in found.items() if isinstance(result.verdict, Unknown)]
-    assert isinstance(found["conflict"].verdict, Refuted)
+def unknown(found):
+    return [name for name, result in found.items() if isinstance(result.verdict, Unknown)]
 
 
 @pytest.mark.parametrize(
-    ("response", "construct"),
+    "response",
     [
-        ("B within 5 minutes", "within in line 13"),
-        ("B eventually", "eventually in line 13"),
-        ("B otherwise C", "otherwise in line 13"),
-        ("B else {C unless n}", "else in line 13"),
-        ("C unless n then B within K days", "within in line 13"),
+        "B unless n",
+        "B within 5 minutes",
+        "B eventually",
+        "B otherwise C",
+        "B else {C unless n}",
+        "C unless n then B within K days",
     ],
 )
-def test_times_leave_undecided_only_what_needs_them(response, construct):
+def test_all_is_decided(response):
     found = verdicts(text(response))
-    for name, result in found.items():
-        assert isinstance(result.verdict, Unknown) == (name in NEEDS_TIME), name
-    for name in NEEDS_TIME:
-        assert found[name].verdict == Unknown(f"{construct}: not analysed yet")
+    # What is done happens there, so a name that is both is nothing to note.
+    assert set(found) == set(CHECKS) - {"trigger-obligation"}
+    assert unknown(found) == []
     assert [f.rules for f in found["dead-rule"].findings] == [("R4",)]
     assert [f.rules for f in found["dead-hedge"].findings] == [("R3",)]
+
+
+def test_a_window_leaves_room_that_now_does_not():
+    assert [f.rules for f in verdicts(text("B"))["conflict"].findings] == [("R1", "R2"), ("R2", "R1")]
+    # R2 forbids B at its own instant only, which is the last one that is left to R1 five minutes after its trigger.
+    (finding,) = verdicts(text("B within 5 minutes"))["conflict"].findings
+    assert finding.rules == ("R2", "R1")
+    assert [moment.time for moment in finding.timeline.moments] == [0, 300]
+
+
+def test_the_length_of_a_window_that_a_measure_says_is_not_analysed():
+    found = verdicts(text("B within x seconds"))
+    assert set(unknown(found)) == {"conflict", "vacuous-conflict", "redundant-rule", "redundant-hedge"}
+    assert "the length of time x seconds is that of a measure" in found["conflict"].verdict.why
 
 
 def test_the_readings_part_where_only_times_differ():
@@ -75,19 +85,17 @@ def test_the_readings_part_where_only_times_differ():
     assert [f.rules for f in found["reading"].findings] == [("R1",)]
 
 
-def test_relations_leave_undecided_what_they_may_rule_out():
-    found = verdicts(text("B", "relation_start measure invariant {m} relation_end"))
-    for name, result in found.items():
-        undecided = (*NEEDS_TIME, "dead-rule", "dead-hedge", "reading")
-        assert isinstance(result.verdict, Unknown) == (name in undecided), name
-    assert [f.rules for f in found["dead-rule"].findings] == [("R4",)]
+def test_relations_rule_out():
+    found = verdicts(text("B unless n", "relation_start measure invariant (not {n}) relation_end"))
+    assert unknown(found) == []
+    assert [f.clauses for f in found["dead-hedge"].findings] == [(("R1", 1),), (("R3", 1),)]
 
 
-def test_concerns_and_purposes_are_named_and_disturb_nothing():
+def test_concerns_and_purposes_disturb_nothing():
     beside = "concern_start c1 when A then not B within 2 minutes concern_end purpose_start p1 exists A purpose_end"
     found = verdicts(text("B", beside))
-    assert found["concern"].verdict == Unknown("the concern c1 in line 18: not analysed yet")
-    assert found["purpose"].verdict == Unknown("the purpose p1 in line 18: not analysed yet")
+    assert isinstance(found["concern"].verdict, Proved), "nothing keeps both R1 and R2, so there is no trace with A"
+    assert [f.obligations for f in found["purpose"].findings] == [("p1",)]
     assert isinstance(found["conflict"].verdict, Refuted)
     (result,) = run_checks(parse(text("B", beside)), ["purpose"])
     assert result.name == "purpose"

@@ -1,0 +1,98 @@
+"""Concerns that the rules allow, and purposes that they block."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sleec_runtime.model_time import Claim, claims
+from sleec_verify.checks.base import Check, FindingKind, listed
+from sleec_verify.checks.timed.each import each, in_words, rules_in, traces
+from sleec_verify.cone import Cones
+from sleec_verify.finding import Finding, Witness
+from sleec_verify.timed.questions import coming_about
+
+
+def _concerns(cones: Cones) -> Iterator[Finding]:
+    """A finding for each concern that comes about in some trace that keeps all."""
+    known = traces(cones)
+
+    def of(claim: Claim) -> Iterator[Finding]:
+        answer = coming_about(known.program, claim)
+        if answer.trace is None:
+            return
+        moment = next(m for m in answer.trace.moments if claim.event in m.events)
+        yield CONCERN.finding(
+            f"the concern {claim.label} can come about while every rule is kept",
+            claim.label_span,
+            rules=tuple(dict.fromkeys(due.rule for moment in answer.trace.moments for due in moment.due)),
+            obligations=(claim.label,),
+            witness=Witness(moment.events, moment.conditions),
+            timeline=answer.trace,
+            help="add a rule that prevents it, or a hedge to the one that leads to it",
+        )
+
+    yield from each(((claim.label, claim) for claim in claims(known.ruleset, "concern")), of)
+
+
+def _purposes(cones: Cones) -> Iterator[Finding]:
+    """A finding for each purpose that comes about in no trace that keeps all."""
+    known = traces(cones)
+
+    def of(claim: Claim) -> Iterator[Finding]:
+        answer = coming_about(known.program, claim)
+        if answer.trace is not None:
+            return
+        blocking = in_words(known, answer.matter)
+        yield PURPOSE.finding(
+            f"the purpose {claim.label} cannot come about",
+            claim.label_span,
+            rules=rules_in(known, answer.matter),
+            obligations=(claim.label,),
+            note=f"{listed(blocking)} {'blocks' if len(blocking) == 1 else 'block'} it"
+            if blocking
+            else "it contradicts itself",
+            help="give the rules that block it a hedge for this case, or drop the purpose",
+        )
+
+    yield from each(((claim.label, claim) for claim in claims(known.ruleset, "purpose")), of)
+
+
+_EVENTS = "def_start\n  event UserCalls\n  event Answer\n  event Ring\n  measure asleep: boolean\ndef_end\n"
+
+CONCERN = Check(
+    "concern",
+    "Do the rules rule out every concern?",
+    (
+        FindingKind(
+            "SLEEC104",
+            "error",
+            "a concern that can come about while every rule is kept",
+            "A concern is what must not come about. The robot can keep every rule and still bring it about: the rules "
+            "are not enough. The timeline shows how.",
+            _EVENTS + "rule_start\n  R1 when UserCalls then Answer unless {asleep} then Ring\nrule_end\n"
+            "concern_start\n  c1 when UserCalls and {asleep} then Ring\nconcern_end\n",
+            _EVENTS + "rule_start\n  R1 when UserCalls then Answer unless {asleep} then not Ring\nrule_end\n"
+            "concern_start\n  c1 when UserCalls and {asleep} then Ring\nconcern_end\n",
+        ),
+    ),
+    _concerns,
+)
+
+PURPOSE = Check(
+    "purpose",
+    "Do the rules leave room for every purpose?",
+    (
+        FindingKind(
+            "SLEEC105",
+            "error",
+            "a purpose that the rules block",
+            "A purpose is what must be able to come about. Whatever happens, some rule is broken wherever it does: the "
+            "rules ask too much. The rules that block it are named.",
+            _EVENTS + "rule_start\n  R1 when UserCalls then not Answer\nrule_end\n"
+            "purpose_start\n  p1 exists UserCalls while Answer\npurpose_end\n",
+            _EVENTS + "rule_start\n  R1 when UserCalls then Answer unless {asleep} then not Answer\nrule_end\n"
+            "purpose_start\n  p1 exists UserCalls while Answer\npurpose_end\n",
+        ),
+    ),
+    _purposes,
+)

@@ -1,0 +1,60 @@
+"""Rules that, triggered at a bad moment, leave no way to go on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from sleec_runtime.model import Rule
+from sleec_verify.checks.base import listed
+from sleec_verify.checks.conflict import CONFLICT as OF_SITUATIONS
+from sleec_verify.checks.timed.each import each, in_words, rules_in, traces
+from sleec_verify.cone import Cones
+from sleec_verify.finding import Finding, Witness
+from sleec_verify.timed.conflicts import conflict
+
+
+def _conflicts(cones: Cones) -> Iterator[Finding]:
+    """A finding for each rule that, triggered now after a history that breaks nothing, leaves no way to go on that
+    keeps all, though without it there would be one."""
+    known = traces(cones)
+
+    def of(rule: Rule) -> Iterator[Finding]:
+        history = conflict(known.program, rule)
+        if history is None:
+            return
+        others = [name for name in history.matter if name != rule.label]
+        words = in_words(known, others)
+        now = history.timeline.moments[-1]
+        yield CONFLICT.finding(
+            f"{rule.label} can be triggered where it cannot be kept"
+            + (f" together with {listed(words)}" if words else ""),
+            rule.label_span if rule.labelled else rule.span,
+            rules=(rule.label, *rules_in(known, others)),
+            obligations=tuple(sorted(_contested(known, history.matter))),
+            witness=Witness(now.events, now.conditions),
+            timeline=history.timeline,
+            help="decide which should give way, and say so with a hedge",
+            related=tuple(
+                (other.label_span if other.labelled else other.span, "with this one")
+                for other in known.rules
+                if other.label in others
+            ),
+        )
+
+    yield from each(((rule.label, rule) for rule in known.rules), of)
+
+
+def _contested(cones: Cones, labels: tuple[str, ...]) -> set[str]:
+    """The events that some of these rules call for and some forbid."""
+    from sleec_verify.timed.program import responses_of
+
+    said: dict[bool, set[str]] = {False: set(), True: set()}
+    for label in labels:
+        if label in cones.ruleset.by_label:
+            for obligation in responses_of(cones.ruleset.by_label[label]):
+                said[obligation.negated].add(obligation.name)
+    return said[False] & said[True]
+
+
+CONFLICT = replace(OF_SITUATIONS, run=_conflicts)

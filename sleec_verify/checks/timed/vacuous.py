@@ -1,0 +1,37 @@
+"""Rules that no trace triggers, because triggering them leads to a conflict in any case."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from sleec_runtime.model import Rule
+from sleec_verify.checks.base import listed
+from sleec_verify.checks.timed.each import each, in_words, rules_in, traces
+from sleec_verify.checks.vacuous import VACUOUS_CONFLICT as OF_SITUATIONS
+from sleec_verify.cone import Cones
+from sleec_verify.finding import Finding
+from sleec_verify.timed.questions import reachable, triggering
+
+
+def _vacuous(cones: Cones) -> Iterator[Finding]:
+    """A finding for each rule that no trace that keeps all triggers, though its condition can hold."""
+    known = traces(cones)
+
+    def of(rule: Rule) -> Iterator[Finding]:
+        answer = triggering(known.program, rule)
+        if answer.trace is not None or not any(reachable(known.program, rule)):
+            return
+        others = in_words(known, (name for name in answer.matter if name != rule.label))
+        yield VACUOUS_CONFLICT.finding(
+            f"{rule.label} can be triggered, but never without a conflict",
+            rule.label_span if rule.labelled else rule.span,
+            rules=(rule.label, *rules_in(known, answer.matter, but=rule.label)),
+            note=f"it always meets {listed(others)}" if others else "what it calls for never comes to an end",
+            help="no course of events is left in which it is triggered and all is kept; mend it, or what it meets",
+        )
+
+    yield from each(((rule.label, rule) for rule in known.rules), of)
+
+
+VACUOUS_CONFLICT = replace(OF_SITUATIONS, run=_vacuous)

@@ -1,0 +1,217 @@
+"""Situational conflicts: a history that no rule breaks, in which a rule, triggered now, leaves no way to go on.
+
+"There is a history that no continuation mends" alternates quantifiers. The history is searched for among the traces
+that keep everything but the rule's demand of now, so the rule matters: without it there is a way to go on. It must also
+defeat each of a list of *plans*. A plan is a way to go on that depends on the history as little as possible: events
+added now, which bring with them all that is due at once, and instants later, at distances from those of the history.
+The list begins with the plan to do only what is due at once. Each history found is tried: if it can be continued, how
+is a plan that the next history must defeat as well; if not, it is the conflict.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from sleec_runtime.model import Rule
+from sleec_verify.solver import Undecided
+from sleec_verify.timed.conflict_cone import Cone
+from sleec_verify.timed.instant import Fixed
+from sleec_verify.timed.plans import Later, Plan, Plans, at_once
+from sleec_verify.timed.program import Program
+from sleec_verify.timed.questions import decided, needed
+from sleec_verify.timed.responses import Demand, Every, Occurs
+from sleec_verify.timed.timeline import Timeline, excerpt
+from sleec_verify.timed.unfolding import Unfolding
+
+MOST_PAST = 6
+"""Instants before now that are tried."""
+
+MOST_PLANS = 200
+
+
+@dataclass(frozen=True)
+class History:
+    """A history that cannot be continued: its instants up to now, and the rules and laws that stand in the way."""
+
+    instants: tuple[Fixed, ...]
+    matter: tuple[str, ...]
+    timeline: Timeline
+
+
+class _Search:
+    """The search for a history with a number of instants before now."""
+
+    def __init__(
+        self, program: Program, rule: Rule, cone: Cone, past: int, impossible: frozenset[str] = frozenset()
+    ) -> None:
+        self.program = program
+        self.cone = cone
+        self._impossible = impossible
+        self.outer = Unfolding(program, impossible=impossible)
+        self.true = self.outer.formula.true
+        self.add = self.outer.add
+        self.past = [self.outer.instant() for _ in range(past)]
+        self.now = self.outer.instant(self.true)
+        self.outer.now = self.now
+        self.outer.spared.add((rule.label, self.now))
+        for earlier, later in zip(self.past, [*self.past[1:], self.now]):
+            # Which of them is which makes no difference.
+            self.add([self.outer.times.before(earlier, later)])
+        here = self.outer.instants[self.now]
+        self.given = {event: self.outer.formula.fresh() for event in sorted(cone.events)}
+        for name, given in self.given.items():
+            self.add([-given, here.event(name)])
+        self.add([self.given[rule.trigger]])
+        self.plans = Plans(self.outer, cone, self.past, self.now, self.given)
+        clauses = self.plans.deciding(rule)
+        self.add([literal for _, literal in clauses])
+        for clause, literal in clauses:
+            if clause.obligations:
+                self.add([-literal, self._hopeful(self.outer.due(self.now, clause.obligations))])
+        self.plans.defeat(Plan(frozenset()))
+
+    def _hopeful(self, demand: Demand) -> int:
+        """A literal that implies that the events that are given do not break a demand of now."""
+        if isinstance(demand, int):
+            return demand
+        if isinstance(demand, Occurs):
+            at_once = (demand.start is None or demand.start <= 0) and (demand.end is None or demand.end >= 0)
+            return -self.given[demand.event] if demand.negated and at_once else self.true
+        parts = [self._hopeful(part) for part in demand.parts]
+        if isinstance(demand, Every):
+            return self.outer.formula.every(parts) if parts else self.true
+        return self.outer.formula.any_of(parts) if parts else -self.true
+
+    # Histories ------------------------------------------------------------------------------------------------
+
+    def find(self) -> tuple[Fixed, ...] | None:
+        """A history that cannot be continued, or None if every one can."""
+        plans = {Plan(frozenset())}
+        while self.outer.ask():
+            clauses = self.plans.loops()
+            if clauses:
+                self.outer.formula.clauses += clauses
+                continue
+            beginning = self._beginning()
+            inner = Unfolding(self.program, beginning=beginning, impossible=self._impossible)
+            if not inner.ask():
+                return beginning
+            plan = self._plan(inner, len(beginning) - 1)
+            if plan in plans or len(plans) > MOST_PLANS:
+                raise Undecided(f"no answer after {len(plans)} ways to go on")
+            plans.add(plan)
+            self.plans.defeat(plan)
+        return None
+
+    def _beginning(self) -> tuple[Fixed, ...]:
+        outer = self.outer
+        schedule, _ = outer.schedule()
+        self._numbers = [number for number in (*self.past, self.now) if outer.true(outer.instants[number].used)]
+        found = []
+        for number in self._numbers:
+            events = outer.happening(number)
+            if number == self.now:
+                events = frozenset(event for event, literal in self.given.items() if outer.true(literal))
+            found.append(Fixed(schedule[number], events, outer.values(number), number != self.now))
+        return tuple(found)
+
+    def _plan(self, inner: Unfolding, now: int) -> Plan:
+        """How the history just tried can be continued, by as little of it as can be."""
+        _, waits = inner.schedule()
+        forced = {event for event, literal in self.given.items() if self.outer.true(literal)}
+        grew = True
+        while grew:
+            fresh = {
+                event
+                for rule in self.cone.rules.values()
+                if rule.trigger in forced
+                for clause, guard in inner.guards(now, rule)
+                if clause.obligations and inner.true(guard)
+                for event in at_once(inner.due(now, clause.obligations))
+            }
+            grew = not fresh <= forced
+            forced |= fresh
+        added = (inner.happening(now) - forced) & set(self.given)
+        later = []
+        for number in inner.used():
+            if number > now:
+                at, wait = number, 0
+                while at > now:
+                    at, more = waits[at]
+                    wait += more
+                values = tuple(sorted(inner.values(number).items()))
+                later.append(Later(self._numbers[at], wait, inner.happening(number), values))
+        return Plan(frozenset(added), tuple(later))
+
+
+def conflict(program: Program, rule: Rule) -> History | None:
+    """A history in which `rule`, triggered now, leaves no way to go on, or None if there is none.
+
+    Raises Undecided where more instants could matter than are tried.
+    """
+    cone = Cone(program, rule)
+    for past in range(min(cone.past, MOST_PAST) + 1):
+
+        def search(impossible: frozenset[str], past: int = past) -> tuple[Fixed, ...] | None:
+            return _Search(program, rule, cone, past, impossible).find()
+
+        found = decided(program, search)
+        if found is not None:
+            return _shown(program, rule, _smaller(program, rule, found))
+    if cone.past > MOST_PAST:
+        raise Undecided(f"no conflict with up to {MOST_PAST} instants before now")
+    return None
+
+
+def _goes_on(program: Program, history: tuple[Fixed, ...], spared: Rule | None = None) -> bool:
+    unfolding = Unfolding(program, beginning=history, impossible=program.endless_so_far)
+    if spared is not None:
+        unfolding.spared.add((spared.label, len(history) - 1))
+    return unfolding.ask()
+
+
+def _smaller(program: Program, rule: Rule, history: tuple[Fixed, ...]) -> tuple[Fixed, ...]:
+    """The history without what does not matter: instants and events, as long as it stays one."""
+
+    def is_one(candidate: tuple[Fixed, ...]) -> bool:
+        try:
+            return _goes_on(program, candidate, spared=rule) and not _goes_on(program, candidate)
+        except Undecided:
+            return False
+
+    for place in reversed(range(len(history) - 1)):
+        without = (*history[:place], *history[place + 1 :])
+        if is_one(without):
+            history = without
+    for place, instant in enumerate(history):
+        keep = rule.trigger if place == len(history) - 1 else None
+        for event in sorted(instant.events - {keep}):
+            less = replace(history[place], events=history[place].events - {event})
+            without = (*history[:place], less, *history[place + 1 :])
+            if is_one(without):
+                history = without
+    begins = history[0].time
+    return tuple(replace(instant, time=instant.time - begins) for instant in history)
+
+
+def _shown(program: Program, rule: Rule, history: tuple[Fixed, ...]) -> History:
+    inner = Unfolding(program, beginning=history, impossible=program.endless_so_far)
+    stuck = not inner.ask()
+    assert stuck, "the history was found to have no way to go on"
+    matter = needed(inner)
+    around = Unfolding(program, beginning=history, impossible=program.endless_so_far)
+    around.spared.add((rule.label, len(history) - 1))
+    goes_on = around.ask()
+    assert goes_on, "without the rule's demand of now there is a way to go on"
+    moments = []
+    happens = set().union(*(instant.events for instant in history))
+    for place, instant in enumerate(history):
+        now = place == len(history) - 1
+        # What no event of the history triggers is triggered by what is due now.
+        speaking = [
+            r
+            for r in program.rules
+            if r.label in matter and (r.trigger in instant.events or (now and r.trigger not in happens))
+        ]
+        moments.append((place, speaking))
+    return History(history, tuple(matter), excerpt(around, moments, now=len(history) - 1))

@@ -1,0 +1,306 @@
+"""Plans: ways to go on after a history, and which histories they do not work with.
+
+A plan depends on the history as little as possible. It adds events now, which bring with them all that is due at once,
+and instants later, at distances from instants of the history. Whether it keeps everything is a formula over the
+history.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from sleec_runtime.model import And, Assume, Atom, Clause, Exclusive, Never, Not, Or, Rule, Value
+from sleec_runtime.model_time import Effect, EventRelation, Lasting
+from sleec_verify.timed.conflict_cone import Cone
+from sleec_verify.timed.instant import Fixed, Instant
+from sleec_verify.timed.program import Program
+from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
+from sleec_verify.timed.unfolding import Unfolding
+
+
+@dataclass(frozen=True)
+class Later:
+    """An instant of a plan: `wait` seconds after instant `after` of the history."""
+
+    after: int
+    wait: int
+    events: frozenset[str]
+    conditions: tuple[tuple[str, Value], ...]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A way to go on: events added now, and what happens later."""
+
+    added: frozenset[str]
+    later: tuple[Later, ...] = ()
+
+
+class _Point:
+    """An instant of the history continued by a plan."""
+
+    def __init__(self, instant: Instant, after: int, wait: int, event: Callable[[str], int], used: int) -> None:
+        self.instant = instant
+        self.after = after
+        self.wait = wait
+        self.event = event
+        self.used = used
+
+
+class Plans:
+    """The plans that a history must defeat: the last of the instants `past` and `now` of an unfolding, in the order of
+    time, where the events `given` are those of now before anything is done."""
+
+    def __init__(self, outer: Unfolding, cone: Cone, past: Sequence[int], now: int, given: dict[str, int]) -> None:
+        self.program: Program = outer.program
+        self.cone = cone
+        self.outer = outer
+        self.past = past
+        self.now = now
+        self.given = given
+        self.add = outer.add
+        self.true = outer.formula.true
+        self._loops: list[Callable[[], list[list[int]]]] = []
+
+    def loops(self) -> list[list[int]]:
+        """Clauses against what happens under some plan, in the model, only because of itself."""
+        return [clause for loop in self._loops for clause in loop()]
+
+    def deciding(self, rule: Rule) -> list[tuple[Clause, int]]:
+        """The clauses of a rule with the literals that they decide now, if the rule is triggered."""
+        guards = self.outer.instants[self.now].guards(rule, self.program.ruleset.reading, self.true)
+        return list(zip(rule.clauses(), guards))
+
+    def defeat(self, plan: Plan) -> None:
+        """Only histories with which `plan` does not work."""
+        happens = self._closed(plan)
+        points = [
+            _Point(
+                self.outer.instants[number],
+                number,
+                0,
+                self.outer.instants[number].event,
+                self.outer.instants[number].used,
+            )
+            for number in self.past
+        ]
+        now = _Point(self.outer.instants[self.now], self.now, 0, lambda name: happens.get(name, -self.true), self.true)
+        points.append(now)
+        for later in plan.later:
+            fixed = Fixed(0, later.events, dict(later.conditions))
+            instant = Instant(self.outer.formula, self.program.ruleset.measures, self.true, fixed)
+            points.append(_Point(instant, later.after, later.wait, instant.event, self.true))
+        failures = [*self._out_of_order(points), *self._broken(points), *self._laws_broken(points)]
+        for point in points:
+            point.instant.settle()
+        self.add(failures)
+
+    def _closed(self, plan: Plan) -> dict[str, int]:
+        """What happens now under a plan: what is given or added, and all that is due at once by it."""
+        formula = self.outer.formula
+        happens = {event: formula.fresh() for event in self.given}
+        supports: dict[str, list[tuple[str | None, int]]] = {event: [] for event in happens}
+        for rule in self.cone.rules.values():
+            for clause, decides in self.deciding(rule):
+                for event in at_once(self.outer.due(self.now, clause.obligations)):
+                    both = formula.fresh()
+                    trigger = happens[rule.trigger]
+                    formula.clauses += ([-both, trigger], [-both, decides], [both, -trigger, -decides])
+                    supports[event].append((rule.trigger, both))
+        for law in self.program.laws:
+            if isinstance(law, EventRelation) and law.relation in ("witness", "equal"):
+                pairs = [(law.left, law.right), (law.right, law.left)][: 1 + (law.relation == "equal")]
+                for cause, effect in pairs:
+                    if cause in happens and effect in happens:
+                        supports[effect].append((cause, happens[cause]))
+            elif isinstance(law, Effect) and law.relation == "causation" and law.event in happens:
+                supports[law.event].append((None, self.outer.condition(self.now, law.formula)))
+        for event in happens:
+            literal, reasons = happens[event], [support for _, support in supports[event]]
+            for reason in (self.given[event], *reasons):
+                self.add([-reason, literal])
+            if event in plan.added:
+                self.add([literal])
+            else:
+                self.add([-literal, self.given[event], *reasons])
+        self._loops.append(lambda: self._unfounded(plan, happens, supports))
+        return happens
+
+    def _unfounded(
+        self, plan: Plan, happens: dict[str, int], supports: dict[str, list[tuple[str | None, int]]]
+    ) -> list[list[int]]:
+        """Clauses against events that happen in the model only because they bring about each other."""
+        true = self.outer.true
+        claimed = {event for event, literal in happens.items() if true(literal)}
+        founded = {event for event in claimed if event in plan.added or true(self.given[event])}
+        grew = True
+        while grew:
+            fresh = {
+                event
+                for event in claimed - founded
+                if any(true(support) and (cause is None or cause in founded) for cause, support in supports[event])
+            }
+            founded |= fresh
+            grew = bool(fresh)
+        loop = claimed - founded
+        outside = [self.given[event] for event in loop]
+        outside += [support for event in loop for cause, support in supports[event] if cause not in loop]
+        return [[-happens[event], *outside] for event in loop]
+
+    def _gap(self, a: _Point, b: _Point, start: int | None, end: int | None) -> list[int]:
+        """Literals that say together that `b` is from `start` to `end` seconds after `a`."""
+        shift = a.wait - b.wait
+        return self.outer.times.bounds(
+            a.after, b.after, None if start is None else start + shift, None if end is None else end + shift
+        )
+
+    def _out_of_order(self, points: Sequence[_Point]) -> Iterator[int]:
+        """The plan does not fit the history where two of its instants fall together, or one is not after now."""
+        now = points[len(self.past)]
+        ahead = points[len(self.past) + 1 :]
+        for place, point in enumerate(ahead):
+            yield self.outer.formula.every(self._gap(now, point, None, 0))
+            for other in ahead[place + 1 :]:
+                yield self.outer.formula.every(self._gap(point, other, 0, 0))
+
+    def _broken(self, points: Sequence[_Point]) -> Iterator[int]:
+        """For each rule and instant, a literal that implies that the rule is broken there."""
+        reading = self.program.ruleset.reading
+        for number, point in enumerate(points):
+            for rule in self.cone.rules.values():
+                triggered = point.event(rule.trigger)
+                if triggered == -self.true:
+                    continue
+                for clause, guard in zip(rule.clauses(), point.instant.guards(rule, reading, triggered)):
+                    if clause.obligations:
+                        chain = lambda c, i=point.instant: i.chain(c, reading)  # noqa: E731
+                        broken = self.program.responses.of(clause.obligations, chain, kept=False)
+                        literal = self._fails(points, number, broken)
+                        if literal != -self.true:
+                            yield self.outer.formula.every([guard, literal])
+
+    def _fails(self, points: Sequence[_Point], at: int, demand: Demand) -> int:
+        """A literal that implies a demand of one of the points."""
+        formula = self.outer.formula
+        if isinstance(demand, int):
+            return demand
+        if isinstance(demand, Occurs):
+            return self._occurs(points, at, demand)
+        parts = [self._fails(points, at, part) for part in demand.parts]
+        if isinstance(demand, Every):
+            return -self.true if -self.true in parts else formula.every(parts) if parts else self.true
+        parts = [part for part in parts if part != -self.true]
+        return formula.any_of(parts) if parts else -self.true
+
+    def _occurs(self, points: Sequence[_Point], at: int, what: Occurs) -> int:
+        formula = self.outer.formula
+        there: list[list[int]] = []
+        for point in points:
+            event = point.event(what.event)
+            bounds = self._gap(points[at], point, what.start, what.end)
+            if event != -self.true and -self.true not in bounds:
+                there.append([event, *(bound for bound in bounds if bound != self.true)])
+        if not what.negated:
+            return formula.any_of([formula.every(literals) for literals in there]) if there else -self.true
+        never = formula.fresh()
+        for literals in there:
+            self.add([-never, *(-literal for literal in literals)])
+        return never
+
+    def _laws_broken(self, points: Sequence[_Point]) -> Iterator[int]:
+        """For each law and instant of now or later, a literal that implies that it is broken there; those of the past
+        hold, as the history breaks nothing."""
+        every, true = self.outer.formula.every, self.true
+
+        def condition(point: _Point, formula: object) -> int:
+            return true if formula is None else point.instant.literal(formula)  # type: ignore[arg-type]
+
+        since = len(self.past)
+        for law in self.program.laws:
+            for number, point in enumerate(points):
+                if isinstance(law, EventRelation):
+                    left, right = point.event(law.left), point.event(law.right)
+                    if number < since:
+                        continue
+                    if law.relation == "mutualExclusive":
+                        yield every([left, right])
+                    elif law.relation == "happenBefore":
+                        yield every([right, self._occurs(points, number, Occurs(law.left, None, -1, True))])
+                    else:
+                        yield every([left, -right])
+                        if law.relation == "equal":
+                            yield every([right, -left])
+                elif isinstance(law, Effect):
+                    if number >= since:
+                        occurs, holds = point.event(law.event), condition(point, law.formula)
+                        broken = {
+                            "causation": [holds, -occurs],
+                            "includes": [occurs, -holds],
+                            "forbid": [occurs, holds],
+                        }
+                        yield every(broken[law.relation])
+                elif isinstance(law, Lasting):
+                    yield from self._lasting_broken(law, points, number, condition)
+                elif isinstance(law, Exclusive):
+                    if number >= since:
+                        names = list(dict.fromkeys(law.names))
+                        for place, name in enumerate(names):
+                            yield from (every([point.event(name), point.event(o)]) for o in names[place + 1 :])
+                elif isinstance(law, (Never, Assume)) and number >= since:
+                    shadow = _Shadow(point)
+                    holds = shadow.literal(law.formula)
+                    yield -holds if isinstance(law, Assume) else holds
+
+    def _lasting_broken(
+        self, law: Lasting, points: Sequence[_Point], number: int, condition: Callable[[_Point, object], int]
+    ) -> Iterator[int]:
+        begins = [points[number].event(law.event), condition(points[number], law.condition), points[number].used]
+        for other in range(number, len(points)):
+            point = points[other]
+            broken = [*begins, point.used, -condition(point, law.formula)]
+            if law.duration is not None:
+                last = int(-(-seconds(law.duration) // 1) - 1)
+                yield self.outer.formula.every([*broken, *self._gap(points[number], point, 0, last)])
+                continue
+            assert law.end is not None
+            going = [*broken, *self._gap(points[number], point, 0, None)]
+            for middle in points:
+                stops = [middle.event(law.end), condition(middle, law.end_condition)]
+                between = [
+                    *self._gap(points[number], middle, 0, None),
+                    *self._gap(middle, point, 0, None),
+                ]
+                not_here = self.outer.formula.any_of([-literal for literal in (*stops, *between)])
+                going.append(not_here)
+            yield self.outer.formula.every(going)
+
+
+class _Shadow:
+    """A formula over the events of a point of a plan."""
+
+    def __init__(self, point: _Point) -> None:
+        self._point = point
+
+    def literal(self, formula: object) -> int:
+
+        instant = self._point.instant
+        if isinstance(formula, Atom) and formula.kind != "condition":
+            return self._point.event(formula.name)
+        if isinstance(formula, Not):
+            return -self.literal(formula.operand)
+        if isinstance(formula, And):
+            return instant.all_of([self.literal(operand) for operand in formula.operands])
+        if isinstance(formula, Or):
+            return instant.any_of([self.literal(operand) for operand in formula.operands])
+        return instant.literal(formula)  # type: ignore[arg-type]
+
+
+def at_once(demand: Demand) -> Iterator[str]:
+    """The events that a demand calls for at its own instant, come what may."""
+    if isinstance(demand, Occurs):
+        if not demand.negated and demand.start == demand.end == 0:
+            yield demand.event
+    elif isinstance(demand, Every):
+        for part in demand.parts:
+            yield from at_once(part)

@@ -1,0 +1,141 @@
+"""A ruleset as the questions about traces need it: the rules of each event, and what holds at every instant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Union
+
+from sleec_runtime.model import (
+    Assume,
+    Atom,
+    Clause,
+    Exclusive,
+    Never,
+    Obligation,
+    Rule,
+    Ruleset,
+    in_text_order,
+    leaves,
+)
+from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, Lasting, Relation
+from sleec_verify.timed.responses import Responses, Untimed, occurrences
+
+Law = Union[Relation, Exclusive, Never, Assume]
+"""What a ruleset demands besides its rules."""
+
+
+def law_name(law: Law) -> str:
+    """What a law goes by among the labels of the rules, which have no blanks: where it stands."""
+    return f"law at {law.span.start}"
+
+
+def events_of(law: Law) -> Iterator[str]:
+    """The events that a law speaks of."""
+    if isinstance(law, EventRelation):
+        yield law.left
+        yield law.right
+    elif isinstance(law, Effect):
+        yield law.event
+    elif isinstance(law, Lasting):
+        yield law.event
+        if law.end is not None:
+            yield law.end
+    elif isinstance(law, Exclusive):
+        yield from law.names
+    elif isinstance(law, (Never, Assume)):
+        yield from (leaf.name for leaf in leaves(law.formula) if isinstance(leaf, Atom) and leaf.kind != "condition")
+
+
+def _size(clause: Clause) -> int:
+    return sum(1 for _ in in_text_order(clause))
+
+
+class Program:
+    """The indices of one ruleset under one meaning of responses without a window."""
+
+    def __init__(self, ruleset: Ruleset, untimed: Untimed = "at") -> None:
+        self.ruleset = ruleset
+        self.untimed = untimed
+        self.rules = ruleset.rules
+        self.responses = Responses(untimed)
+        self.endless_so_far: frozenset[str] = frozenset()
+        """Events that are known to occur in no trace."""
+
+    @cached_property
+    def by_trigger(self) -> dict[str, list[Rule]]:
+        index: dict[str, list[Rule]] = {}
+        for rule in self.rules:
+            index.setdefault(rule.trigger, []).append(rule)
+        return index
+
+    @cached_property
+    def laws(self) -> list[Law]:
+        """Relations and constraints, in the order of the text."""
+        return [s for s in self.ruleset.statements if isinstance(s, (*RELATIONS, Exclusive, Never, Assume))]
+
+    @cached_property
+    def obliging(self) -> dict[str, list[Rule]]:
+        """The rules that may come to oblige an event."""
+        return self._answering(negated=False)
+
+    @cached_property
+    def forbidding(self) -> dict[str, list[Rule]]:
+        """The rules that may come to forbid an event."""
+        return self._answering(negated=True)
+
+    def _answering(self, negated: bool) -> dict[str, list[Rule]]:
+        index: dict[str, list[Rule]] = {}
+        for rule in self.rules:
+            for name in dict.fromkeys(o.name for o in responses_of(rule) if o.negated == negated):
+                index.setdefault(name, []).append(rule)
+        return index
+
+    @cached_property
+    def bound(self) -> dict[str, set[str]]:
+        """The events that some law ties to an event."""
+        index: dict[str, set[str]] = {}
+        for law in self.laws:
+            names = set(events_of(law))
+            for name in names:
+                index.setdefault(name, set()).update(names - {name})
+        return index
+
+    @cached_property
+    def _timed(self) -> dict[str, bool]:
+        return {
+            rule.label: any(
+                occurrence.start != 0 or occurrence.end != 0
+                for clause in rule.clauses()
+                for occurrence in occurrences(self.responses.of(clause.obligations, lambda c: [1] * _size(c)))
+            )
+            for rule in self.rules
+        }
+
+    def is_timed(self, rule: Rule) -> bool:
+        """Whether a rule demands anything of other instants than that of its trigger."""
+        return self._timed[rule.label]
+
+    @cached_property
+    def has_delays(self) -> bool:
+        """Whether any rule demands anything of other instants than that of its trigger."""
+        return any(self._timed.values())
+
+    @cached_property
+    def claims(self) -> list[Claim]:
+        return [s for s in self.ruleset.statements if isinstance(s, Claim)]
+
+
+def responses_of(rule: Rule) -> Iterator[Obligation]:
+    """Every response that a rule may come to, those in place of others included, in the order of the text."""
+    for clause in rule.clauses():
+        yield from _literals(clause)
+
+
+def _literals(clause: Clause) -> Iterator[Obligation]:
+    for obligation in clause.obligations:
+        yield obligation
+        if obligation.timing is not None:
+            for alternative in obligation.timing.alternatives():
+                for member in in_text_order(alternative):
+                    yield from _literals(member)

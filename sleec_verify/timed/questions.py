@@ -1,0 +1,123 @@
+"""The questions about traces that one existential answers: does some trace do this?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence, Set
+from typing import NamedTuple, TypeVar
+
+from sleec_runtime.model import Rule
+from sleec_runtime.model_time import Claim
+from sleec_verify.solver import Undecided
+from sleec_verify.timed.program import Program
+from sleec_verify.timed.timeline import Timeline, timeline
+from sleec_verify.timed.unfolding import Unfolding
+
+_Found = TypeVar("_Found")
+
+
+class Answer(NamedTuple):
+    """`trace` is one that does it, or None if none does; `matter` are then the rules and laws that prevent it."""
+
+    trace: Timeline | None
+    matter: tuple[str, ...] = ()
+
+
+def decided(program: Program, question: Callable[[frozenset[str]], _Found]) -> _Found:
+    """The answer to `question`, which is told the events that are known to occur in no trace. Where it cannot be
+    decided, such events are looked for, and it is asked again."""
+    try:
+        return question(program.endless_so_far)
+    except Undecided:
+        from sleec_verify.timed.endless import endless
+
+        if program.endless_so_far or not program.has_delays:
+            raise
+        program.endless_so_far = endless(program)
+        if not program.endless_so_far:
+            raise
+        return question(program.endless_so_far)
+
+
+def _ask(
+    program: Program,
+    what: Callable[[Unfolding, int], Sequence[int]],
+    without: Set[str] = frozenset(),
+    rules: Mapping[str, Sequence[Rule]] | None = None,
+) -> Answer:
+    """Whether some trace has an instant at which `what` holds: literals about an instant of an unfolding."""
+
+    def question(impossible: frozenset[str]) -> Answer:
+        unfolding = Unfolding(program, without=frozenset(without), rules=rules, impossible=impossible)
+        seed = unfolding.instant(unfolding.formula.true)
+        required = list(what(unfolding, seed))
+        if unfolding.ask(*required):
+            return Answer(timeline(unfolding))
+        return Answer(None, tuple(needed(unfolding, required)))
+
+    return decided(program, question)
+
+
+def needed(unfolding: Unfolding, required: Sequence[int] = ()) -> list[str]:
+    """A minimal set of rules and laws with which the last answer is still no."""
+    kept = unfolding.matter()
+    for name in list(kept):
+        without = [other for other in kept if other != name]
+        try:
+            if not unfolding.ask(*required, let_in=without):
+                kept = without
+        except Undecided:
+            continue
+    return kept
+
+
+def breaking(program: Program, rule: Rule) -> Answer:
+    """A trace that keeps all else and breaks `rule`: without one, the rule is redundant."""
+    return _ask(program, lambda u, seed: [u.broken(seed, rule)], {rule.label})
+
+
+def exchanging(program: Program, rule: Rule, other: Rule) -> Answer:
+    """A trace that keeps all with `other` in the place of `rule`, and breaks `rule`."""
+    rules = {
+        trigger: [other if r.label == rule.label else r for r in found] for trigger, found in program.by_trigger.items()
+    }
+    return _ask(program, lambda u, seed: [u.broken(seed, rule)], rules=rules)
+
+
+def triggering(program: Program, rule: Rule) -> Answer:
+    """A trace in which `rule` is triggered and its guard holds."""
+    return _ask(program, lambda u, seed: [u.instants[seed].event(rule.trigger), u.condition(seed, rule.guard)])
+
+
+def reachable(program: Program, rule: Rule) -> list[bool]:
+    """Which clauses of `rule` decide in some trace of the laws alone, whether or not rules are kept."""
+
+    def clause(number: int) -> bool:
+        return _ask(program, lambda u, seed: [u.guards(seed, rule)[number][1]], rules={}).trace is not None
+
+    return [clause(number) for number, _ in enumerate(rule.clauses())]
+
+
+def coming_about(program: Program, claim: Claim) -> Answer:
+    """A trace in which a concern or purpose comes about. `meanwhile` may come about anywhere in it."""
+
+    def at(unfolding: Unfolding, instant: int, part: Claim) -> list[int]:
+        return [
+            unfolding.instants[instant].event(part.event),
+            unfolding.condition(instant, part.condition),
+            *(
+                unfolding.demand(instant, program.responses.of_clause(response, unfolding.chain(instant)))
+                for response in part.responses
+            ),
+        ]
+
+    def what(unfolding: Unfolding, seed: int) -> list[int]:
+        required = at(unfolding, seed, claim)
+        part = claim.meanwhile
+        while part is not None:
+            required.append(
+                unfolding.exists(lambda other, part=part: unfolding.formula.every(at(unfolding, other, part)))  # type: ignore[misc]
+            )
+            part = part.meanwhile
+        return required
+
+    return _ask(program, what)

@@ -1,0 +1,108 @@
+"""What a response demands of a trace: a formula over occurrences in windows around the instant that triggered it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import ceil, floor
+from typing import Literal, NamedTuple, Union
+
+from sleec_runtime.model import Clause, Obligation, Rational, in_text_order
+from sleec_runtime.model_time import Length, Window
+from sleec_verify.solver import Undecided
+
+Untimed = Literal["at", "eventually"]
+"""What a response without a window means: at the instant of its trigger (LEGOS), or at some time from then on
+(SLEEC-TK)."""
+
+
+class Occurs(NamedTuple):
+    """The event occurs (`negated`: does not occur) at some time from `start` to `end`, in seconds after the trigger,
+    both included. None is no bound."""
+
+    event: str
+    start: int | None
+    end: int | None
+    negated: bool = False
+
+
+class Every(NamedTuple):
+    parts: tuple[Demand, ...]
+
+
+class Some(NamedTuple):
+    parts: tuple[Demand, ...]
+
+
+Demand = Union[int, Occurs, Every, Some]
+"""A formula in negation normal form. An integer is a literal about the instant of the trigger."""
+
+Chain = Callable[[Clause], list[int]]
+"""For each clause of a chain that stands by itself, in the order of the text, the literal "this one decides"."""
+
+
+class Responses:
+    """Reads responses under one meaning of those without a window."""
+
+    def __init__(self, untimed: Untimed) -> None:
+        self._untimed = untimed
+
+    def of(self, obligations: tuple[Obligation, ...], chain: Chain, kept: bool = True, after: int = 0) -> Demand:
+        """What it takes to keep all of `obligations` (not `kept`: to break one) that are due `after` seconds.
+
+        Raises Undecided for a window whose length a measure says.
+        """
+        parts = tuple(self._obligation(o, chain, kept, after) for o in obligations)
+        return _joined(parts, every=kept)
+
+    def of_clause(self, clause: Clause, chain: Chain, kept: bool = True, after: int = 0) -> Demand:
+        """As `of`, of a response with hedges of its own."""
+        members = []
+        for member, decides in zip(in_text_order(clause), chain(clause)):
+            due = self.of(member.obligations, chain, kept, after)
+            members.append(Some((-decides, due)) if kept else Every((decides, due)))
+        return _joined(tuple(members), every=kept)
+
+    def _obligation(self, obligation: Obligation, chain: Chain, kept: bool, after: int) -> Demand:
+        timing = obligation.timing
+        start, end = self._bounds(timing.window if timing is not None else None)
+        negated = obligation.negated == kept
+        itself = Occurs(obligation.name, after + start, None if end is None else after + end, negated)
+        if timing is None:
+            return itself
+        parts: list[Demand] = [itself]
+        if timing.otherwise is not None:
+            closed = after + end if timing.window is not None and end is not None else after
+            parts.append(self.of_clause(timing.otherwise, chain, kept, closed))
+        if timing.instead is not None:
+            parts.append(self.of_clause(timing.instead, chain, kept, after))
+        return _joined(tuple(parts), every=not kept)
+
+    def _bounds(self, window: Window | None) -> tuple[int, int | None]:
+        if window is None:
+            return (0, 0) if self._untimed == "at" else (0, None)
+        # Instants are whole seconds.
+        start = 0 if window.start is None else ceil(seconds(window.start))
+        return start, None if window.end is None else floor(seconds(window.end))
+
+
+def seconds(length: Length) -> Rational:
+    """A length of time in seconds. Raises Undecided where a measure says it."""
+    value = length.seconds
+    if value is None:
+        raise Undecided(f"the length of time {length} is that of a measure: not analysed")
+    return value
+
+
+def _joined(parts: tuple[Demand, ...], every: bool) -> Demand:
+    if len(parts) == 1:
+        return parts[0]
+    return Every(parts) if every else Some(parts)
+
+
+def occurrences(demand: Demand) -> Iterator[Occurs]:
+    """Every occurrence that a demand speaks of."""
+    if isinstance(demand, Occurs):
+        yield demand
+    elif not isinstance(demand, int):
+        for part in demand.parts:
+            yield from occurrences(part)

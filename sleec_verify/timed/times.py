@@ -1,0 +1,131 @@
+"""Differences of times of instants, as literals: "the time of b minus that of a is at most c seconds".
+
+The order of such literals for one pair is a clause each; what several pairs have to do with each other is checked
+against a model (`refused`), and a contradiction becomes a clause: the cycle of differences that adds up to less than
+nothing.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+
+class _Edge(NamedTuple):
+    """``time[target] - time[source] <= length``, because `literal` is true (0: in any case)."""
+
+    source: int
+    target: int
+    length: int
+    literal: int
+
+
+_ZERO = -1
+"""The node whose time is 0, by which known times are edges too."""
+
+
+class Times:
+    """The times of instants that are numbered from 0. `known` are those that are given."""
+
+    def __init__(
+        self,
+        fresh: Callable[[], int],
+        add: Callable[[list[int]], None],
+        true: int,
+        known: Mapping[int, int] | None = None,
+    ) -> None:
+        self._fresh = fresh
+        self._add = add
+        self._true = true
+        self._known = dict(known or {})
+        self._lengths: dict[tuple[int, int], list[int]] = {}
+        self._literals: dict[tuple[int, int, int], int] = {}
+
+    def at_most(self, a: int, b: int, length: int) -> int:
+        """The literal "the time of `b` minus that of `a` is at most `length`"."""
+        if a == b:
+            return self._true if length >= 0 else -self._true
+        if a in self._known and b in self._known:
+            return self._true if self._known[b] - self._known[a] <= length else -self._true
+        if a > b:
+            return -self.at_most(b, a, -length - 1)
+        literal = self._literals.get((a, b, length))
+        if literal is None:
+            literal = self._literals[a, b, length] = self._fresh()
+            lengths = self._lengths.setdefault((a, b), [])
+            place = bisect_left(lengths, length)
+            if place > 0:
+                self._add([-self._literals[a, b, lengths[place - 1]], literal])
+            if place < len(lengths):
+                self._add([-literal, self._literals[a, b, lengths[place]]])
+            lengths.insert(place, length)
+        return literal
+
+    def before(self, a: int, b: int) -> int:
+        """The literal "`a` is before `b`"."""
+        return -self.at_most(a, b, 0)
+
+    def bounds(self, a: int, b: int, start: int | None, end: int | None) -> list[int]:
+        """Literals that say together that `b` is from `start` to `end` seconds after `a`, both included."""
+        found = [] if end is None else [self.at_most(a, b, end)]
+        return found if start is None else [*found, -self.at_most(a, b, start - 1)]
+
+    def _edges(self, holds: Callable[[int], bool], used: Sequence[int]) -> Iterator[_Edge]:
+        there = set(used)
+        for (a, b, length), literal in self._literals.items():
+            if a in there and b in there:
+                if holds(literal):
+                    yield _Edge(a, b, length, literal)
+                else:
+                    yield _Edge(b, a, -length - 1, -literal)
+        for node, time in self._known.items():
+            yield _Edge(_ZERO, node, time, 0)
+            yield _Edge(node, _ZERO, -time, 0)
+
+    def refused(self, holds: Callable[[int], bool], used: Sequence[int]) -> list[int] | None:
+        """A clause that a model breaks and that holds of all times, or None if the model leaves times for `used`."""
+        edges = list(self._edges(holds, used))
+        nodes = [_ZERO, *used]
+        distance = dict.fromkeys(nodes, 0)
+        reached: dict[int, _Edge] = {}
+        last = None
+        for _ in nodes:
+            last = None
+            for edge in edges:
+                if distance[edge.source] + edge.length < distance[edge.target]:
+                    distance[edge.target] = distance[edge.source] + edge.length
+                    reached[edge.target] = edge
+                    last = edge.target
+            if last is None:
+                return None
+        assert last is not None
+        # So many steps back end inside the cycle.
+        for _ in nodes:
+            last = reached[last].source
+        cycle, at = [], last
+        while True:
+            edge = reached[at]
+            cycle.append(edge)
+            at = edge.source
+            if at == last:
+                return [-edge.literal for edge in cycle if edge.literal]
+
+    def schedule(
+        self, holds: Callable[[int], bool], used: Sequence[int]
+    ) -> tuple[dict[int, int], dict[int, tuple[int, int]]]:
+        """The earliest times that a model allows, from 0, and for each instant that has to wait for another one,
+        ``(the other, how many seconds)``. The model is one that `refused` accepts."""
+        earliest = {node: self._known.get(node, 0) for node in used}
+        waits: dict[int, tuple[int, int]] = {}
+        edges = [edge for edge in self._edges(holds, used) if _ZERO not in edge[:2]]
+        changed = True
+        while changed:
+            changed = False
+            for edge in edges:
+                # time[source] >= time[target] - length
+                if earliest[edge.target] - edge.length > earliest[edge.source]:
+                    earliest[edge.source] = earliest[edge.target] - edge.length
+                    waits[edge.source] = (edge.target, -edge.length)
+                    changed = True
+        return earliest, waits

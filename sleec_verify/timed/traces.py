@@ -1,0 +1,29 @@
+"""What the checks of rules with time are given: a ruleset, what a response without a window means, and both roads into
+it, the one of situations and the one of traces."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from sleec_runtime.model import Ruleset
+from sleec_verify.cone import Cones
+from sleec_verify.timed.program import Program
+from sleec_verify.timed.responses import Untimed
+
+
+class Traces(Cones):
+    """A ruleset whose rules speak of traces."""
+
+    def __init__(self, ruleset: Ruleset, untimed: Untimed = "at") -> None:
+        super().__init__(ruleset)
+        self.untimed = untimed
+
+    @cached_property
+    def program(self) -> Program:
+        return Program(self.ruleset, self.untimed)
+
+
+def speaks_of_traces(ruleset: Ruleset) -> bool:
+    """Whether a ruleset is about traces: what is done may trigger rules, and times pass. The DSL always is, structured
+    English where it says anything of time."""
+    return ruleset.syntax == "dsl" or ruleset.is_timed

@@ -1,0 +1,444 @@
+"""A trace that keeps some rules, grown as far as they call for it.
+
+The first instant is the one that the question is about. The rules of an event are written down for an instant once the
+solver lets it occur there, and an instant is added once a response cannot be met at those that there are. Until then,
+that it is met at some other instant is taken on trust, so:
+
+- no model with that trust is no trace, however long;
+- a model without any such trust is a trace, with exactly the instants that it has.
+
+Between the two, an instant is added for each response that the model trusts to be met elsewhere. Where responses do
+not come back to their own trigger, this ends; where they do, it may not, and is given up after `MOST` instants.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence, Set
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from sleec_runtime.model import (
+    Assume,
+    Clause,
+    Exclusive,
+    Obligation,
+    Rule,
+    Value,
+)
+from sleec_runtime.model import (
+    Formula as Condition,
+)
+from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
+from sleec_verify.solver import MiniSat, Undecided
+from sleec_verify.timed.instant import Fixed, Formula, Instant
+from sleec_verify.timed.program import Law, Program, law_name
+from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
+from sleec_verify.timed.times import Times
+
+MOST = 12
+"""Instants that may be added before the search for a trace is given up. Published rulesets need three."""
+
+
+@dataclass
+class _Need:
+    """That `witness` holds at some instant: of those that there are, or (`rest`) of those still to come."""
+
+    witness: Callable[[int], int]
+    rest: int
+    later: str | None = None
+    """The event that it calls for, at the same time or later."""
+
+
+class Decided(NamedTuple):
+    """That a clause of a rule decides at an instant where `guard` is true."""
+
+    at: int
+    rule: Rule
+    number: int
+    clause: Clause
+    guard: int
+
+
+_Trust = Callable[[_Need], bool]
+"""Which needs are taken on trust to be met at instants still to come."""
+
+
+class Unfolding:
+    """One question about the traces of a program."""
+
+    def __init__(
+        self,
+        program: Program,
+        *,
+        without: frozenset[str] = frozenset(),
+        beginning: Sequence[Fixed] = (),
+        rules: Mapping[str, Sequence[Rule]] | None = None,
+        most: int = MOST,
+        impossible: frozenset[str] = frozenset(),
+    ) -> None:
+        """The rules `without` are not in force. `beginning` are instants that are settled, in the order of time, the
+        last of them open to more events; all further ones come after it. `rules` replace those of the program.
+        `impossible` are events that are known to occur in no trace."""
+        self.program = program
+        self.formula = Formula()
+        self.add = self.formula.clauses.append
+        known = {number: fixed.time for number, fixed in enumerate(beginning)}
+        self.times = Times(self.formula.fresh, self.add, self.formula.true, known)
+        self.instants: list[Instant] = []
+        self._without = without
+        self._rules = program.by_trigger if rules is None else rules
+        self._most = most
+        self._grown = 0
+        self._impossible = impossible
+        self._needs: list[_Need] = []
+        self._everywhere: list[Callable[[int], None]] = []
+        self._in_force: dict[str, int] = {}
+        self.now = len(beginning) - 1
+        self.spared: set[tuple[str, int]] = set()
+        """Rules that do not speak of some instant: ``(label, instant)``."""
+        self.decided: list[Decided] = []
+        self._solver = MiniSat()
+        self._sent = 0
+        self._core: set[int] = set()
+        for law in program.laws:
+            self._everywhere.append(self._law_at(law))
+        for fixed in beginning:
+            self.instant(self.formula.true, fixed)
+
+    # The trace ------------------------------------------------------------------------------------------------
+
+    def instant(self, used: int | None = None, fixed: Fixed | None = None) -> int:
+        """Add an instant, which is one of the trace if `used`; returns its number."""
+        number = len(self.instants)
+        if used is None:
+            used = self.formula.fresh()
+        here = Instant(self.formula, self.program.ruleset.measures, used, fixed, self._impossible)
+        self.instants.append(here)
+        for other in range(number):
+            # One time is one instant.
+            self.add(
+                [
+                    -used,
+                    -self.instants[other].used,
+                    -self.times.at_most(other, number, 0),
+                    self.times.at_most(other, number, -1),
+                ]
+            )
+        if fixed is None and self.now >= 0:
+            self.add([-used, self.times.before(self.now, number)])
+        # What these add, they add for this instant too.
+        waiting = list(self._needs)
+        for make in list(self._everywhere):
+            make(number)
+        for need in waiting:
+            self._offer(need, number)
+        return number
+
+    def exists(self, witness: Callable[[int], int], later: str | None = None) -> int:
+        """A literal that implies that `witness` (an instant to a literal that implies that it is used) holds at some
+        instant."""
+        literal = self.formula.fresh()
+        need = _Need(witness, literal, later)
+        self._needs.append(need)
+        for number in range(len(self.instants)):
+            self._offer(need, number)
+        return literal
+
+    def _offer(self, need: _Need, number: int) -> None:
+        here = need.witness(number)
+        if here == -self.formula.true:
+            return
+        rest = self.formula.fresh()
+        self.add([-need.rest, here, rest])
+        need.rest = rest
+
+    def everywhere(self, make: Callable[[int], None]) -> None:
+        """Call `make` for every instant, those still to come included."""
+        self._everywhere.append(make)
+        for number in range(len(self.instants)):
+            make(number)
+
+    def occurs(self, at: int, what: Occurs) -> int:
+        """A literal that implies an occurrence, or that there is none, in a window around instant `at`."""
+        if what.start == what.end == 0:
+            event = self.instants[at].event(what.event)
+            return -event if what.negated else event
+        if not what.negated:
+            later = what.event if what.start is not None and what.start >= 0 else None
+            return self.exists(lambda other: self._occurrence(at, other, what), later)
+        never = self.formula.fresh()
+
+        def not_there(other: int) -> None:
+            bounds = self.times.bounds(at, other, what.start, what.end)
+            if -self.formula.true not in bounds:
+                self.add([-never, -self.instants[other].event(what.event), *(-bound for bound in bounds)])
+
+        self.everywhere(not_there)
+        return never
+
+    def _occurrence(self, at: int, other: int, what: Occurs) -> int:
+        bounds = self.times.bounds(at, other, what.start, what.end)
+        if -self.formula.true in bounds:
+            return -self.formula.true
+        return self.formula.every([self.instants[other].event(what.event), *bounds])
+
+    def demand(self, at: int, demand: Demand) -> int:
+        """A literal that implies a demand of instant `at`."""
+        if isinstance(demand, int):
+            return demand
+        if isinstance(demand, Occurs):
+            return self.occurs(at, demand)
+        parts = [self.demand(at, part) for part in demand.parts]
+        if isinstance(demand, Every):
+            return self.formula.every(parts) if parts else self.formula.true
+        return self.formula.any_of(parts) if parts else -self.formula.true
+
+    # What must be kept ----------------------------------------------------------------------------------------
+
+    def chain(self, at: int) -> Callable[[Clause], list[int]]:
+        """What decides a chain of hedges that stands by itself, by the measures of instant `at`."""
+        return lambda clause: self.instants[at].chain(clause, self.program.ruleset.reading)
+
+    def guards(self, at: int, rule: Rule) -> list[tuple[Clause, int]]:
+        """The clauses of a rule with the literals of their guards at instant `at`."""
+        return list(zip(rule.clauses(), self.instants[at].guards(rule, self.program.ruleset.reading)))
+
+    def due(self, at: int, obligations: tuple[Obligation, ...], kept: bool = True) -> Demand:
+        return self.program.responses.of(obligations, self.chain(at), kept)
+
+    def broken(self, at: int, rule: Rule) -> int:
+        """A literal that implies that instant `at` triggers the rule, which is not kept."""
+        ways = [
+            self.formula.every([guard, self.demand(at, self.due(at, clause.obligations, kept=False))])
+            for clause, guard in self.guards(at, rule)
+            if clause.obligations
+        ]
+        return self.formula.any_of(ways) if ways else -self.formula.true
+
+    def in_force(self, label: str) -> int:
+        """The literal "this rule counts", by which cores name the rules that matter."""
+        literal = self._in_force.get(label)
+        if literal is None:
+            literal = self._in_force[label] = self.formula.fresh()
+        return literal
+
+    def _rule_at(self, at: int, rule: Rule) -> None:
+        in_force = self.in_force(rule.label)
+        for number, (clause, guard) in enumerate(self.guards(at, rule)):
+            if clause.obligations:
+                self.decided.append(Decided(at, rule, number, clause, guard))
+                self.add([-in_force, -guard, self.demand(at, self.due(at, clause.obligations))])
+
+    def deciding(self, at: int, rule: Rule) -> list[Decided]:
+        """The clauses of a rule with the literals that they decide at an instant, if it triggers the rule."""
+        guards = self.instants[at].guards(rule, self.program.ruleset.reading, self.formula.true)
+        return [Decided(at, rule, n, clause, guard) for n, (clause, guard) in enumerate(zip(rule.clauses(), guards))]
+
+    def condition(self, at: int, condition: Condition | None) -> int:
+        return self.formula.true if condition is None else self.instants[at].literal(condition)
+
+    def _law_at(self, law: Law) -> Callable[[int], None]:
+        """What a relation or constraint demands of an instant."""
+        in_force = self.in_force(law_name(law))
+
+        def require(*literals: int) -> None:
+            self.add([-in_force, *literals])
+
+        def event(at: int, name: str) -> int:
+            return self.instants[at].event(name)
+
+        def of_events(at: int, relation: EventRelation) -> None:
+            left, right = event(at, relation.left), event(at, relation.right)
+            if relation.relation == "mutualExclusive":
+                require(-left, -right)
+            elif relation.relation == "happenBefore":
+                require(-right, self.occurs(at, Occurs(relation.left, None, -1)))
+            else:
+                require(-left, right)
+                if relation.relation == "equal":
+                    require(-right, left)
+
+        def of_measures(at: int, relation: MeasureRelation) -> None:
+            unused, left = -self.instants[at].used, self.condition(at, relation.left)
+            right = self.condition(at, relation.right)
+            if relation.relation == "invariant":
+                require(unused, left)
+            elif relation.relation in ("imply", "iff"):
+                require(unused, -left, right)
+                if relation.relation == "iff":
+                    require(unused, left, -right)
+            else:
+                require(unused, -left, -right)
+
+        def of_effect(at: int, effect: Effect) -> None:
+            occurs, holds = event(at, effect.event), self.condition(at, effect.formula)
+            if effect.relation == "causation":
+                require(-self.instants[at].used, -holds, occurs)
+            else:
+                require(-occurs, holds if effect.relation == "includes" else -holds)
+
+        def of_lasting(at: int, lasting: Lasting) -> None:
+            begins = self.formula.fresh()
+            self.add([-event(at, lasting.event), -self.condition(at, lasting.condition), begins])
+
+            def stops(other: int) -> int:
+                assert lasting.end is not None
+                return self.formula.every([event(other, lasting.end), self.condition(other, lasting.end_condition)])
+
+            def stopped_by(until: int) -> int:
+                return self.exists(
+                    lambda other: self.formula.every(
+                        [
+                            stops(other),
+                            *self.times.bounds(at, other, 0, None),
+                            *self.times.bounds(other, until, 0, None),
+                        ]
+                    )
+                )
+
+            def holds_at(other: int) -> None:
+                if lasting.duration is not None:
+                    last = -(-seconds(lasting.duration) // 1) - 1
+                    bounds = self.times.bounds(at, other, 0, int(last))
+                else:
+                    bounds = [*self.times.bounds(at, other, 0, None), -stopped_by(other)]
+                away = [-bound for bound in bounds]
+                require(-begins, -self.instants[other].used, *away, self.condition(other, lasting.formula))
+
+            self.everywhere(holds_at)
+
+        def make(at: int) -> None:
+            if isinstance(law, EventRelation):
+                of_events(at, law)
+            elif isinstance(law, MeasureRelation):
+                of_measures(at, law)
+            elif isinstance(law, Effect):
+                of_effect(at, law)
+            elif isinstance(law, Lasting):
+                of_lasting(at, law)
+            elif isinstance(law, Exclusive):
+                names = list(dict.fromkeys(law.names))
+                for place, name in enumerate(names):
+                    for other in names[place + 1 :]:
+                        require(-event(at, name), -event(at, other))
+            else:
+                holds = self.condition(at, law.formula)
+                require(-self.instants[at].used, holds if isinstance(law, Assume) else -holds)
+
+        return make
+
+    # Questions ------------------------------------------------------------------------------------------------
+
+    def ask(self, *required: int, let_in: Sequence[str] | None = None) -> bool:
+        """Whether there is a trace in which all these literals are true. `let_in` are the labels of the rules and the
+        numbers of the laws that count: all, unless given.
+
+        Raises Undecided where the solver gives up, or more instants would be needed than are tried.
+        """
+        while True:
+            if self._solve(required, let_in, lambda need: False):
+                return True
+            if not any(-need.rest in self._core for need in self._needs):
+                return False
+            if not self._solve(required, let_in, lambda need: True):
+                return False
+            for need in [need for need in self._needs if self.true(need.rest)]:
+                self._grow(need)
+
+    def _grow(self, need: _Need) -> None:
+        if self._grown >= self._most:
+            raise Undecided(f"no answer with up to {len(self.instants)} instants")
+        self._grown += 1
+        self._needs.remove(need)
+        number = self.instant()
+        # What the new instant stands for is met there, or was met at one of the others.
+        self.add([-need.rest, need.witness(number)])
+
+    def _assumed(self, required: Sequence[int], let_in: Sequence[str] | None, trusts: _Trust) -> list[int]:
+        counting = self._in_force if let_in is None else [name for name in let_in if name in self._in_force]
+        distrusted = (-need.rest for need in self._needs if not trusts(need))
+        return [*required, *(self._in_force[name] for name in counting), *distrusted]
+
+    def _solve(self, required: Sequence[int], let_in: Sequence[str] | None, trusts: _Trust) -> bool:
+        """Solve with all rules written down that the model triggers, and with times that can be."""
+        while True:
+            self._send()
+            answer = self._solver.solve(self._assumed(required, let_in, trusts))
+            if answer is None:
+                raise Undecided("the solver gave up after its budget of conflicts")
+            if not answer:
+                self._core = set(self._solver.core())
+                return False
+            if not self._expand() and not self._refine():
+                return True
+
+    def trusting(self, *required: int, but: Set[str]) -> bool:
+        """Whether the instants that there are can be part of a trace for all that can be told without adding any, if
+        the events of `but` do not occur later."""
+        return self._solve(required, None, lambda need: need.later not in but)
+
+    def matter(self) -> list[str]:
+        """The rules and laws that the last answer, which was no, rests on."""
+        return [name for name, literal in self._in_force.items() if literal in self._core]
+
+    def _send(self) -> None:
+        for instant in self.instants:
+            instant.settle()
+        clauses = self.formula.clauses
+        self._solver.add(clauses[self._sent :])
+        self._sent = len(clauses)
+
+    def _expand(self) -> bool:
+        """Write down the rules of the events that occur in the model; whether there are any that were not."""
+        found = False
+        for number, instant in enumerate(self.instants):
+            for name, literal in list(instant.events().items()):
+                if name not in instant.expanded and self.true(literal):
+                    instant.expanded.add(name)
+                    for rule in self._rules.get(name, ()):
+                        if rule.label not in self._without and (rule.label, number) not in self.spared:
+                            found = True
+                            self._rule_at(number, rule)
+        return found
+
+    def _refine(self) -> bool:
+        """Rule out what a model says of measures and times and cannot be; False if all of it can."""
+        refused = []
+        for instant in self.instants:
+            if instant.measures.orders and self.true(instant.used):
+                decoded = instant.measures.decode(self.true)
+                if isinstance(decoded, list):
+                    refused.append(decoded)
+        clause = self.times.refused(self.true, self.used())
+        if clause is not None:
+            refused.append(clause)
+        for lemma in refused:
+            self.add(lemma)
+        return bool(refused)
+
+    def used(self) -> list[int]:
+        """The instants that the trace of the last `ask` has."""
+        return [number for number, instant in enumerate(self.instants) if self.true(instant.used)]
+
+    def true(self, literal: int) -> bool:
+        """Whether a literal is true in the trace of the last `ask`."""
+        return self._solver.holds(literal)
+
+    def values(self, at: int) -> dict[str, Value]:
+        """The conditions and measures that anything speaks of at an instant of the trace of the last `ask`."""
+        instant = self.instants[at]
+        found: dict[str, Value] = {
+            key[1]: self.true(variable) for key, variable in instant.variables.items() if key[0] == "condition"
+        }
+        decoded = instant.measures.decode(self.true)
+        assert not isinstance(decoded, list), "ask accepts a model only once its order has room"
+        found.update(decoded)
+        return found
+
+    def happening(self, at: int) -> frozenset[str]:
+        """The events of an instant of the trace of the last `ask`."""
+        return frozenset(name for name, literal in self.instants[at].events().items() if self.true(literal))
+
+    def schedule(self) -> tuple[dict[int, int], dict[int, tuple[int, int]]]:
+        """The earliest times of the trace of the last `ask`, and what each instant waits for."""
+        return self.times.schedule(self.true, self.used())
