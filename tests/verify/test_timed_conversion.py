@@ -20,7 +20,7 @@ from sleec_verify.conversion.rules import MAX_RULES
 from tests.language.dsl_strategies import dsl_rulesets
 from tests.language.timed_strategies import timed_rulesets
 
-STUDIES = Path("/work/shared/case-studies")
+STUDIES = Path(__file__).parents[3] / "shared" / "case-studies"
 SEEDS = range(12)
 
 
