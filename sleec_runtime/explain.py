@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from sleec_runtime.conflicts import Conflict
 from sleec_runtime.evaluation import Decision, Step
-from sleec_runtime.language.printer import print_formula, print_number
+from sleec_runtime.language.formula_printer import print_formula, print_number
 from sleec_runtime.model import Comparison, Exclusive, Formula, Rule, Value, leaves, measures_of
 
 

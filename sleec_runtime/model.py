@@ -232,6 +232,7 @@ class Rule:
 
 
 def in_text_order(clause: Clause) -> Iterator[Clause]:
+    """A clause and those nested in it, in the order of the text."""
     yield clause
     for hedge in clause.hedges:
         yield from in_text_order(hedge)
@@ -242,8 +243,8 @@ def in_text_order(clause: Clause) -> Iterator[Clause]:
 
 @dataclass(frozen=True, slots=True)
 class Declaration:
-    """``TRIGGER a, b``, ``CONDITION c`` or ``OBLIGATION d``: `kind` is that of the names. An event of the DSL may be a
-    trigger and an obligation; `agent` says whose it is, if that is said."""
+    """``TRIGGER a, b``, ``CONDITION c``, ``OBLIGATION d`` or ``EVENT e BY system``: `kind` is that of the names. An
+    event may be a trigger and an obligation; `agent` says whose it is, if that is said."""
 
     kind: DeclaredKind
     names: tuple[str, ...]

@@ -10,7 +10,8 @@ import re
 from typing import TYPE_CHECKING
 
 from sleec_runtime.language.english import parse_english
-from sleec_runtime.language.printer import print_formula, print_rule, print_ruleset
+from sleec_runtime.language.formula_printer import print_formula
+from sleec_runtime.language.printer import print_rule, print_ruleset
 from sleec_runtime.language.source import read_source, tidy
 from sleec_runtime.model import Ruleset, Source
 

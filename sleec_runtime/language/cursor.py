@@ -11,13 +11,17 @@ from collections.abc import Iterable
 from typing import NoReturn
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.keywords import IN_WHICH_CASE, KEYWORDS, PHRASE, STATEMENTS, TIMES
+from sleec_runtime.language.keywords import IN_WHICH_CASE, KEYWORDS, PHRASE, STATEMENTS
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.suggest import near_keyword
+from sleec_runtime.language.units import UNITS
 from sleec_runtime.model import NO_COMMENTS, Comments, Source, Span
 
 MAX_DEPTH = 100
 """How deep parentheses and NOTs may be nested: far deeper than people read, far shallower than Python's stack."""
+
+ALTERNATIVE_LEVELS = 3
+"""As many levels as what OTHERWISE and ELSE hold counts for: its values are nested so much deeper."""
 
 MAX_NAME = 200
 """The longest name, in characters. A longer one is a text in which keywords are missing."""
@@ -25,6 +29,19 @@ MAX_NAME = 200
 _INNER_CAPITAL = re.compile(r"[^\W\d_][^\s]*?(?<=[^\W\d_A-Z])[A-Z]|_")
 _CAPITALISED = {word.capitalize(): word for word in ("WHEN", "IF", "THEN", "UNLESS", "AND", "OR", "NOT", "RULE")}
 _JOINERS = frozenset({"and", "or", "not"})
+
+OBLIGATION = "an obligation"
+"""What a response is made of, as messages say it; words for times may stand behind it."""
+
+_MISPLACED = {
+    **dict.fromkeys(("WITHIN", "EVENTUALLY"), "a time stands behind one obligation: THEN Alarm WITHIN 5 minutes"),
+    **dict.fromkeys(
+        ("OTHERWISE", "ELSE"), "it stands behind one obligation, or its time: THEN Alarm OTHERWISE CallForHelp"
+    ),
+    **dict.fromkeys(("WHILE", "MEANWHILE", "EXISTS"), "it belongs into a CONCERN or PURPOSE"),
+    "UNTIL": "it belongs into a RELATION",
+}
+"""What to try where one of these keywords is not expected, and nothing better is known."""
 
 _INSTEAD = {
     "&": "write AND",
@@ -118,18 +135,12 @@ class Cursor:
                 raise Abandon
         if kind == "strange":
             self._strange(at, what, hint)
-        if kind in TIMES:
-            self.fail(
-                f"{kind} is not supported yet: this version reads rules without times",
-                self.token_span(at),
-                "leave the time out for now",
-            )
         if kind == "end" or (kind in STATEMENTS and self.starts_line(at)):
             end = self.ends[at - 1] if at else 0
             self.fail(
                 f"expected {what}, but the {'text' if kind == 'end' else 'statement'} ends here", Span(end, end), hint
             )
-        self.fail(f"expected {what}, but found {self.found(at)}", self.token_span(at), hint)
+        self.fail(f"expected {what}, but found {self.found(at)}", self.token_span(at), hint or _MISPLACED.get(kind))
 
     def _strange(self, token: int, what: str, hint: str | None) -> NoReturn:
         """Gives up because of a character that the language has no use for."""
@@ -169,9 +180,9 @@ class Cursor:
             at += 1
         self.at = at
 
-    def deeper(self) -> None:
-        """One parenthesis or NOT further in."""
-        self.depth += 1
+    def deeper(self, levels: int = 1) -> None:
+        """One parenthesis or NOT further in, or `levels` of them."""
+        self.depth += levels
         if self.depth > self.deepest:
             self.deepest = self.depth
             if self.depth > MAX_DEPTH:
@@ -276,6 +287,10 @@ class Cursor:
                     "is a keyword such as AND, THEN or UNLESS missing?",
                 )
             keyword = self.keyword_meant(token, word, first)
+            if keyword is None and what == OBLIGATION:
+                keyword = self._time_meant(token, word)
+                if keyword is not None and token == first:
+                    self.fail(f"expected {what}, but found {quoted(word)}", self.token_span(token), _MISPLACED[keyword])
             if keyword is not None:
                 self.misspelt(token, keyword)
                 break
@@ -292,7 +307,7 @@ class Cursor:
     def keyword_meant(self, token: int, word: str, first: int) -> str | None:
         """The keyword that this word, of a phrase that starts at `first`, was surely meant to be."""
         if word.isupper():
-            return near_keyword(word) if len(word) > 1 else None
+            return near_keyword(word, self.starts_line(token)) if len(word) > 1 else None
         if token == first:
             return None
         if word in _CAPITALISED:
@@ -303,6 +318,24 @@ class Cursor:
         if small == "in" and self._says("which case", token + 1):
             return IN_WHICH_CASE
         return None
+
+    def _time_meant(self, token: int, word: str) -> str | None:
+        """The keyword for a time that this word of an obligation was surely meant to be. `within reach` is none."""
+        small = word.casefold()
+        if small == "otherwise" or (small == "eventually" and self.kinds[token + 1] not in PHRASE):
+            return small.upper()
+        if small == "within" and (self.kinds[token + 1] in ("number", "digits") or self._has_unit_behind(token)):
+            return "WITHIN"
+        return None
+
+    def _has_unit_behind(self, token: int) -> bool:
+        """Whether the phrase goes on with a unit of time, or with a bracket."""
+        at = token + 1
+        while self.kinds[at] in PHRASE and at < token + MAX_NAME:
+            if self.token_text(at) in UNITS:
+                return True
+            at += 1
+        return self.token_text(at) == "["
 
     def _says(self, words: str, token: int) -> bool:
         return [self.token_text(token).casefold(), self.token_text(token + 1).casefold()] == words.split()

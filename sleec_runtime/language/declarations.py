@@ -1,14 +1,16 @@
-"""The statements that say what names are: MEASURE, CONSTANT, TRIGGER, CONDITION, OBLIGATION."""
+"""The statements that say what names are: MEASURE, CONSTANT, TRIGGER, CONDITION, OBLIGATION, EVENT."""
 
 from __future__ import annotations
 
 from sleec_runtime.language.cursor import quoted
 from sleec_runtime.language.formulas import FormulaParser
+from sleec_runtime.language.keywords import PHRASE
 from sleec_runtime.language.resolve import Side
 from sleec_runtime.language.suggest import nearest
-from sleec_runtime.model import Constant, Declaration, Kind, Measure, MeasureKind, Span
+from sleec_runtime.model import Agent, Constant, Declaration, Kind, Measure, MeasureKind, Span
 
 _KIND: dict[str, Kind] = {"TRIGGER": "trigger", "CONDITION": "condition", "OBLIGATION": "obligation"}
+_BY = "BY"
 _NUMERIC: dict[str, MeasureKind] = {"number": "number", "integer": "integer"}
 _TYPE_SLIPS = {
     "numeric": "number",
@@ -35,6 +37,8 @@ class DeclarationParser(FormulaParser):
             return self._measure()
         if keyword == "CONSTANT":
             return self._constant()
+        if keyword == "EVENT":
+            return self._event()
         first = self.at
         self.at += 1
         kind = _KIND[keyword]
@@ -43,6 +47,32 @@ class DeclarationParser(FormulaParser):
             for name, span in zip(names, spans):
                 self.names.declare(kind, name, span)
         return Declaration(kind, names, self.span(first), spans, self.comments_of(first))
+
+    def _event(self) -> Declaration:
+        first = self.at
+        at_by = first + 1
+        while self.kinds[at_by] in PHRASE or self.kinds[at_by] == ",":
+            if self.token_text(at_by) == _BY:
+                self.kinds[at_by] = _BY
+            at_by += 1
+        self.at += 1
+        names, spans = self.names_in_list("the name of an event")
+        agent = self._agent() if self.kinds[self.at] == _BY else None
+        if not self.hurt:
+            for name, span in zip(names, spans):
+                self.names.declare_event(name, span, agent)
+        return Declaration("event", names, self.span(first), spans, self.comments_of(first), agent)
+
+    def _agent(self) -> Agent:
+        self.at += 1
+        written = self.token_text(self.at)
+        if written not in ("system", "environment"):
+            near = nearest(written, ("system", "environment"))
+            self.expected(
+                "system or environment", f"did you mean {near}?" if near else "as in: EVENT SoundAlarm BY system"
+            )
+        self.at += 1
+        return "system" if written == "system" else "environment"
 
     def names_in_list(self, what: str) -> tuple[tuple[str, ...], tuple[Span, ...]]:
         """One name or more, with commas between them."""

@@ -12,9 +12,9 @@ from typing import TypeVar
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.cursor import Abandon, quoted
 from sleec_runtime.language.garbage import uncollected
-from sleec_runtime.language.keywords import DECLARATIONS, RULE_STARTS, STATEMENTS
+from sleec_runtime.language.keywords import CLAIMS, DECLARATIONS, RULE_STARTS, STATEMENTS
+from sleec_runtime.language.relations import RelationParser
 from sleec_runtime.language.resolve import Names, first_problems
-from sleec_runtime.language.rules import RuleParser
 from sleec_runtime.language.scanner import scan
 from sleec_runtime.language.suggest import near_keyword, nearest
 from sleec_runtime.model import (
@@ -62,7 +62,7 @@ def parse_english(source: Source) -> Ruleset:
     )
 
 
-class EnglishParser(RuleParser):
+class EnglishParser(RelationParser):
     """Reads a whole text, once."""
 
     def statements(self) -> list[Statement]:
@@ -140,7 +140,7 @@ class EnglishParser(RuleParser):
             elif kind == "end":
                 return
             else:
-                self._not_yet(kind)
+                found.append(self._read(self.claim if kind in CLAIMS else self.relation))
 
     def _next_statement(self) -> int:
         """The token at hand if a statement starts there; else it is reported, and the next one that does."""
@@ -165,19 +165,6 @@ class EnglishParser(RuleParser):
                 "a rule before this UNLESS", "an exception belongs to a rule: WHEN trigger THEN response UNLESS ..."
             )
         self.expected("a statement, such as RULE or WHEN", "a rule looks like this: WHEN trigger THEN response")
-
-    def _not_yet(self, keyword: str) -> None:
-        self.begin_clause()
-        self.problem(
-            f"{keyword} is not supported yet: this version reads rules and constraints",
-            self.token_span(self.at),
-            "leave it out for now",
-        )
-        self.at += 1
-        self.skip(STATEMENTS)
-        if self.kinds[self.at] in RULE_STARTS:
-            self.at += 1
-            self.skip(STATEMENTS)
 
     def _read(self, read: Callable[[], _Read]) -> _Read | None:
         """What `read` reads, to the end of the statement; None if there was a problem."""

@@ -2,15 +2,32 @@
 
 from __future__ import annotations
 
-DECLARATIONS = frozenset({"MEASURE", "CONSTANT", "TRIGGER", "CONDITION", "OBLIGATION"})
+DECLARATIONS = frozenset({"MEASURE", "CONSTANT", "TRIGGER", "CONDITION", "OBLIGATION", "EVENT"})
 RULE_STARTS = frozenset({"RULE", "WHEN", "IF"})
 SETTINGS = frozenset({"DOMAIN", "READING"})
-STATEMENTS = DECLARATIONS | RULE_STARTS | SETTINGS | {"EXCLUSIVE", "NEVER", "ASSUME", "CONCERN", "PURPOSE"}
+CLAIMS = frozenset({"CONCERN", "PURPOSE"})
+STATEMENTS = DECLARATIONS | RULE_STARTS | SETTINGS | CLAIMS | {"EXCLUSIVE", "NEVER", "ASSUME", "RELATION"}
 """The keywords that start a statement; the one before it ends there."""
 
-TIMES = frozenset({"WITHIN", "OTHERWISE", "EVENTUALLY"})
+TIMES = frozenset({"WITHIN", "EVENTUALLY"})
+ALTERNATIVES = frozenset({"OTHERWISE", "ELSE"})
 IN_WHICH_CASE = "IN WHICH CASE"
-KEYWORDS = STATEMENTS | TIMES | {"THEN", "UNLESS", "IN", "WHICH", "CASE", "AND", "OR", "NOT"}
+_OCCASIONS = frozenset({"EXISTS", "WHILE", "MEANWHILE", "UNTIL"})
+KEYWORDS = (
+    STATEMENTS | TIMES | ALTERNATIVES | _OCCASIONS | {"THEN", "UNLESS", "IN", "WHICH", "CASE", "AND", "OR", "NOT"}
+)
+
+GUESSED = KEYWORDS - _OCCASIONS - {"EVENT", "RELATION", "ELSE"}
+"""The keywords that a word in capitals may be a misspelling of; WHITE and VENT in a phrase are none."""
+
+RELATION_WORDS = frozenset(
+    {"ALWAYS", "FOR", "WITNESSES", "EQUALS", "EXCLUDES", "PRECEDES", "CAUSES", "INCLUDES", "FORBIDS"}
+    | {"IMPLIES", "OPPOSES"}
+)
+"""Keywords in a RELATION, and words of phrases everywhere else; likewise BY after EVENT and TO after WITHIN."""
+
+OCCASION = "when"
+"""The kind of a WHEN, or IF, inside a concern, purpose or relation: it starts no rule and no line."""
 
 LINE_STARTS = STATEMENTS | {"UNLESS"}
 """The keywords that begin a line where the printer writes one."""

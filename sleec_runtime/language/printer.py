@@ -7,34 +7,29 @@ several obligations behind IN WHICH CASE and a guard with OR, which people read 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Union
 
-from sleec_runtime.errors import Unsayable
+from sleec_runtime.language.chain_printer import ChainPrinter
+from sleec_runtime.language.formula_printer import guard_text, print_formula, print_number
+from sleec_runtime.language.line_printer import behind, comment_lines, split_heading, trimmed
 from sleec_runtime.model import (
     NO_COMMENTS,
-    And,
     Assume,
-    Atom,
-    Clause,
     Comments,
-    Comparison,
     Constant,
     Declaration,
     Exclusive,
-    Formula,
     Measure,
-    MeasureRef,
     Never,
-    Not,
-    Or,
-    Rational,
     Rule,
     Ruleset,
-    ScaleValue,
     Statement,
-    Term,
 )
 
-_INDENT = "    "
+if TYPE_CHECKING:
+    from sleec_runtime.model_time import Claim, Relation
+
+_BesideRules = Union[Declaration, Measure, Constant, Exclusive, Never, Assume, "Claim", "Relation"]
 
 
 def print_ruleset(ruleset: Ruleset) -> str:
@@ -53,53 +48,6 @@ def print_ruleset(ruleset: Ruleset) -> str:
 def print_rule(rule: Rule) -> str:
     """One rule as text, without its comments, its domains, and a label that is only its number."""
     return "\n".join(_Printer(comments=False).rule(rule, rule.labelled))
-
-
-def print_formula(formula: Formula) -> str:
-    """A formula as text, with as few parentheses as it can be read with."""
-    if isinstance(formula, Atom):
-        return formula.name
-    if isinstance(formula, Or):
-        # AND binds tighter than OR and needs no parentheses in it; an OR in an OR was written with them.
-        return " OR ".join(_operand(operand, Or) for operand in formula.operands)
-    if isinstance(formula, And):
-        return " AND ".join(_operand(operand, (And, Or)) for operand in formula.operands)
-    if isinstance(formula, Not):
-        return f"NOT {_operand(formula.operand, (And, Or))}"
-    if isinstance(formula, Comparison):
-        return f"{print_term(formula.left)} {formula.operator} {print_term(formula.right)}"
-    return "true" if formula.value else "false"
-
-
-def print_term(term: Term) -> str:
-    """One side of a comparison; a number that was written by the name of a constant keeps that name."""
-    if isinstance(term, MeasureRef):
-        return term.name
-    if isinstance(term, ScaleValue):
-        return term.value
-    return term.constant if term.constant is not None else print_number(term.value)
-
-
-def print_number(value: Rational) -> str:
-    """A number exactly: as a decimal if it has one that ends, as every number of a text does, else as a fraction."""
-    if value.denominator == 1:
-        return str(int(value))
-    digits, rest = 0, value.denominator
-    for prime in (2, 5):
-        power = 0
-        while rest % prime == 0:
-            rest //= prime
-            power += 1
-        digits = max(digits, power)
-    if rest != 1:
-        return str(value)
-    scaled = str(abs(int(value * 10**digits))).rjust(digits + 1, "0")
-    return f"{'-' if value < 0 else ''}{scaled[:-digits]}.{scaled[-digits:]}"
-
-
-def _operand(formula: Formula, in_parentheses: type | tuple[type, ...]) -> str:
-    text = print_formula(formula)
-    return f"({text})" if isinstance(formula, in_parentheses) else text
 
 
 class _Printer:
@@ -133,10 +81,7 @@ class _Printer:
                 yield ""
                 settings = []
             yield from comment_lines(above)
-            if isinstance(statement, Rule):
-                yield from self.rule(statement, labelled)
-            else:
-                yield behind(_statement(statement), statement.comments.behind)
+            yield from self.rule(statement, labelled) if isinstance(statement, Rule) else _other(statement)
             before = statement
         closing = trimmed(ruleset.closing_comments)
         if closing:
@@ -154,65 +99,47 @@ class _Printer:
             remark = first.behind
         else:
             remark = first.behind if own.behind is None else own.behind
-        guard = ""
-        if rule.guard is not None:
-            guard = f" AND {_operand(rule.guard, Or)}"
-        when = f"WHEN {rule.trigger}{guard} THEN "
-        yield from self._clause(when, rule.default, Comments(behind=remark), "", in_parentheses=False)
-        for hedge in rule.hedges:
-            yield from self._hedge(hedge, "", "")
-
-    def _hedge(self, hedge: Clause, indent: str, closing: str) -> Iterator[str]:
-        assert hedge.condition is not None
-        comments = hedge.comments if self._with_comments else NO_COMMENTS
-        for line in comment_lines(trimmed(comments.above)):
-            yield indent + line if line else line
-        unless = f"{indent}UNLESS {print_formula(hedge.condition)}"
-        if hedge.obligations or hedge.hedges:
-            yield from self._clause(f"{unless} IN WHICH CASE ", hedge, comments, closing, in_parentheses=True)
-        else:
-            yield behind(unless + closing, comments.behind)
-
-    def _clause(
-        self, line: str, clause: Clause, comments: Comments, closing: str, in_parentheses: bool
-    ) -> Iterator[str]:
-        """The line of a clause, which `line` begins, and those of the chain that is nested in it."""
-        for obligation in clause.obligations:
-            if obligation.timing is not None:
-                raise Unsayable(f"structured English has no words yet for times, as of {obligation.name}")
-        response = " AND ".join(str(obligation) for obligation in clause.obligations)
-        if not clause.hedges:
-            if in_parentheses and len(clause.obligations) > 1:
-                response = f"({response})"
-            yield behind(line + response + closing, comments.behind)
-            return
-        indent = line[: len(line) - len(line.lstrip())] + _INDENT
-        yield behind(f"{line}({response}", comments.behind)
-        for nested in clause.hedges[:-1]:
-            yield from self._hedge(nested, indent, "")
-        yield from self._hedge(clause.hedges[-1], indent, f"){closing}")
+        lines = ChainPrinter(self._with_comments)
+        lines.begin("", Comments(behind=remark))
+        lines.write(f"WHEN {rule.trigger}{guard_text(rule.guard)} THEN ")
+        lines.response(rule.default)
+        lines.hedges(rule.hedges)
+        yield from lines.lines()
 
 
-def _statement(statement: Statement) -> str:
-    if isinstance(statement, Declaration) and statement.kind != "event":
-        return f"{statement.kind.upper()} {', '.join(statement.names)}"
+def _other(statement: _BesideRules) -> Iterator[str]:
+    """The lines of a statement that is no rule, without the comments above it."""
+    if isinstance(statement, (Declaration, Measure, Constant, Exclusive, Never, Assume)):
+        yield behind(_statement(statement), statement.comments.behind)
+        return
+    from sleec_runtime.language.relations_printer import print_beside_rules
+
+    yield from print_beside_rules(statement)
+
+
+def _statement(statement: Declaration | Measure | Constant | Exclusive | Never | Assume) -> str:
+    if isinstance(statement, Declaration):
+        agent = f" BY {statement.agent}" if statement.agent is not None else ""
+        return f"{statement.kind.upper()} {', '.join(statement.names)}{agent}"
     if isinstance(statement, Measure):
         return f"MEASURE {statement.name}: {' < '.join(statement.values) or statement.kind}"
     if isinstance(statement, Constant):
         return f"CONSTANT {statement.name} = {statement.alias or print_number(statement.value)}"
     if isinstance(statement, Exclusive):
         return f"EXCLUSIVE {', '.join(statement.names)}"
-    if not isinstance(statement, (Never, Assume)):
-        raise Unsayable("structured English has no words yet for events, concerns, purposes and relations")
     return f"{'NEVER' if isinstance(statement, Never) else 'ASSUME'} {print_formula(statement.formula)}"
 
 
 def _stands_apart(before: Statement, statement: Statement) -> bool:
     """Whether a blank line separates two statements: rules stand alone, others in groups of one kind."""
-    return isinstance(statement, Rule) or type(before) is not type(statement)
+    return isinstance(statement, Rule) or _group(before) != _group(statement)
 
 
-# Comments -------------------------------------------------------------------------------------------------
+def _group(statement: Statement) -> str:
+    if isinstance(statement, (Rule, Declaration, Measure, Constant, Exclusive, Never, Assume)):
+        return type(statement).__name__
+    # A concern or a purpose, or one of the relations.
+    return getattr(statement, "kind", "relation")
 
 
 def _above(statement: Statement, labelled: bool) -> Sequence[str]:
@@ -224,47 +151,3 @@ def _above(statement: Statement, labelled: bool) -> Sequence[str]:
     one_too_many = default.behind if own.behind is not None else None
     above = (*own.above, *default.above)
     return (*above, one_too_many) if one_too_many else above
-
-
-def split_heading(above: Sequence[str], has_settings: bool) -> tuple[Sequence[str], Sequence[str]]:
-    """The comments above a statement: those above the DOMAIN or READING line before it, and those below that.
-
-    An empty string is an empty line; the last one divides the two.
-    """
-    above = _without_leading(above)
-    if not has_settings or "" not in above:
-        return (), above
-    gap = len(above) - 1 - above[::-1].index("")
-    return above[:gap], above[gap + 1 :]
-
-
-def _without_leading(comments: Sequence[str]) -> list[str]:
-    found: list[str] = []
-    for comment in comments:
-        text = " ".join(comment.splitlines()).strip()
-        if text or (found and found[-1]):
-            found.append(text)
-    return found
-
-
-def trimmed(comments: Sequence[str]) -> list[str]:
-    """Comments without empty ones at the beginning and at the end."""
-    found = _without_leading(comments)
-    return found[:-1] if found and not found[-1] else found
-
-
-def comment_lines(comments: Sequence[str]) -> Iterator[str]:
-    """Comments as lines; an empty one is an empty line."""
-    for comment in comments:
-        yield _comment(comment) if comment else ""
-
-
-def _comment(text: str) -> str:
-    return f"// {text}".rstrip()
-
-
-def behind(line: str, comment: str | None) -> str:
-    """A line with the comment behind it, if there is one."""
-    if comment is None:
-        return line
-    return f"{line}  {_comment(' '.join(comment.splitlines()).strip())}"

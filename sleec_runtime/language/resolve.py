@@ -15,10 +15,13 @@ from sleec_runtime.language.cursor import quoted
 from sleec_runtime.language.suggest import Suggester
 from sleec_runtime.model import (
     NOWHERE,
+    Agent,
     Atom,
     Constant,
     Kind,
     Measure,
+    MeasureRef,
+    Number,
     Rational,
     Source,
     Span,
@@ -50,16 +53,30 @@ class Names:
         self._problems = problems
         self._declared: dict[Kind, dict[str, Span]] = {kind: {} for kind in _KINDS}
         self._used: dict[Kind, dict[str, Span]] = {kind: {} for kind in _KINDS}
+        self._events: dict[str, tuple[Span, Agent | None]] = {}
+        self._events_used: dict[str, Span] = {}
         self.compared: dict[str, Span] = {}
         self._named: dict[str, Span] = {}
         self.scales: dict[str, list[str]] = {}
-        self._labels: dict[str, Span] = {}
+        self._labels: dict[str, tuple[Span, str]] = {}
         self.nearest = Suggester().nearest
 
     # Declarations ---------------------------------------------------------------------------------------------
 
     def declare(self, kind: Kind, name: str, span: Span) -> None:
         self._declared[kind].setdefault(name, span)
+
+    def declare_event(self, name: str, span: Span, agent: Agent | None) -> None:
+        """Takes in an event, which may be a trigger and an obligation. Whose it is must be said the same everywhere."""
+        first, its = self._events.setdefault(name, (span, agent))
+        if its != agent:
+            self.problem(
+                f"{quoted(name)} is declared {_owned(agent)} here, and {_owned(its)} in line {self._line(first)}",
+                span,
+                "declare it once",
+            )
+        self.declare("trigger", name, span)
+        self.declare("obligation", name, span)
 
     def declare_measure(self, measure: Measure, name_span: Span, value_spans: Collection[Span]) -> None:
         """Takes a measure in, unless its name is taken. The values of one scale must differ."""
@@ -130,14 +147,16 @@ class Names:
                     "rename one of them",
                 )
 
-    def label(self, label: str, span: Span) -> None:
-        first = self._labels.setdefault(label, span)
-        if first is not span:
-            self.problem(
-                f"there are two rules {quoted(label)}; the first is in line {self._line(first)}",
-                span,
-                "give each rule a label of its own",
-            )
+    def label(self, label: str, span: Span, what: str) -> None:
+        """The label of a rule, a concern or a purpose, as `what` says; no two of them may have the same."""
+        first, other = self._labels.setdefault(label, (span, what))
+        if first is span:
+            return
+        if other == what:
+            message = f"there are two {what}s {quoted(label)}; the first is in line {self._line(first)}"
+        else:
+            message = f"{quoted(label)} is also the label of the {other} in line {self._line(first)}"
+        self.problem(message, span, f"give each {what} a label of its own")
 
     def numbered(self, labels: dict[str, Span]) -> None:
         """Rules without a label are called by their number, which no other rule may have for its label."""
@@ -145,7 +164,7 @@ class Names:
             if label in self._labels:
                 self.problem(
                     f"{quoted(label)} is also the name of the rule in line {self._line(span)}, which has no label",
-                    self._labels[label],
+                    self._labels[label][0],
                     "give one of them another label",
                 )
 
@@ -166,6 +185,50 @@ class Names:
         used = self._used[kind]
         if name not in used:
             used[name] = span
+
+    def event(self, name: str, span: Span) -> None:
+        """A name that stands where something happens, be it a trigger, an obligation or both."""
+        self._events_used.setdefault(name, span)
+
+    def has_amount(self, name: str) -> bool:
+        """Whether a constant or a measure has this name."""
+        return name in self.constants or name in self.measures
+
+    def amount(self, name: str, span: Span) -> Number | MeasureRef | None:
+        """The constant or measure that says how long something takes; None, and a problem, if it is nothing of that."""
+        constant = self.constants.get(name)
+        if constant is not None:
+            return self._constant_amount(constant, name, span)
+        measure = self.measures.get(name)
+        if measure is not None and measure.kind == "integer":
+            self.compared.setdefault(name, span)
+            return MeasureRef(name)
+        if measure is not None:
+            its = "a scale" if measure.kind == "scale" else "any number"
+            self.problem(
+                f"{quoted(name)} is {its}, and times are whole numbers",
+                span,
+                f"declare it as MEASURE {name}: integer, or write a number",
+            )
+        elif self.complete:
+            near = self.nearest(name, [*self.constants, *self.measures])
+            self.problem(
+                f"there is no constant or measure {quoted(name)}",
+                span,
+                did_you_mean(near) or f"declare it: CONSTANT {name} = 5, or MEASURE {name}: integer",
+            )
+        return None
+
+    def _constant_amount(self, constant: Constant, name: str, span: Span) -> Number | None:
+        if constant.value >= 0 and constant.value.denominator == 1:
+            return Number(constant.value, name)
+        wrong = "negative" if constant.value < 0 else "no whole number"
+        self.problem(
+            f"the constant {quoted(name)} is {wrong}, and times are whole numbers from 0",
+            span,
+            "give it another value" if constant.value < 0 else "choose a smaller unit: 90 seconds, not 1.5 minutes",
+        )
+        return None
 
     def condition(self, name: str, span: Span) -> Atom:
         used = self._used["condition"]
@@ -207,6 +270,7 @@ class Names:
         clashing = self._report_clashes()
         if not self.complete:
             return
+        self._report_unknown_events(clashing)
         unknown: list[tuple[Span, str, Kind]] = []
         for kind in _KINDS:
             if self._declared[kind]:
@@ -225,6 +289,20 @@ class Names:
                 or f"this text declares its {kind}s (line {self._line(first)}); add it there: {kind.upper()} {name}",
             )
 
+    def _report_unknown_events(self, clashing: set[str]) -> None:
+        """Events that nothing else in a text knows which declares all its triggers and obligations."""
+        if not (self._declared["trigger"] and self._declared["obligation"]):
+            return
+        known = {**self._declared["trigger"], **self._declared["obligation"]}
+        for name, span in self._events_used.items():
+            if name not in known and name not in clashing:
+                near = self.nearest(name, known)
+                self.problem(
+                    f"{quoted(name)} is not declared as an event",
+                    span,
+                    did_you_mean(near) or f"this text declares its triggers and obligations; add it: EVENT {name}",
+                )
+
     def _report_clashes(self) -> set[str]:
         clashing: set[str] = set()
         places: dict[str, dict[str, Span]] = {kind: {**self._used[kind], **self._declared[kind]} for kind in _KINDS}
@@ -232,6 +310,7 @@ class Names:
         for name in self.measures:
             places["measure"][name] = self._named.get(name, NOWHERE)
         places["constant"] = {name: self._named[name] for name in self.constants if name in self._named}
+        places["event"] = self._events_used
         for one, other in _APART:
             for name in places[one].keys() & places[other].keys():
                 if name not in clashing:
@@ -245,13 +324,24 @@ class Names:
         at_one = one_span > other_span if declared[one] == declared[other] else declared[other]
         here, span, there, place = (one, one_span, other, other_span) if at_one else (other, other_span, one, one_span)
         self.problem(
-            f"{quoted(name)} is {_role(here, declared[here])} here, and {_role(there, declared[there])} "
+            f"{quoted(name)} is {self._role(name, here, declared[here])} here, and "
+            f"{self._role(name, there, declared[there])} "
             f"in line {self._line(place)}",
             span,
             self._how_to_part(name, here, there),
         )
 
+    def _role(self, name: str, kind: str, declared: bool) -> str:
+        if declared and kind in ("trigger", "obligation") and name in self._events:
+            return "declared as an event"
+        article = "an" if kind in ("obligation", "event") else "a"
+        if declared:
+            return f"declared as {article} {kind}"
+        return "compared as a measure" if kind == "measure" else f"used as {article} {kind}"
+
     def _declares(self, kind: str, name: str) -> bool:
+        if kind == "event":
+            return False
         if kind in _KINDS:
             return name in self._declared[kind]
         return name in self._named
@@ -264,7 +354,7 @@ class Names:
             return f"a measure is compared wherever it stands, as in: {name} {example}"
         if kinds == {"condition", "obligation"}:
             return "a condition says how things are, an obligation what is to be done: give the two different names"
-        if kinds == {"condition", "trigger"}:
+        if kinds in ({"condition", "trigger"}, {"condition", "event"}):
             return "a trigger is what happens, a condition how things are meanwhile: give the two different names"
         return "give the two different names"
 
@@ -284,15 +374,15 @@ _APART = (
     ("obligation", "constant"),
     ("condition", "obligation"),
     ("condition", "trigger"),
+    ("condition", "event"),
+    ("event", "measure"),
+    ("event", "constant"),
 )
 """What a name cannot be at once. A trigger may be an obligation of another rule: it happens because it was due."""
 
 
-def _role(kind: str, declared: bool) -> str:
-    article = "an" if kind == "obligation" else "a"
-    if declared:
-        return f"declared as {article} {kind}"
-    return "compared as a measure" if kind == "measure" else f"used as {article} {kind}"
+def _owned(agent: Agent | None) -> str:
+    return f"BY {agent}" if agent is not None else "without BY"
 
 
 def did_you_mean(name: str | None) -> str:

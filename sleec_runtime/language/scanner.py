@@ -13,7 +13,7 @@ from operator import sub
 from typing import NamedTuple
 
 from sleec_runtime.language.comments import Remark, attach
-from sleec_runtime.language.keywords import IN_WHICH_CASE, KEYWORDS
+from sleec_runtime.language.keywords import CLAIMS, IN_WHICH_CASE, KEYWORDS, OCCASION, PHRASE
 from sleec_runtime.model import Comments
 
 _BLOCK = 1 << 16
@@ -116,5 +116,21 @@ def scan(text: str) -> Tokens:
         kinds.append("end")
         starts.append(len(text))
         ends.append(len(text))
+    _mark_occasions(kinds)
     comments, closing = attach(remarks, text, kinds, starts, ends)
     return Tokens(kinds, starts, ends, comments, closing)
+
+
+def _mark_occasions(kinds: list[str]) -> None:
+    """Marks each WHEN that belongs to a concern, purpose or relation."""
+    for keyword in (*CLAIMS, "RELATION", "MEANWHILE"):
+        at = -1
+        for _ in range(kinds.count(keyword)):
+            at = kinds.index(keyword, at + 1)
+            behind = at + 1
+            while keyword in CLAIMS and (kinds[behind] in PHRASE or kinds[behind] == "dotted"):
+                behind += 1
+            if keyword == "MEANWHILE" and kinds[behind] == "(":
+                behind += 1
+            if kinds[behind] in ("WHEN", "IF"):
+                kinds[behind] = OCCASION

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 
-from sleec_runtime.language.keywords import KEYWORDS
+from sleec_runtime.language.keywords import GUESSED, STATEMENTS
 
 # Comparing every unknown name with every known one is quadratic; past this many comparisons nothing is suggested.
 _BUDGET = 50_000
@@ -38,15 +38,15 @@ def nearest(name: str, known: Iterable[str]) -> str | None:
     return best
 
 
-def near_keyword(word: str) -> str | None:
-    """The keyword that a word in capitals is a misspelling of, if it is near one.
+def near_keyword(word: str, starts_line: bool = False) -> str | None:
+    """The keyword that a word in capitals is a misspelling of, if it is near one; any statement's, if it starts a line.
 
     Short keywords are near only to themselves with two letters swapped or one doubled (`ADN`, `ORR`), because `ER` or
     `ICU` in a phrase is no misspelling.
     """
     if word in _SLIPS:
         return _SLIPS[word]
-    for keyword in _KEYWORDS:
+    for keyword in _GUESSED_AT_LINE_START if starts_line else _GUESSED:
         if abs(len(keyword) - len(word)) > 2:
             continue
         if len(keyword) <= 4:
@@ -57,11 +57,12 @@ def near_keyword(word: str) -> str | None:
     return None
 
 
-_KEYWORDS = sorted(KEYWORDS, key=lambda keyword: (-len(keyword), keyword))
+_GUESSED = sorted(GUESSED, key=lambda keyword: (-len(keyword), keyword))
+_GUESSED_AT_LINE_START = sorted(GUESSED | STATEMENTS, key=lambda keyword: (-len(keyword), keyword))
 _SLIPS = {
     **dict.fromkeys(("THN", "TEN", "HEN"), "THEN"),
     **dict.fromkeys(("WEN", "WHN", "WHENEVER"), "WHEN"),
-    **dict.fromkeys(("ELSE", "EXCEPT"), "UNLESS"),
+    **dict.fromkeys(("EXCEPT",), "UNLESS"),
 }
 """Words in capitals that people write for a keyword, though their letters are not near it."""
 

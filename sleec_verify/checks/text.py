@@ -81,7 +81,7 @@ def _empty_hedges(cones: Cones) -> Iterator[Finding]:
 
 def _two_kinds(cones: Cones) -> Iterator[Finding]:
     ruleset = cones.ruleset
-    # An event of the DSL may be a trigger; it is one if a rule has it.
+    # An event may be a trigger; it is one if a rule has it.
     merely_declared = ruleset.declared["event"] - {rule.trigger for rule in ruleset.rules}
     for name in sorted((ruleset.triggers - merely_declared) & ruleset.obligations):
         span, rules = mentions(ruleset, name)
@@ -94,7 +94,9 @@ def _two_kinds(cones: Cones) -> Iterator[Finding]:
         )
 
 
-_KEYWORDS = frozenset(("when", "then", "unless", "and", "or"))
+_KEYWORDS = frozenset(("when", "then", "unless", "and", "or", "otherwise"))
+_TIMES = frozenset(("within", "eventually", "else"))
+"""Keywords behind an obligation; a condition with one of these words can mean nothing but itself."""
 
 
 def _lower_case_keywords(cones: Cones) -> Iterator[Finding]:
@@ -102,8 +104,10 @@ def _lower_case_keywords(cones: Cones) -> Iterator[Finding]:
     measures = set(ruleset.measures)
     for name in sorted(ruleset.triggers | ruleset.conditions | ruleset.obligations | measures):
         words = name.split()
+        # "call someone else" is fine, too: a time, or what is due instead, would follow.
+        times = _TIMES if name in ruleset.obligations and words[-1].lower() not in _TIMES else frozenset[str]()
         # "the user does not answer" is fine as one condition; "not asleep" most likely is not.
-        found = [w for n, w in enumerate(words) if w.lower() in _KEYWORDS or (n == 0 and w.lower() == "not")]
+        found = [w for n, w in enumerate(words) if w.lower() in _KEYWORDS | times or (n == 0 and w.lower() == "not")]
         if len(words) > 1 and found:
             span, rules = mentions(ruleset, name)
             yield PHRASE_KEYWORD.finding(

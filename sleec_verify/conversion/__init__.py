@@ -51,7 +51,7 @@ def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Con
     if to == "english":
         from sleec_verify.conversion.to_english import in_english
 
-        converted = in_english(reread(ruleset, reading or ruleset.reading))
+        converted, notes = in_english(reread(ruleset, reading or ruleset.reading))
     else:
         if reading == "cascade":
             raise Unsayable("the DSL reads hedges by priority only", "leave --reading out")

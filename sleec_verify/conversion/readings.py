@@ -8,33 +8,26 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from sleec_runtime.model import And, Clause, Formula, Or, Reading, Rule, Ruleset
+from sleec_runtime.model import And, Clause, Formula, Or, Reading, Ruleset
+from sleec_verify.conversion.parts import with_chains
 
 
 def reread(ruleset: Ruleset, reading: Reading) -> Ruleset:
     """`ruleset` with its hedges rewritten so that it obliges the same, read as `reading`."""
     if reading == ruleset.reading:
         return ruleset
-    statements = tuple(
-        replace(s, default=_clause(s.default, reading), hedges=_chain(s.hedges, reading)) if isinstance(s, Rule) else s
-        for s in ruleset.statements
-    )
+
+    def rewritten(hedges: Sequence[Clause]) -> list[Clause]:
+        """A chain whose clauses decide in `reading` where they decided in the other one."""
+        conditions = [hedge.condition for hedge in hedges if hedge.condition is not None]
+        kind = Or if reading == "cascade" else And
+        return [
+            replace(hedge, condition=_joined(kind, conditions[n:] if reading == "cascade" else conditions[: n + 1]))
+            for n, hedge in enumerate(hedges)
+        ]
+
+    statements = tuple(with_chains(statement, rewritten) for statement in ruleset.statements)
     return replace(ruleset, statements=statements, reading=reading)
-
-
-def _clause(clause: Clause, reading: Reading) -> Clause:
-    return replace(clause, hedges=_chain(clause.hedges, reading)) if clause.hedges else clause
-
-
-def _chain(hedges: Sequence[Clause], reading: Reading) -> tuple[Clause, ...]:
-    """A chain whose clauses decide in `reading` where they decided in the other one."""
-    conditions = [hedge.condition for hedge in hedges if hedge.condition is not None]
-    rewritten = []
-    for number, hedge in enumerate(hedges):
-        parts = conditions[number:] if reading == "cascade" else conditions[: number + 1]
-        condition = _joined(Or if reading == "cascade" else And, parts)
-        rewritten.append(replace(_clause(hedge, reading), condition=condition))
-    return tuple(rewritten)
 
 
 def _joined(kind: type[And] | type[Or], parts: Sequence[Formula]) -> Formula:

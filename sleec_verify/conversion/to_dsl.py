@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import NoReturn
 
@@ -11,8 +11,9 @@ from sleec_runtime.errors import Unsayable
 from sleec_runtime.language.dsl.scanner import KEYWORDS
 from sleec_runtime.model import (
     NO_COMMENTS,
+    Agent,
     And,
-    Clause,
+    Atom,
     Comments,
     Constant,
     Declaration,
@@ -26,8 +27,12 @@ from sleec_runtime.model import (
     Ruleset,
     Span,
     Statement,
+    leaves,
 )
-from sleec_verify.conversion.rules import split
+from sleec_runtime.model_time import RELATIONS, Claim
+from sleec_verify.conversion.parts import with_formulas
+from sleec_verify.conversion.rules import narrow, split
+from sleec_verify.timed.names import beside_rules
 
 _NAME = re.compile(r"[^\W\d]\w*")
 
@@ -46,7 +51,7 @@ def in_dsl(ruleset: Ruleset, dialect: Dialect) -> tuple[Ruleset, list[str]]:
 
         refuse_unsayable(ruleset, statements)
     else:
-        statements = [_in_pairs(s) if isinstance(s, Rule) else s for s in statements]
+        statements = [with_formulas(s, _in_pairs) for s in statements]
     converted = replace(
         ruleset, statements=tuple(statements), syntax="dsl", dialect=dialect, inferred=(), reading_stated=False
     )
@@ -57,17 +62,20 @@ def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
     """The statements with every name defined: declared ones where they are declared, the others first."""
     defined: set[str] = set()
     declared = {name for names in ruleset.declared.values() for name in names}
-    for name in _undeclared(ruleset.triggers | ruleset.obligations, declared):
+    agents = {name: s.agent for s in ruleset.statements if isinstance(s, Declaration) for name in s.names if s.agent}
+    events, formulas, _ = beside_rules(ruleset)
+    for name in _undeclared(ruleset.triggers | ruleset.obligations | events, declared):
         defined.add(_name(ruleset, name))
         yield Declaration("event", (name,))
-    for name in _undeclared(ruleset.conditions, declared):
+    beside = {leaf.name for formula in formulas for leaf in leaves(formula) if isinstance(leaf, Atom)}
+    for name in _undeclared(ruleset.conditions | beside, declared):
         yield Declaration("condition", (_name(ruleset, name),))
     for measure in ruleset.inferred:
         yield _measure(ruleset, replace(measure, declared=True), notes)
-    labels = {rule.label for rule in ruleset.rules}
+    labels = {s.label for s in ruleset.statements if isinstance(s, (Rule, Claim))}
     for statement in ruleset.statements:
         if isinstance(statement, Declaration):
-            yield from _declarations(ruleset, statement, defined)
+            yield from _declarations(ruleset, statement, defined, agents)
         elif isinstance(statement, Measure):
             yield _measure(ruleset, statement, notes)
         elif isinstance(statement, Constant):
@@ -81,6 +89,11 @@ def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
                 refuse(ruleset, said, statement.span, "pick one with --domain")
             _name(ruleset, statement.label, statement.label_span)
             yield from split(replace(statement, comments=_comments(statement), labelled=True), labels)
+        elif isinstance(statement, Claim):
+            _name(ruleset, statement.label, statement.label_span)
+            yield narrow(statement)
+        elif isinstance(statement, RELATIONS):
+            yield statement
         else:
             word = type(statement).__name__.upper()
             refuse(ruleset, f"the DSL has nothing that means what {word} does", statement.span)
@@ -90,14 +103,16 @@ def _undeclared(names: Iterable[str], declared: set[str]) -> list[str]:
     return sorted(set(names) - declared)
 
 
-def _declarations(ruleset: Ruleset, statement: Declaration, defined: set[str]) -> Iterator[Declaration]:
+def _declarations(
+    ruleset: Ruleset, statement: Declaration, defined: set[str], agents: Mapping[str, Agent]
+) -> Iterator[Declaration]:
     """A definition for each name; what is declared as a trigger and as an obligation is one event."""
     comments = statement.comments
     kind: DeclaredKind = "condition" if statement.kind == "condition" else "event"
     for name, span in zip(statement.names, statement.name_spans or [statement.span] * len(statement.names)):
         if name not in defined:
             defined.add(_name(ruleset, name, span))
-            yield Declaration(kind, (name,), span, (span,), comments)
+            yield Declaration(kind, (name,), span, (span,), comments, agents.get(name))
             comments = NO_COMMENTS
     if comments != NO_COMMENTS:
         refuse(ruleset, "a comment stands at a declaration that the DSL does not need", statement.span, "move it")
@@ -136,22 +151,12 @@ def refuse(ruleset: Ruleset, message: str, span: Span | None = None, hint: str |
 # Formulas as LEGOS writes them ----------------------------------------------------------------------------
 
 
-def _in_pairs(rule: Rule) -> Rule:
-    """A rule whose chains of `and`, and of `or`, do not end in one of the same kind, as LEGOS's are read."""
-    guard = rule.guard and _normal(rule.guard)
-    return replace(rule, guard=guard, default=_of_clause(rule.default), hedges=tuple(map(_of_clause, rule.hedges)))
-
-
-def _of_clause(clause: Clause) -> Clause:
-    condition = clause.condition and _normal(clause.condition)
-    return replace(clause, condition=condition, hedges=tuple(map(_of_clause, clause.hedges)))
-
-
-def _normal(formula: Formula) -> Formula:
+def _in_pairs(formula: Formula) -> Formula:
+    """A formula whose chains of `and`, and of `or`, do not end in one of the same kind, as LEGOS's are read."""
     if isinstance(formula, Not):
-        return replace(formula, operand=_normal(formula.operand))
+        return replace(formula, operand=_in_pairs(formula.operand))
     if isinstance(formula, (And, Or)):
-        *first, last = map(_normal, formula.operands)
+        *first, last = map(_in_pairs, formula.operands)
         ending = last.operands if isinstance(last, (And, Or)) and type(last) is type(formula) else (last,)
         return replace(formula, operands=(*first, *ending))
     return formula

@@ -2,60 +2,75 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
-from sleec_runtime.errors import Unsayable
-from sleec_runtime.model import Declaration, Kind, Ruleset, Span, Statement
+from sleec_runtime.model import (
+    And,
+    Comparison,
+    Formula,
+    MeasureRef,
+    Not,
+    Or,
+    Rule,
+    Ruleset,
+    ScaleValue,
+    Span,
+    Statement,
+    Term,
+)
+from sleec_runtime.model_time import Claim
+from sleec_verify.conversion.parts import with_formulas
 
 
-def in_english(ruleset: Ruleset) -> Ruleset:
-    """`ruleset` as structured English says it; an event is declared as what the rules use it for.
+def in_english(ruleset: Ruleset) -> tuple[Ruleset, list[str]]:
+    """`ruleset` as structured English says it, and what to know about the result.
 
-    Raises:
-        Unsayable: it holds times, concerns, purposes, relations, or what is read only because others read it.
+    What is read only because others read it is put right: a value of another scale becomes the one that it is read
+    as, and the second of two rules with one label gets one of its own.
     """
     if ruleset.syntax == "english":
-        return replace(ruleset, reading_stated=True)
-    if ruleset.is_timed:
-        _refuse_times(ruleset)
-    for defect in ruleset.defects:
-        _refuse(ruleset, defect.message, defect.span, defect.help)
-    statements = tuple(said for s in ruleset.statements for said in _said(s, ruleset))
-    return replace(ruleset, statements=statements, syntax="english", dialect=None, reading_stated=True)
-
-
-def _said(statement: Statement, ruleset: Ruleset) -> Iterator[Statement]:
-    if not isinstance(statement, Declaration) or statement.kind != "event":
-        yield statement
-        return
-    if statement.agent is not None:
-        said = f"structured English cannot say that an event is the {statement.agent}'s"
-        _refuse(ruleset, said, statement.span, "leave `as` and what follows it out")
-    (name,) = statement.names
-    obliged = name in ruleset.obligations
-    kinds: list[Kind] = []
-    if any(rule.trigger == name for rule in ruleset.rules) or not obliged:
-        kinds.append("trigger")
-    if obliged:
-        kinds.append("obligation")
-    first, *others = kinds
-    yield replace(statement, kind=first)
-    for kind in others:
-        yield Declaration(kind, (name,))
-
-
-def _refuse_times(ruleset: Ruleset) -> None:
-    from sleec_runtime.model_time import Claim, constructs
-
-    for construct in constructs(ruleset):
-        _refuse(ruleset, f"structured English has no words yet for {construct.name}", construct.span, None)
+        return replace(ruleset, reading_stated=True), []
+    labels = {s.label for s in ruleset.statements if isinstance(s, (Rule, Claim))}
+    notes = [_at_line(d.span, d.message, ruleset) for d in ruleset.defects if d.kind == "foreign-value"]
+    statements: list[Statement] = []
     for statement in ruleset.statements:
-        if isinstance(statement, Claim):
-            said = f"structured English has no words yet for the {statement.kind} {statement.label}"
-            _refuse(ruleset, said, statement.span, None)
+        if isinstance(statement, (Rule, Claim)) and "#" in statement.label:
+            new = _new_label(statement.label, labels)
+            notes.append(_at_line(statement.label_span, f"{statement.label} is called {new} here", ruleset))
+            statement = replace(statement, label=new)
+        statements.append(with_formulas(statement, lambda formula: _own_values(formula, ruleset)))
+    english = replace(
+        ruleset, statements=tuple(statements), syntax="english", dialect=None, defects=(), reading_stated=True
+    )
+    return english, notes
 
 
-def _refuse(ruleset: Ruleset, message: str, span: Span, hint: str | None) -> None:
-    place = ruleset.source.place(span)
-    raise Unsayable(f"{ruleset.source.path}:{place.line}:{place.column}: {message}", hint)
+def _new_label(label: str, labels: set[str]) -> str:
+    """A label for the second ``R1``, which is called ``R1#2``."""
+    new = label.replace("#", "_")
+    while new in labels:
+        new += "_"
+    labels.add(new)
+    return new
+
+
+def _at_line(span: Span, said: str, ruleset: Ruleset) -> str:
+    return f"line {ruleset.source.place(span).line}: {said}"
+
+
+def _own_values(formula: Formula, ruleset: Ruleset) -> Formula:
+    """A formula whose comparisons name values of the measure's own scale."""
+    if isinstance(formula, Not):
+        return replace(formula, operand=_own_values(formula.operand, ruleset))
+    if isinstance(formula, (And, Or)):
+        return replace(formula, operands=tuple(_own_values(operand, ruleset) for operand in formula.operands))
+    if isinstance(formula, Comparison):
+        left, right = formula.left, formula.right
+        return replace(formula, left=_own_value(left, right, ruleset), right=_own_value(right, left, ruleset))
+    return formula
+
+
+def _own_value(term: Term, opposite: Term, ruleset: Ruleset) -> Term:
+    if isinstance(term, ScaleValue) and isinstance(opposite, MeasureRef):
+        return replace(term, value=ruleset.measures[opposite.name].values[term.rank])
+    return term

@@ -4,7 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sleec_runtime.model import Clause, Formula, MeasureRef, Number, Rule, Ruleset, conditions_in, literals
+from sleec_runtime.model import (
+    Clause,
+    Formula,
+    MeasureRef,
+    Number,
+    Rule,
+    Ruleset,
+    conditions_in,
+    in_text_order,
+    literals,
+)
 from sleec_runtime.model_time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation
 
 
@@ -39,7 +49,7 @@ def _of_claim(claim: Claim, events: set[str], formulas: list[Formula], lengths: 
     if claim.condition is not None:
         formulas.append(claim.condition)
     for response in claim.responses:
-        for clause in (response, *response.hedges):
+        for clause in in_text_order(response):
             events |= {literal.name for literal in literals(clause)}
             formulas += conditions_in(clause)
             lengths += _lengths(clause)

@@ -9,6 +9,7 @@ from time import perf_counter
 
 import pytest
 
+from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import And, Atom, Comparison, MeasureRef, Not, Number, Or, Ruleset, ScaleValue, literals
 from sleec_runtime.model_time import (
@@ -294,3 +295,13 @@ def test_a_case_study_is_printed_back(path: Path) -> None:
         return sorted(word for pair in comments for half in pair for word in re.findall(r"\w+", half))
 
     assert words(text) == words(path.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("depth", [33, 34, 20_000])
+def test_alternatives_without_braces_are_not_nested_too_deeply(depth):
+    text = f"def_start event A def_end rule_start R1 when A then {'A otherwise ' * depth}A rule_end"
+    if depth == 33:
+        assert print_ruleset(parse(text)).count("otherwise") == depth
+    else:
+        with pytest.raises(LanguageError, match="nested too deeply"):
+            parse(text)

@@ -11,12 +11,18 @@ from hypothesis import strategies as st
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language import parse, print_ruleset
-from sleec_runtime.language.keywords import KEYWORDS
+from sleec_runtime.language.keywords import KEYWORDS, RELATION_WORDS
 from sleec_runtime.model import Ruleset
 from tests.strategies import rulesets
 
 PAPER = (Path(__file__).parents[2] / "rulesets" / "household.sleec").read_text(encoding="utf-8")
 PIECES = [
+    *sorted(RELATION_WORDS),
+    "BY",
+    "TO",
+    "5 minutes",
+    "[",
+    "]",
     *sorted(KEYWORDS),
     "(",
     ")",

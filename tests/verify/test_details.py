@@ -191,3 +191,19 @@ def test_measures_that_matter_and_are_not_given_are_named():
     )
     assert answer.missing == ("x",)
     assert answer.obligations == ("o",)
+
+
+def test_a_small_keyword_for_a_time_is_told_where_it_could_be_one():
+    text = "WHEN t THEN stay within reach\nUNLESS the nurse is within reach IN WHICH CASE call someone else"
+    (obligation,) = found(text, "phrase-keyword")
+    assert obligation.message.startswith("\u201cstay within reach")
+    (condition,) = found("WHEN t THEN wait UNLESS the nurse is away otherwise call", "phrase-keyword")
+    assert condition.help == "if you meant the keyword, write OTHERWISE"
+
+
+def test_names_in_nested_hedges_of_a_claim_are_used():
+    text = (
+        "CONDITION x, y, z\nWHEN t THEN o\n"
+        "CONCERN c EXISTS t WHILE (o UNLESS x IN WHICH CASE (o UNLESS y IN WHICH CASE (o UNLESS z)))"
+    )
+    assert not found(text, "unused-name")

@@ -176,9 +176,9 @@ class Cursor:
                 "close it, or delete the opening one",
             )
 
-    def deeper(self) -> None:
-        """One parenthesis, brace or `not` further in."""
-        self.depth += 1
+    def deeper(self, levels: int = 1) -> None:
+        """One parenthesis, brace or `not` further in, or `levels` of them."""
+        self.depth += levels
         if self.depth > MAX_DEPTH:
             self.fail(
                 f"nested too deeply: more than {MAX_DEPTH} levels of parentheses, braces or not",

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
-from sleec_runtime.language.cursor import Abandon, quoted
+from sleec_runtime.language.cursor import ALTERNATIVE_LEVELS, Abandon, quoted
 from sleec_runtime.language.dsl.definitions import DefinitionParser
-from sleec_runtime.language.dsl.scanner import UNITS
-from sleec_runtime.language.suggest import nearest
+from sleec_runtime.language.units import UNITS, unit_meant
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Obligation, Span
 
 if TYPE_CHECKING:
@@ -84,7 +83,9 @@ class ResponseParser(DefinitionParser):
         alternatives: dict[str, Clause] = {}
         for word in ("otherwise", "else"):
             if self.accept(word):
+                self.deeper(ALTERNATIVE_LEVELS)
                 alternatives[word] = self.chain(None, self.at)
+                self.depth -= ALTERNATIVE_LEVELS
         if self.kinds[self.at] == "otherwise":
             self.expected("the end of the response", "a response has one otherwise; put the second into braces")
         return Obligation(name, negated, self.span(first), self._timing(window, alternatives))
@@ -171,7 +172,7 @@ class ResponseParser(DefinitionParser):
             if "\n" in self.text[self.ends[self.at - 1] : self.starts[self.at]]:
                 end = self.ends[self.at - 1]
                 self.fail("a unit is missing after the number", Span(end, end), "as in: within 5 minutes")
-            near = nearest(written, ("seconds", "minutes", "hours", "days"))
+            near = unit_meant(written)
             self.fail(
                 f"there is no unit {quoted(written)}",
                 self.token_span(self.at),

@@ -20,7 +20,6 @@ KEYWORDS = (
     | {"when", "then", "unless", "within", "otherwise", "else", "not", "and", "or", "eventually"}
     | {"exists", "while", "meanwhile", "until", "for", "true", "false"}
 )
-UNITS = frozenset({"seconds", "minutes", "hours", "days", "second", "minute", "hour", "day"})
 EVENT_RELATIONS = frozenset({"witness", "equal", "mutualExclusive", "happenBefore"})
 EFFECTS = frozenset({"causation", "includes", "forbid"})
 
