@@ -14,7 +14,7 @@ from sleec_runtime.model import And, Assume, Atom, Clause, Exclusive, Never, Not
 from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.instant import Fixed, Instant
-from sleec_verify.timed.program import Program
+from sleec_verify.timed.program import Program, events_of
 from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
 from sleec_verify.timed.unfolding import Unfolding
 
@@ -217,7 +217,8 @@ class Plans:
             return true if formula is None else point.instant.literal(formula)  # type: ignore[arg-type]
 
         since = len(self.past)
-        for law in self.program.laws:
+        # What a law brings about of events outside the cone is part of what is given.
+        for law in (law for law in self.program.laws if self.cone.events.issuperset(events_of(law))):
             for number, point in enumerate(points):
                 if isinstance(law, EventRelation):
                     left, right = point.event(law.left), point.event(law.right)

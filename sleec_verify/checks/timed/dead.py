@@ -1,4 +1,7 @@
-"""Rules and hedges that are active at no instant of any trace that the relations allow."""
+"""Hedges that decide at no instant of any trace that the relations allow.
+
+A rule that only relations keep from being triggered is a vacuous conflict; one that nothing can trigger is dead in the
+sense of situations."""
 
 from __future__ import annotations
 
@@ -8,30 +11,10 @@ from dataclasses import replace
 from sleec_runtime.model import Rule
 from sleec_verify.checks.base import clause_name
 from sleec_verify.checks.dead import DEAD_HEDGE as HEDGE_OF_SITUATIONS
-from sleec_verify.checks.dead import DEAD_RULE as RULE_OF_SITUATIONS
 from sleec_verify.checks.timed.each import each, traces
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
 from sleec_verify.timed.questions import reachable
-
-
-def _dead_rules(cones: Cones) -> Iterator[Finding]:
-    """A finding for each rule none of whose clauses decides anywhere."""
-    known = traces(cones)
-    if not known.program.laws:
-        yield from RULE_OF_SITUATIONS.run(cones)
-        return
-
-    def of(rule: Rule) -> Iterator[Finding]:
-        if not any(reachable(known.program, rule)):
-            yield DEAD_RULE.finding(
-                f"{rule.label} is active in no situation",
-                rule.label_span if rule.labelled else rule.span,
-                rules=(rule.label,),
-                help="look at its guard and at the relations, or remove it",
-            )
-
-    yield from each(((rule.label, rule) for rule in known.rules), of)
 
 
 def _dead_hedges(cones: Cones) -> Iterator[Finding]:
@@ -57,5 +40,4 @@ def _dead_hedges(cones: Cones) -> Iterator[Finding]:
     yield from each(((rule.label, rule) for rule in known.rules), of)
 
 
-DEAD_RULE = replace(RULE_OF_SITUATIONS, run=_dead_rules)
 DEAD_HEDGE = replace(HEDGE_OF_SITUATIONS, run=_dead_hedges)

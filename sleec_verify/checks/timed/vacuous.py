@@ -11,7 +11,8 @@ from sleec_verify.checks.timed.each import each, in_words, rules_in, traces
 from sleec_verify.checks.vacuous import VACUOUS_CONFLICT as OF_SITUATIONS
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding
-from sleec_verify.timed.questions import reachable, triggering
+from sleec_verify.question import Question
+from sleec_verify.timed.questions import triggering
 
 
 def _vacuous(cones: Cones) -> Iterator[Finding]:
@@ -20,7 +21,7 @@ def _vacuous(cones: Cones) -> Iterator[Finding]:
 
     def of(rule: Rule) -> Iterator[Finding]:
         answer = triggering(known.program, rule)
-        if answer.trace is not None or not any(reachable(known.program, rule)):
+        if answer.trace is not None or not _by_itself(known, rule):
             return
         others = in_words(known, (name for name in answer.matter if name != rule.label))
         yield VACUOUS_CONFLICT.finding(
@@ -32,6 +33,12 @@ def _vacuous(cones: Cones) -> Iterator[Finding]:
         )
 
     yield from each(((rule.label, rule) for rule in known.rules), of)
+
+
+def _by_itself(cones: Cones, rule: Rule) -> bool:
+    """Whether some situation triggers the rule, whatever relations say of it; else it is a dead rule."""
+    with Question(cones) as question:
+        return question.ask(question.encoder.any_of(question.guards(cones.rules.index(rule))))
 
 
 VACUOUS_CONFLICT = replace(OF_SITUATIONS, run=_vacuous)
