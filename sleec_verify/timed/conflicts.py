@@ -41,14 +41,12 @@ class History:
 class _Search:
     """The search for a history with a number of instants before now."""
 
-    def __init__(
-        self, program: Program, rule: Rule, cone: Cone, past: int, impossible: frozenset[str] = frozenset()
-    ) -> None:
+    def __init__(self, program: Program, rule: Rule, cone: Cone, past: int) -> None:
         self.program = program
         self.cone = cone
         self.rule = rule
-        self._impossible = impossible
-        self.outer = Unfolding(program, impossible=impossible)
+        # Now, the rule need not be kept.
+        self.outer = Unfolding(program, impossible=program.impossible(frozenset({rule.label})))
         self.true = self.outer.formula.true
         self.add = self.outer.add
         # Histories of fewer instants have been looked at before.
@@ -96,7 +94,7 @@ class _Search:
                 self.outer.formula.clauses += clauses
                 continue
             beginning = self._beginning()
-            inner = Unfolding(self.program, beginning=beginning, impossible=self._impossible)
+            inner = Unfolding(self.program, beginning=beginning, impossible=self.program.impossible())
             if not inner.ask():
                 if _goes_on(self.program, beginning, spared=self.rule):
                     return beginning
@@ -159,10 +157,10 @@ def conflict(program: Program, rule: Rule) -> History | None:
     cone = Cone(program, rule)
     for past in range(min(cone.past, MOST_PAST) + 1):
 
-        def search(impossible: frozenset[str], past: int = past) -> tuple[Fixed, ...] | None:
-            return _Search(program, rule, cone, past, impossible).find()
+        def search(past: int = past) -> tuple[Fixed, ...] | None:
+            return _Search(program, rule, cone, past).find()
 
-        found = decided(program, search)
+        found = decided(program, search, frozenset(), frozenset({rule.label}))
         if found is not None:
             return _shown(program, rule, _smaller(program, rule, found))
     if cone.past > MOST_PAST:
@@ -171,7 +169,8 @@ def conflict(program: Program, rule: Rule) -> History | None:
 
 
 def _goes_on(program: Program, history: tuple[Fixed, ...], spared: Rule | None = None) -> bool:
-    unfolding = Unfolding(program, beginning=history, impossible=program.endless_so_far)
+    without = frozenset() if spared is None else frozenset({spared.label})
+    unfolding = Unfolding(program, beginning=history, impossible=program.impossible(without))
     if spared is not None:
         unfolding.spared.add((spared.label, len(history) - 1))
     return unfolding.ask()
@@ -202,11 +201,11 @@ def _smaller(program: Program, rule: Rule, history: tuple[Fixed, ...]) -> tuple[
 
 
 def _shown(program: Program, rule: Rule, history: tuple[Fixed, ...]) -> History:
-    inner = Unfolding(program, beginning=history, impossible=program.endless_so_far)
+    inner = Unfolding(program, beginning=history, impossible=program.impossible())
     stuck = not inner.ask()
     assert stuck, "the history was found to have no way to go on"
     matter = needed(inner)
-    around = Unfolding(program, beginning=history, impossible=program.endless_so_far)
+    around = Unfolding(program, beginning=history, impossible=program.impossible(frozenset({rule.label})))
     around.spared.add((rule.label, len(history) - 1))
     goes_on = around.ask()
     assert goes_on, "without the rule's demand of now there is a way to go on"

@@ -11,14 +11,14 @@ from sleec_verify.timed.program import Program
 from sleec_verify.timed.unfolding import Unfolding
 
 
-def endless(program: Program) -> frozenset[str]:
-    """The largest set of events of which each, wherever it occurs, calls for another one of the set later on. Quadratic
-    in the number of triggers, each step a question about one instant."""
+def endless(program: Program, without: frozenset[str] = frozenset()) -> frozenset[str]:
+    """The largest set of events of which each, wherever it occurs, calls for another one of the set later on, by the
+    rules that are not `without`. Quadratic in the number of triggers, each step a question about one instant."""
     left = set(program.by_trigger)
     while True:
         may_be_last = set()
         for event in sorted(left):
-            unfolding = Unfolding(program)
+            unfolding = Unfolding(program, without=without)
             only = unfolding.instant(unfolding.formula.true)
             if unfolding.trusting(unfolding.instants[only].event(event), but=left):
                 may_be_last.add(event)

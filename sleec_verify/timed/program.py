@@ -59,8 +59,20 @@ class Program:
         self.untimed = untimed
         self.rules = ruleset.rules
         self.responses = Responses(untimed)
-        self.endless_so_far: frozenset[str] = frozenset()
-        """Events that are known to occur in no trace."""
+        self._endless: dict[frozenset[str], frozenset[str]] = {}
+
+    def impossible(self, without: frozenset[str] = frozenset()) -> frozenset[str]:
+        """The events that are known so far to occur in no trace that keeps all but the rules `without`."""
+        return self._endless.get(without, frozenset())
+
+    def look_for_impossible(self, without: frozenset[str] = frozenset()) -> bool:
+        """Find such events; whether this is news."""
+        from sleec_verify.timed.endless import endless
+
+        if without in self._endless or not self.has_delays:
+            return False
+        self._endless[without] = endless(self, without)
+        return bool(self._endless[without])
 
     @cached_property
     def by_trigger(self) -> dict[str, list[Rule]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence, Set
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
 from sleec_runtime.model import Rule
@@ -22,39 +22,37 @@ class Answer(NamedTuple):
     matter: tuple[str, ...] = ()
 
 
-def decided(program: Program, question: Callable[[frozenset[str]], _Found]) -> _Found:
-    """The answer to `question`, which is told the events that are known to occur in no trace. Where it cannot be
-    decided, such events are looked for, and it is asked again."""
+def decided(program: Program, question: Callable[[], _Found], *without: frozenset[str]) -> _Found:
+    """The answer to `question`. Where it cannot be decided, events are looked for that occur in no trace that keeps all
+    but the rules `without`, for each such set, and it is asked again: it uses `Program.impossible`."""
     try:
-        return question(program.endless_so_far)
+        return question()
     except Undecided:
-        from sleec_verify.timed.endless import endless
-
-        if program.endless_so_far or not program.has_delays:
+        news = [program.look_for_impossible(labels) for labels in without]
+        if not any(news):
             raise
-        program.endless_so_far = endless(program)
-        if not program.endless_so_far:
-            raise
-        return question(program.endless_so_far)
+        return question()
 
 
 def _ask(
     program: Program,
     what: Callable[[Unfolding, int], Sequence[int]],
-    without: Set[str] = frozenset(),
+    without: frozenset[str] = frozenset(),
     rules: Mapping[str, Sequence[Rule]] | None = None,
 ) -> Answer:
     """Whether some trace has an instant at which `what` holds: literals about an instant of an unfolding."""
 
-    def question(impossible: frozenset[str]) -> Answer:
-        unfolding = Unfolding(program, without=frozenset(without), rules=rules, impossible=impossible)
+    def question() -> Answer:
+        # Of rules that stand in for others, nothing is known.
+        impossible = program.impossible(without) if rules is None else frozenset()
+        unfolding = Unfolding(program, without=without, rules=rules, impossible=impossible)
         seed = unfolding.instant(unfolding.formula.true)
         required = list(what(unfolding, seed))
         if unfolding.ask(*required):
             return Answer(timeline(unfolding))
         return Answer(None, tuple(needed(unfolding, required)))
 
-    return decided(program, question)
+    return decided(program, question, *([without] if rules is None else []))
 
 
 def needed(unfolding: Unfolding, required: Sequence[int] = ()) -> list[str]:
@@ -72,7 +70,7 @@ def needed(unfolding: Unfolding, required: Sequence[int] = ()) -> list[str]:
 
 def breaking(program: Program, rule: Rule) -> Answer:
     """A trace that keeps all else and breaks `rule`: without one, the rule is redundant."""
-    return _ask(program, lambda u, seed: [u.broken(seed, rule)], {rule.label})
+    return _ask(program, lambda u, seed: [u.broken(seed, rule)], frozenset({rule.label}))
 
 
 def exchanging(program: Program, rule: Rule, other: Rule) -> Answer:
