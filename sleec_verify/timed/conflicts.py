@@ -204,7 +204,8 @@ def _shown(program: Program, rule: Rule, history: tuple[Fixed, ...]) -> History:
     inner = Unfolding(program, beginning=history, impossible=program.impossible())
     stuck = not inner.ask()
     assert stuck, "the history was found to have no way to go on"
-    matter = needed(inner)
+    # What is known to come to no end leaves no rule to name but this one.
+    matter = [rule.label, *(name for name in needed(inner) if name != rule.label)]
     around = Unfolding(program, beginning=history, impossible=program.impossible(frozenset({rule.label})))
     around.spared.add((rule.label, len(history) - 1))
     goes_on = around.ask()
