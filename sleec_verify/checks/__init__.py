@@ -57,10 +57,10 @@ def checks_for(ruleset: Ruleset) -> list[str]:
         # There, what is done happens, and triggers what it triggers.
         left_out.add(TRIGGER_OBLIGATION.name)
     names = [name for name in CHECKS if name not in left_out]
-    if ruleset.is_timed:
-        from sleec_runtime.model_time import CLAIM_KINDS, claims
+    if speaks_of_traces(ruleset):
+        from sleec_runtime.model_time import CLAIM_KINDS
 
-        names += [kind for kind in CLAIM_KINDS if claims(ruleset, kind)]
+        names += CLAIM_KINDS
     return names
 
 
