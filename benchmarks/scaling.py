@@ -9,6 +9,7 @@ from __future__ import annotations
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 from benchmarks.random_rules import random_rules
@@ -27,11 +28,11 @@ print(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
 """
 
 
-def cost(count: int) -> tuple[float, float]:
+def cost(count: int, rules: Callable[[int], str] = random_rules) -> tuple[float, float]:
     """Processor seconds and peak MiB of a check of `count` rules."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "rules.sleec"
-        path.write_text(random_rules(count), encoding="utf-8")
+        path.write_text(rules(count), encoding="utf-8")
         output = subprocess.run(
             [sys.executable, "-c", MEASURE, str(path)], check=True, capture_output=True, text=True
         ).stdout
@@ -40,19 +41,24 @@ def cost(count: int) -> tuple[float, float]:
 
 
 def main(sizes: tuple[int, ...] = SIZES) -> None:
+    print(f"last step: {report(sizes, random_rules):.2f} of proportional (at most {BOUND})")
+
+
+def report(sizes: tuple[int, ...], rules: Callable[[int], str]) -> float:
+    """Print what rulesets of these sizes cost; returns how much more than in proportion the last step did."""
     before: tuple[int, float, float] | None = None
     worst = 0.0
     for count in sizes:
-        seconds, memory = cost(count)
+        seconds, memory = cost(count, rules)
         line = f"{count:>8,} rules: {seconds:8.2f} s {memory:8.0f} MiB"
         if before is not None:
-            rules, time, space = before
-            worst = seconds / time / (count / rules)
+            smaller, time, space = before
+            worst = seconds / time / (count / smaller)
             line += f"   {seconds / time:5.1f} times the time and {memory / space:5.1f} times the memory"
-            line += f" for {count / rules:g} times the rules"
+            line += f" for {count / smaller:g} times the rules"
         print(line, flush=True)
         before = count, seconds, memory
-    print(f"last step: {worst:.2f} of proportional (at most {BOUND})")
+    return worst
 
 
 if __name__ == "__main__":

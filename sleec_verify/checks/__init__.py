@@ -10,6 +10,7 @@ from time import perf_counter
 from sleec_runtime.model import Ruleset
 from sleec_verify.checks.assumptions import ASSUMPTIONS
 from sleec_verify.checks.base import Check, FindingKind
+from sleec_verify.checks.claims import CONCERN, PURPOSE
 from sleec_verify.checks.conflict import CONFLICT, Enough
 from sleec_verify.checks.dead import DEAD_HEDGE, DEAD_RULE
 from sleec_verify.checks.defects import DEFECTS
@@ -21,8 +22,7 @@ from sleec_verify.cone import Cones
 from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
 from sleec_verify.replay import replays
 from sleec_verify.solver import Undecided
-from sleec_verify.timed.responses import Untimed
-from sleec_verify.timed.traces import speaks_of_traces
+from sleec_verify.timed.scope import Untimed, speaks_of_traces
 
 __all__ = ["CHECKS", "Check", "FindingKind", "checks_for", "run_checks"]
 
@@ -42,6 +42,8 @@ CHECKS: Mapping[str, Check] = {
         TRIGGER_OBLIGATION,
         PHRASE_KEYWORD,
         DEFECTS,
+        CONCERN,
+        PURPOSE,
     )
 }
 
@@ -56,12 +58,9 @@ def checks_for(ruleset: Ruleset) -> list[str]:
     if speaks_of_traces(ruleset):
         # There, what is done happens, and triggers what it triggers.
         left_out.add(TRIGGER_OBLIGATION.name)
-    names = [name for name in CHECKS if name not in left_out]
-    if speaks_of_traces(ruleset):
-        from sleec_runtime.model_time import CLAIM_KINDS
-
-        names += CLAIM_KINDS
-    return names
+    else:
+        left_out |= {CONCERN.name, PURPOSE.name}
+    return [name for name in CHECKS if name not in left_out]
 
 
 def run_checks(

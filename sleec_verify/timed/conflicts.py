@@ -215,10 +215,7 @@ def _shown(program: Program, rule: Rule, history: tuple[Fixed, ...]) -> History:
     for place, instant in enumerate(history):
         now = place == len(history) - 1
         # What no event of the history triggers is triggered by what is due now.
-        speaking = [
-            r
-            for r in program.rules
-            if r.label in matter and (r.trigger in instant.events or (now and r.trigger not in happens))
-        ]
+        rules = [program.ruleset.by_label[name] for name in matter if name in program.ruleset.by_label]
+        speaking = [r for r in rules if r.trigger in instant.events or (now and r.trigger not in happens)]
         moments.append((place, speaking))
     return History(history, tuple(matter), excerpt(around, moments, now=len(history) - 1))

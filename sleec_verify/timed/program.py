@@ -19,7 +19,8 @@ from sleec_runtime.model import (
     leaves,
 )
 from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, Lasting, Relation
-from sleec_verify.timed.responses import Responses, Untimed, occurrences
+from sleec_verify.timed.responses import Responses, occurrences
+from sleec_verify.timed.scope import Untimed
 
 Law = Union[Relation, Exclusive, Never, Assume]
 """What a ruleset demands besides its rules."""

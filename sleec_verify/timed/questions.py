@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import ChainMap
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
@@ -74,10 +75,9 @@ def breaking(program: Program, rule: Rule) -> Answer:
 
 
 def exchanging(program: Program, rule: Rule, other: Rule) -> Answer:
-    """A trace that keeps all with `other` in the place of `rule`, and breaks `rule`."""
-    rules = {
-        trigger: [other if r.label == rule.label else r for r in found] for trigger, found in program.by_trigger.items()
-    }
+    """A trace that keeps all with `other`, of the same trigger and label, in the place of `rule`, and breaks `rule`."""
+    exchanged = [r for r in program.by_trigger[rule.trigger] if r.label != rule.label]
+    rules = ChainMap({rule.trigger: [*exchanged, other]}, program.by_trigger)
     return _ask(program, lambda u, seed: [u.broken(seed, rule)], rules=rules)
 
 

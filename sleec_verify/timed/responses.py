@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from math import ceil, floor
-from typing import Literal, NamedTuple, Union
+from typing import NamedTuple, Union
 
 from sleec_runtime.model import Clause, Obligation, Rational, in_text_order
 from sleec_runtime.model_time import Length, Window
 from sleec_verify.solver import Undecided
-
-Untimed = Literal["at", "eventually"]
-"""What a response without a window means: at the instant of its trigger (LEGOS), or at some time from then on
-(SLEEC-TK)."""
+from sleec_verify.timed.scope import Untimed
 
 
 class Occurs(NamedTuple):

@@ -8,7 +8,7 @@ from functools import cached_property
 from sleec_runtime.model import Ruleset
 from sleec_verify.cone import Cones
 from sleec_verify.timed.program import Program
-from sleec_verify.timed.responses import Untimed
+from sleec_verify.timed.scope import Untimed
 
 
 class Traces(Cones):
@@ -21,9 +21,3 @@ class Traces(Cones):
     @cached_property
     def program(self) -> Program:
         return Program(self.ruleset, self.untimed)
-
-
-def speaks_of_traces(ruleset: Ruleset) -> bool:
-    """Whether a ruleset is about traces: what is done may trigger rules, and times pass. The DSL always is, structured
-    English where it says anything of time."""
-    return ruleset.syntax == "dsl" or ruleset.is_timed

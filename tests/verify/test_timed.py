@@ -60,7 +60,7 @@ def unknown(found):
 def test_all_is_decided(response):
     found = verdicts(text(response))
     # What is done happens there, so a name that is both is nothing to note.
-    assert set(found) == (set(CHECKS) - {"trigger-obligation"}) | {"concern", "purpose"}
+    assert set(found) == set(CHECKS) - {"trigger-obligation"}
     assert unknown(found) == []
     assert [f.rules for f in found["dead-rule"].findings] == [("R4",)]
     assert [f.rules for f in found["dead-hedge"].findings] == [("R3",)]

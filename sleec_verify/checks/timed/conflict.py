@@ -37,8 +37,7 @@ def _conflicts(cones: Cones) -> Iterator[Finding]:
             help="decide which should give way, and say so with a hedge",
             related=tuple(
                 (other.label_span if other.labelled else other.span, "with this one")
-                for other in known.rules
-                if other.label in others
+                for other in (known.ruleset.by_label[label] for label in rules_in(known, others))
             ),
         )
 

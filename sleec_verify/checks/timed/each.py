@@ -43,7 +43,9 @@ def _named(names: list[str]) -> str:
 
 def in_words(cones: Traces, matter: Iterable[str]) -> list[str]:
     """Rules and laws as people call them."""
-    places = {law_name(law): law for law in cones.program.laws}
+    matter = list(matter)
+    laws = cones.program.laws if any(name not in cones.ruleset.by_label for name in matter) else ()
+    places = {law_name(law): law for law in laws}
     source = cones.ruleset.source
     words = []
     for name in matter:
@@ -58,5 +60,5 @@ def in_words(cones: Traces, matter: Iterable[str]) -> list[str]:
 
 def rules_in(cones: Traces, matter: Iterable[str], but: str | None = None) -> tuple[str, ...]:
     """The rules among what matters, in the order of the text."""
-    named = set(matter) - {but}
-    return tuple(rule.label for rule in cones.rules if rule.label in named)
+    rules = [cones.ruleset.by_label[name] for name in matter if name in cones.ruleset.by_label and name != but]
+    return tuple(rule.label for rule in sorted(rules, key=lambda rule: rule.span))

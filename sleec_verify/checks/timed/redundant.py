@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import islice
 
 from sleec_runtime.model import Rule
 from sleec_verify.checks.base import clause_name, listed
@@ -46,14 +47,13 @@ def _redundant_hedges(cones: Cones) -> Iterator[Finding]:
     def of(place: tuple[Rule, int]) -> Iterator[Finding]:
         rule, number = place
         less = without_hedge(rule, number)
-        shorter = replace(known.ruleset, statements=tuple(less if s is rule else s for s in known.ruleset.statements))
         if exchanging(known.program, rule, less).trace is not None:
             return
-        if exchanging(type(known.program)(shorter, known.untimed), less, rule).trace is not None:
+        if exchanging(known.program, less, rule).trace is not None:
             return
         yield REDUNDANT_HEDGE.finding(
             f"{clause_name(rule, number)} can be removed: without it the same is allowed and called for",
-            known.clauses[known.rules.index(rule)][number].span,
+            next(islice(rule.clauses(), number, None)).span,
             rules=(rule.label,),
             clauses=(ClauseRef(rule.label, number),),
             help="check whether its response is the one you meant, or remove it and check again",

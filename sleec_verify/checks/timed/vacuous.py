@@ -38,7 +38,7 @@ def _vacuous(cones: Cones) -> Iterator[Finding]:
 def _by_itself(cones: Cones, rule: Rule) -> bool:
     """Whether some situation triggers the rule, whatever relations say of it; else it is a dead rule."""
     with Question(cones) as question:
-        return question.ask(question.encoder.any_of(question.guards(cones.rules.index(rule))))
+        return question.ask(question.encoder.any_of(question.guards_of(rule)))
 
 
 VACUOUS_CONFLICT = replace(OF_SITUATIONS, run=_vacuous)

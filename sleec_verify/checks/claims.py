@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-from sleec_runtime.model_time import Claim, claims
 from sleec_verify.checks.base import Check, FindingKind, listed
-from sleec_verify.checks.timed.each import each, in_words, rules_in, traces
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding, Witness
-from sleec_verify.timed.questions import coming_about
+
+if TYPE_CHECKING:
+    from sleec_runtime.model_time import Claim
 
 
 def _concerns(cones: Cones) -> Iterator[Finding]:
     """A finding for each concern that comes about in some trace that keeps all."""
+    from sleec_runtime.model_time import claims
+    from sleec_verify.checks.timed.each import each, traces
+    from sleec_verify.timed.questions import coming_about
+
     known = traces(cones)
 
     def of(claim: Claim) -> Iterator[Finding]:
@@ -36,6 +41,10 @@ def _concerns(cones: Cones) -> Iterator[Finding]:
 
 def _purposes(cones: Cones) -> Iterator[Finding]:
     """A finding for each purpose that comes about in no trace that keeps all."""
+    from sleec_runtime.model_time import claims
+    from sleec_verify.checks.timed.each import each, in_words, rules_in, traces
+    from sleec_verify.timed.questions import coming_about
+
     known = traces(cones)
 
     def of(claim: Claim) -> Iterator[Finding]:

@@ -1,0 +1,31 @@
+"""Random rulesets of the DSL without times, as text: hedges, prohibitions, and responses that trigger other rules."""
+
+from __future__ import annotations
+
+import random
+
+
+def random_dsl(count: int, hedges: int = 2, seed: int = 0) -> str:
+    """`count` rules of `hedges` hedges at most. There are as many events as rules, half of them responses, a tenth of
+    which trigger rules too; a tenth of the responses forbid."""
+    draw = random.Random(seed)
+    half = max(5, count // 2)
+    causes, effects = [f"E{n}" for n in range(half)], [f"F{n}" for n in range(half)]
+    measures = [f"m{n}" for n in range(half)]
+
+    def condition() -> str:
+        one, other = draw.sample(measures, 2)
+        return draw.choice(
+            (f"{{{one}}}", f"(not {{{one}}})", f"({{{one}}} and {{{other}}})", f"({{{one}}} or {{{other}}})")
+        )
+
+    def response() -> str:
+        return f"{'not ' if draw.random() < 0.1 else ''}{draw.choice(effects)}"
+
+    lines = ["def_start", *(f"  event {e}" for e in causes + effects), *(f"  measure {m}: boolean" for m in measures)]
+    lines += ["def_end", "rule_start"]
+    for number in range(count):
+        trigger = draw.choice(effects if draw.random() < 0.1 else causes)
+        lines.append(f"  R{number} when {trigger} then {response()}")
+        lines += [f"    unless {condition()} then {response()}" for _ in range(draw.randint(0, hedges))]
+    return "\n".join([*lines, "rule_end", ""])
