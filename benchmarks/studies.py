@@ -1,7 +1,7 @@
 """The five questions on the ten published files that LEGOS-SLEEC was timed on (two a study), whole processes included.
 
-The files are not part of this project: ``python -m benchmarks.studies FOLDER`` is told where they are. LEGOS-SLEEC takes
-about 225 s for the same on a machine of two cores, one question at a time; a hundredth of that is asked for.
+The files are not part of this project: ``python -m benchmarks.studies FOLDER`` is told where they are. LEGOS-SLEEC
+takes about 225 s for the same on a machine of two cores, one question at a time; a hundredth of that is asked for.
 """
 
 from __future__ import annotations
@@ -29,7 +29,10 @@ LEGOS = 225.0
 BOUND = 100
 
 
-def main(folder: Path) -> None:
+def main(folder: Path = Path("../shared/case-studies")) -> None:
+    if not folder.is_dir():
+        print(f"the files are not in {folder}")
+        return
     total = 0.0
     for name in FILES:
         started = perf_counter()
@@ -42,4 +45,4 @@ def main(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "../shared/case-studies"))
+    main(*map(Path, sys.argv[1:]))

@@ -1,5 +1,5 @@
-"""How `check` grows where what is done triggers rules: time and memory of random rulesets of the DSL without times, each
-in a process of its own, all checks included.
+"""How `check` grows where what is done triggers rules: time and memory of random rulesets of the DSL without times,
+each in a process of its own, all checks included.
 
 LEGOS-SLEEC takes 4, 10 and 44 seconds for rulesets of 25, 50 and 100 rules, and does not answer for 200 in 120 seconds.
 """
