@@ -71,6 +71,11 @@ class UnsupportedTimes(SleecError):
         self.lines = tuple(lines)
 
 
+class WrongArguments(SleecError, TypeError):
+    """Arguments of a trigger that the code of one of its rules does not take. A TypeError too, as a call that does not
+    fit is one."""
+
+
 class WrongType(SleecError):
     """A value that does not fit its condition or measure; `name` is that of the condition or measure."""
 
