@@ -36,10 +36,13 @@ def test_names_count_as_places_do() -> None:
     sleec = running(TWO)
     done: list[object] = []
 
+    def first(message: object) -> None:
+        done.append(message)
+
     def second(*, message: object) -> None:
         done.append(message)
 
-    sleec.implement({"o1": lambda message: done.append(message), "o2": second})
+    sleec.implement({"o1": first, "o2": second})
     with pytest.raises(WrongArguments, match="r2"):
         sleec.trigger("a", "please")
     with pytest.raises(WrongArguments, match="r1"):
