@@ -12,6 +12,14 @@ from sleec_verify.conformance.structure.program import Def
 STAYS, MAY_LEAVE, LEAVES = 0, 1, 2
 """Whether control leaves the function within a block."""
 
+_AWAITERS = {
+    f"asyncio.{module}{name}"
+    for module in ("", "tasks.")
+    for name in ("wait_for", "shield", "create_task", "ensure_future")
+}
+"""What awaits, or starts, the one coroutine that it is given: who awaits the call awaits that."""
+_GATHERERS = {"asyncio.gather", "asyncio.tasks.gather"}
+
 _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda)
 
 
@@ -21,6 +29,18 @@ def own_nodes(node: ast.AST) -> Iterator[ast.AST]:
         yield child
         if not isinstance(child, _SCOPES):
             yield from own_nodes(child)
+
+
+def always_raises(body: Sequence[ast.stmt]) -> bool:
+    """Whether a block is never left but by an exception."""
+    ways_out = (ast.Return, ast.Break, ast.Continue)
+    if any(isinstance(node, ways_out) for statement in body for node in (statement, *own_nodes(statement))):
+        return False
+    return any(
+        isinstance(statement, ast.Raise)
+        or (isinstance(statement, ast.If) and always_raises(statement.body) and always_raises(statement.orelse))
+        for statement in body
+    )
 
 
 def is_generator(function: Def) -> bool:
@@ -55,6 +75,10 @@ class Flow(ABC):
     @abstractmethod
     def follows(self, node: ast.Call) -> bool:
         """Whether the arguments of a call are looked at where they arrive."""
+
+    @abstractmethod
+    def outside(self, node: ast.expr) -> str | None:
+        """The dotted name of what an expression stands for, if that is not the target's."""
 
     # Statements -----------------------------------------------------------------------------------------
 
@@ -110,15 +134,21 @@ class Flow(ABC):
         return MAY_LEAVE if (body or other) and (returns or endless) else STAYS
 
     def _try(self, node: ast.Try, why: str | None) -> int:
-        caught = "under `try`" if node.handlers else None
+        # A handler that raises again lets no exception pass: what follows runs only if the whole body did.
+        catching = [handler for handler in node.handlers if not always_raises(handler.body)]
+        caught = "under `try`" if catching else None
         body = self.statements(node.body, why or caught)
-        ways = [self.statements(handler.body, why or "under `except`") for handler in node.handlers]
+        ways = []
+        for handler in node.handlers:
+            way = self.statements(handler.body, why or "under `except`")
+            if handler in catching:
+                ways.append(way)
         after = (
             "in the `else` of a `try`" if caught else "after a place where this function may be left" if body else None
         )
         ways.append(self.statements(node.orelse, why or after))
         final = self.statements(node.finalbody, why)
-        if LEAVES in (final, body) and (final == LEAVES or not node.handlers):
+        if LEAVES in (final, body) and (final == LEAVES or not catching):
             return LEAVES
         return MAY_LEAVE if any((body, final, *ways)) else STAYS
 
@@ -188,9 +218,13 @@ class Flow(ABC):
         elif not isinstance(node.func, ast.Name):
             self.expression(node.func, why)
         followed = self.follows(node)
+        outside = self.outside(node.func) if awaited else None
+        gathered = outside in _GATHERERS
+        inside = why or ("one of those in `gather()`, which keeps no order" if gathered else None)
+        passed_on = gathered or outside in _AWAITERS
         for argument in (*node.args, *(keyword.value for keyword in node.keywords)):
             if not (followed and isinstance(argument, (ast.Name, ast.Attribute))):
-                self.expression(argument, why)
+                self.expression(argument, inside, passed_on)
         self.call(node, why, awaited)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.conformance.structure.checking import kinds
+from tests.conformance.structure.checking import CODES, checked, kinds
 
 RULES = "RULE stop WHEN Obstacle THEN Stop UNLESS InHurry IN WHICH CASE (SlowDown AND Warn)\n"
 HEAD = """\
@@ -175,6 +175,109 @@ def test_a_runtime_that_is_handed_in(annotation: str) -> None:
 def test_what_is_not_awaited_is_not_run() -> None:
     text = robot("self.slow_down()\nawait asyncio.gather(self.warn())").replace("def warn", "async def warn")
     assert kinds(RULES, robot=text.replace("    def obstacle", "    async def obstacle")) == ["conditional-obligation"]
+
+
+def asynchronous(hedge: str) -> str:
+    text = robot(hedge).replace("    def obstacle", "    async def obstacle")
+    return text.replace("def slow_down", "async def slow_down").replace("def warn", "async def warn")
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "await asyncio.wait_for(self.warn(), 5)",
+        "await asyncio.wait_for(fut=self.warn(), timeout=5)",
+        "await asyncio.shield(asyncio.wait_for(self.warn(), 5))",
+        "await asyncio.create_task(self.warn())",
+        "return await asyncio.ensure_future(self.warn())",
+    ],
+)
+def test_what_awaits_that_it_is_given(call: str) -> None:
+    assert kinds(RULES, robot=asynchronous(f"await self.slow_down()\n{call}")) == []
+    unawaited = call.replace("return ", "").replace("await ", "")
+    assert kinds(RULES, robot=asynchronous(f"await self.slow_down()\n{unawaited}")) == ["conditional-obligation"]
+
+
+def test_what_is_gathered_keeps_no_order() -> None:
+    text = asynchronous("await asyncio.gather(self.slow_down(), self.warn())")
+    found = checked(RULES, robot=text).findings
+    assert [CODES[one.code] for one in found] == ["conditional-obligation"] * 2
+    assert "`gather()`" in found[0].message
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "try:\n    self.slow_down()\nexcept OSError:\n    raise\nself.warn()",
+        "try:\n    self.slow_down()\nexcept OSError as e:\n    print(e)\n    raise A from e\nelse:\n    self.warn()",
+        "try:\n    self.slow_down()\nexcept OSError as e:\n    if e.errno:\n        raise\n    else:\n        raise A\n"
+        "except ValueError:\n    raise\nfinally:\n    print()\nself.warn()",
+    ],
+)
+def test_handlers_that_all_raise_again_let_nothing_pass(body: str) -> None:
+    assert kinds(RULES, robot=robot(body)) == []
+
+
+@pytest.mark.parametrize(
+    "handler",
+    ["if e:\n        raise", "return\n    raise", "print(e)", "try:\n        raise\n    except OSError:\n        pass"],
+)
+def test_handlers_that_may_end_otherwise(handler: str) -> None:
+    body = f"self.slow_down()\ntry:\n    self.warn()\nexcept OSError as e:\n    {handler}"
+    assert kinds(RULES, robot=robot(body)) == ["conditional-obligation"]
+    body = (
+        f"self.slow_down()\ntry:\n    self.warn()\nexcept ValueError:\n    raise\nexcept OSError as e:\n    {handler}"
+    )
+    assert kinds(RULES, robot=robot(body)) == ["conditional-obligation"]
+
+
+@pytest.mark.parametrize(
+    ("more", "found"),
+    [
+        ("sleec.trigger('Obstacle')", ["endless-trigger"]),
+        ("self.again()", ["endless-trigger"]),
+        ("self.later()", []),
+        ("sleec.trigger('Another')", []),
+        ("sleec.update({'InHurry': False})\nsleec.trigger('Obstacle')", []),
+        ("if self.busy:\n    sleec.trigger('Obstacle')", []),
+        ("await sleec.trigger_async('Obstacle')", ["endless-trigger"]),
+        ("soon(sleec.trigger_async('Obstacle'))", []),
+        ("self.trigger('Obstacle')", []),
+    ],
+)
+def test_a_variant_that_triggers_its_own_rule(more: str, found: list[str]) -> None:
+    helpers = """
+    def again(self): sleec.trigger("Obstacle")
+    def later(self): soon(lambda: sleec.trigger("Obstacle"))
+    def trigger(self, name): ...
+"""
+    text = robot(f"{BOTH}\n{more}", helpers)
+    if "await" in more:
+        text = text.replace("    def obstacle", "    async def obstacle")
+    assert kinds(RULES, robot=text) == found
+
+
+GLOBALLY = "\nsleec.activate_globally()\n"
+
+
+@pytest.mark.parametrize("decorator", ["", "@cop.base"])
+def test_a_base_in_a_subclass_hides_variants_where_layers_are_globally_active(decorator: str) -> None:
+    again = f"\nclass Other(Robot):\n    {decorator}\n    def obstacle(self):\n"
+    calls = f"{again}        self.stop()\n"
+    assert kinds(RULES, robot=robot(BOTH, calls)) == []  # a trigger finds the inherited variants
+    assert kinds(RULES, robot=robot(BOTH, calls + GLOBALLY)) == ["lost-variant"]
+    assert kinds(RULES, robot=robot(BOTH, f"{again}        super().obstacle()\n{GLOBALLY}")) == []
+    hedge = (
+        "    @cop.around(sleec.layers['stop.hc1'])\n    def obstacle(self):\n        self.slow_down(); self.warn()\n"
+    )
+    own = f"{calls}\n{hedge}"
+    assert kinds(RULES, robot=robot(BOTH, own + GLOBALLY)) == []
+
+
+@pytest.mark.parametrize("value", ["lambda self: None", "helper", "None"])
+def test_a_subclass_that_binds_the_name_of_a_rules_method_otherwise(value: str) -> None:
+    more = f"\nclass Other(Robot):\n    obstacle = {value}\n"
+    assert kinds(RULES, robot=robot(BOTH, more)) == ["undecided"]
 
 
 def test_a_helper_behind_a_decorator_of_others() -> None:
