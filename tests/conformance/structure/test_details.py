@@ -211,7 +211,7 @@ def test_what_is_gathered_keeps_no_order() -> None:
         "try:\n    self.slow_down()\nexcept OSError:\n    raise\nself.warn()",
         "try:\n    self.slow_down()\nexcept OSError as e:\n    print(e)\n    raise A from e\nelse:\n    self.warn()",
         (
-            "try:\n    self.slow_down()\nexcept OSError as e:\n    if e.errno:\n        raise\n    else:\n        raise A\n"
+            "try:\n    self.slow_down()\nexcept OSError as e:\n    if e.x:\n        raise\n    else:\n        raise A\n"
             "except ValueError:\n    raise\nfinally:\n    print()\nself.warn()"
         ),
     ],
