@@ -18,6 +18,7 @@ _AWAITERS = {
     for name in ("wait_for", "shield", "create_task", "ensure_future")
 }
 """What awaits, or starts, the one coroutine that it is given: who awaits the call awaits that."""
+_RUNNERS = {"asyncio.run", "asyncio.runners.run"}
 _GATHERERS = {"asyncio.gather", "asyncio.tasks.gather"}
 
 _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda)
@@ -218,10 +219,10 @@ class Flow(ABC):
         elif not isinstance(node.func, ast.Name):
             self.expression(node.func, why)
         followed = self.follows(node)
-        outside = self.outside(node.func) if awaited else None
-        gathered = outside in _GATHERERS
+        outside = self.outside(node.func)
+        gathered = awaited and outside in _GATHERERS
         inside = why or ("one of those in `gather()`, which keeps no order" if gathered else None)
-        passed_on = gathered or outside in _AWAITERS
+        passed_on = gathered or outside in _RUNNERS or (awaited and outside in _AWAITERS)
         for argument in (*node.args, *(keyword.value for keyword in node.keywords)):
             if not (followed and isinstance(argument, (ast.Name, ast.Attribute))):
                 self.expression(argument, inside, passed_on)

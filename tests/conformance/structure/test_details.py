@@ -198,6 +198,11 @@ def test_what_awaits_that_it_is_given(call: str) -> None:
     assert kinds(RULES, robot=asynchronous(f"await self.slow_down()\n{unawaited}")) == ["conditional-obligation"]
 
 
+def test_what_runs_a_coroutine_from_a_plain_variant() -> None:
+    text = robot("self.slow_down()\nasyncio.run(self.warn())").replace("def warn", "async def warn")
+    assert kinds(RULES, robot=text) == []
+
+
 def test_what_is_gathered_keeps_no_order() -> None:
     text = asynchronous("await asyncio.gather(self.slow_down(), self.warn())")
     found = checked(RULES, robot=text).findings
