@@ -86,7 +86,12 @@ def _paths(target: str) -> Iterator[str]:
 
 def _below(folder: str) -> Iterator[str]:
     """Every Python file of the developer's own: hidden folders and virtual environments are left out."""
-    for parent, folders, names in os.walk(folder):
+
+    def refuse(error: OSError) -> None:
+        # What is in there may be what reaches around the dispatch.
+        raise UnreadableFile(f"the folder {error.filename} cannot be read: {error.strerror}") from None
+
+    for parent, folders, names in os.walk(folder, onerror=refuse):
         folders[:] = sorted(
             name
             for name in folders

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from io import BytesIO, TextIOWrapper
 from pathlib import Path
@@ -49,6 +50,21 @@ def test_a_module_is_found_and_not_imported(folder: Path) -> None:
 def test_a_module_of_the_working_folder_is_found(folder: Path) -> None:
     write(folder / "here.py")
     assert paths("here") == ["here.py"]
+
+
+def test_a_folder_that_may_not_be_read(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write(folder / "robot" / "a.py")
+    write(folder / "robot" / "closed" / "b.py")
+    scandir = os.scandir
+
+    def refusing(path: str) -> object:
+        if str(path).endswith("closed"):
+            raise PermissionError(13, "Permission denied", path)
+        return scandir(path)
+
+    monkeypatch.setattr(os, "scandir", refusing)
+    with pytest.raises(UnreadableFile, match="closed cannot be read: Permission denied"):
+        python_files("robot")
 
 
 def test_standard_input(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
