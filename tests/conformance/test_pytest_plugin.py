@@ -265,7 +265,7 @@ def test_cases_of_other_tools_are_left_alone(run) -> None:
         result.assert_outcomes(passed=ITEMS)
         assert "other.cases.toml" not in result.stdout.str()
     elsewhere = 'ruleset = "house.sleec"\n' + CASES
-    run(".", other_cases_toml=elsewhere).assert_outcomes(passed=16)
+    run(".", other_cases_toml=elsewhere).assert_outcomes(passed=ITEMS + 2)
 
 
 def test_a_ruleset_that_is_not_there_is_a_usage_error(run, pytester: pytest.Pytester) -> None:
