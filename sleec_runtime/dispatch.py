@@ -66,8 +66,11 @@ class Plan:
         if shape in self.fitting:
             return
         for variant in self.variants:
-            for function in variant.called:
-                _refuse_misfit(variant.label, function, args, kwargs)
+            # Plans go with their context; variants stay.
+            if shape not in variant.fitting:
+                for function in variant.called:
+                    _refuse_misfit(variant.label, function, args, kwargs)
+                variant.fitting.add(shape)
         self.fitting.add(shape)
 
 
@@ -245,7 +248,8 @@ def _refuse_misfit(label: str, function: Callable[..., Any], args: tuple[Any, ..
     import inspect
 
     try:
-        signature = inspect.signature(function)
+        # Not what a decorator says that it wraps: it may take other arguments than that, and hand over others.
+        signature = inspect.signature(function, follow_wrapped=False)
     except (TypeError, ValueError):
         # Built into the interpreter, with no signature to read: the call itself will tell.
         return

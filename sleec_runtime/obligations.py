@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 import inspect
 import re
+import types
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, nullcontext
 from contextvars import ContextVar
@@ -135,6 +136,16 @@ def recorded(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
             return function(*args, **kwargs)
 
     return called
+
+
+def unrecorded(function: Callable[..., Any]) -> Callable[..., Any]:
+    """What `recorded` was given: the callable that takes the arguments, and can say which."""
+    if isinstance(function, types.MethodType):
+        plain = unrecorded(function.__func__)
+        return function if plain is function.__func__ else functools.partial(plain, function.__self__)
+    # By its globals, because the marks of a wrapper are copied to whatever wraps it in turn.
+    ours = getattr(function, "__globals__", None) is globals()
+    return unrecorded(function.__wrapped__) if ours and hasattr(function, "__wrapped__") else function
 
 
 def obligation_of(function: object) -> str | None:
