@@ -46,11 +46,11 @@ class GlobalActivation:
 
         Raises ConflictInContext (or UndeterminedDecision) if some trigger could not be answered in this context,
         Unbindable for a bound method that a plain call would not dispatch by the layers, and SleecError if one of the
-        layers is active already: then nothing is activated. A change into a context in which some trigger could not be
-        answered is refused as long as this is on.
+        layers is active already: then nothing is activated. As long as this is on, a change into a context in which
+        some trigger could not be answered is refused, and so is binding such a method.
         """
         with self._sleec.held() as snapshot, _GLOBAL_LAYERS:
-            self._sleec.refuse_calls_without_dispatch()
+            self._sleec.allow_calls()
             for trigger in snapshot.program.number_of:
                 due_in(snapshot, (trigger,))
             layers = self._due_layers(snapshot, snapshot.program.ruleset.rules)
@@ -78,7 +78,9 @@ class GlobalActivation:
 
     @staticmethod
     def _refuse(before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
-        for trigger in dict.fromkeys(rule.trigger for rule in rules):
+        # What a NEVER says of the context may be at odds with rules that do not mention what changed.
+        everything = before.mark is not after.mark
+        for trigger in after.program.number_of if everything else dict.fromkeys(rule.trigger for rule in rules):
             due_in(after, (trigger,))
 
     def _changed(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:

@@ -102,8 +102,9 @@ def _taking_arguments(entries: Sequence[Entry], owner: type | None) -> tuple[Cal
     """The implementations up to the variant, as they are when its object is given: what is beyond gets its arguments
     from `proceed`."""
     found: list[Callable[..., Any]] = []
+    function: Any
     for _, function, kind in entries:
-        plain: Any = unrecorded(getattr(function, "__func__", function))
+        plain: Any = unrecorded(function.__func__ if isinstance(function, (staticmethod, classmethod)) else function)
         takes_object = owner is not None and not isinstance(function, staticmethod)
         # ContextPy3 gives this one argument more to advice that comes after.
         result = {"__result__": None} if kind is _AFTER else {}
@@ -134,6 +135,8 @@ def own_entries(attribute: object) -> list[Entry]:
         return [(None, attribute, _AROUND)]
     entries: list[Entry] = []
     for layer, function, kind, guard, *_ in attribute.get_methods():
+        if function in _SILENCES:
+            continue
         if guard is not _NO_GUARD:
             name = contextpy3.get_method_name(function)
             raise Unbindable(
@@ -142,6 +145,31 @@ def own_entries(attribute: object) -> list[Entry]:
             )
         entries.append((layer, function, kind))
     return entries[::-1]
+
+
+def layered(function: Any) -> Any:
+    """The method whose base is `function`, ready for variants: what `contextpy3.around` makes of it."""
+    return contextpy3.createlayeredmethod(function, [])
+
+
+def silence(attribute: Any, layer: RuleLayer, asynchronous: bool) -> None:
+    """Has a plain call of a layered method do nothing under `layer`, where ContextPy3 would go on to the base.
+
+    A dispatch does not see it: if the clause comes to oblige something, its variant is missing as before.
+    """
+    if not any(entry[0] is layer and entry[1] in _SILENCES for entry in attribute.get_methods()):
+        attribute.register_method(_silent_coroutine if asynchronous else _silent, _AROUND, layer)
+
+
+def _silent(*args: object, **kwargs: object) -> None:
+    return None
+
+
+async def _silent_coroutine(*args: object, **kwargs: object) -> None:
+    return None
+
+
+_SILENCES = (_silent, _silent_coroutine)
 
 
 def inherited_entries(owner: type, name: str) -> list[list[Entry]]:

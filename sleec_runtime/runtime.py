@@ -85,10 +85,11 @@ class Sleec:
         """Makes the marked methods of objects, classes, modules or functions those of their rules: all, or none.
 
         A method's variants are read here, so bind when all are there. Raises Unbindable if a target has no marked
-        method, AlreadyBound for a second method of a rule.
+        method, if variants of one are not each on a layer of their own rule, and, under global activation, if a plain
+        call would not dispatch it; AlreadyBound for a second method of a rule.
         """
         with self._lock:
-            self._plan_anew(self._instance.bind(targets))
+            self._plan_anew(self._instance.bind(targets, self.ruleset.rules if self._objections else ()))
             self._watch_bound()
 
     def unbind(self, *labels: str) -> None:
@@ -260,9 +261,10 @@ class Sleec:
             if self._monitor is monitor:
                 self._monitor = None
 
-    def refuse_calls_without_dispatch(self) -> None:
-        """Raises Unbindable for a bound method that ContextPy3 would not dispatch as this runtime does."""
-        self._instance.refuse_calls_without_dispatch(self.ruleset.rules)
+    def allow_calls(self) -> None:
+        """Sees to it that ContextPy3 dispatches bound methods as this runtime does. Raises Unbindable for one that it
+        would not."""
+        self._instance.allow_calls(self.ruleset.rules)
 
     def bound_objects(self) -> list[object]:
         """The objects whose methods are bound to rules."""
@@ -302,6 +304,8 @@ class Sleec:
             )
         known = {name: value for name, value in before.conditions.items() if name in program.vocabulary}
         after = Snapshot.first(program, known, before.number + 1)
+        if self._objections:
+            instance.allow_calls(program.ruleset.rules)
         self._object(before, after, program.ruleset.rules)
         self._instance = instance
         self._watch_bound()

@@ -9,6 +9,7 @@ import asyncio
 import functools
 import inspect
 from collections.abc import Callable
+from typing import Any
 
 import contextpy3 as cop
 import pytest
@@ -201,7 +202,12 @@ def test_a_signature_is_read_once_and_not_once_a_context(monkeypatch: pytest.Mon
     sleec.implement({"o1": lambda message: None, "o2": lambda message: None})
     read: list[object] = []
     signature = inspect.signature
-    monkeypatch.setattr(inspect, "signature", lambda f, **options: read.append(f) or signature(f, **options))
+
+    def reading(function: Callable[..., object], **options: Any) -> inspect.Signature:
+        read.append(function)
+        return signature(function, **options)
+
+    monkeypatch.setattr(inspect, "signature", reading)
     for turn in range(10):
         sleec.update({"c": turn % 2 == 0})
         sleec.trigger("a", "please")
