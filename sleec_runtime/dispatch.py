@@ -73,6 +73,13 @@ class Plan:
                 variant.fitting.add(shape)
         self.fitting.add(shape)
 
+    def refuse_coroutines(self) -> None:
+        """Raises NeedsAwait if a variant is known to be a coroutine function."""
+        if self.asynchronous:
+            raise NeedsAwait(
+                f"a variant of {' and '.join(self.triggers)} is a coroutine function", "await trigger_async(…) instead"
+            )
+
 
 class Done:
     """What one dispatch did, and why. It keeps the context that it was decided in."""
@@ -213,10 +220,7 @@ def plan(snapshot: Snapshot, triggers: tuple[str, ...], instance: Instance) -> P
 def run(plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Done:
     """Runs the variants of a plan in order. Raises what a variant raised, after all have run."""
     plan.refuse_misfits(args, kwargs)
-    if plan.asynchronous:
-        raise NeedsAwait(
-            f"a variant of {' and '.join(plan.triggers)} is a coroutine function", "await trigger_async(…) instead"
-        )
+    plan.refuse_coroutines()
     results, errors = run_all(plan.variants, args, kwargs)
     for result in results:
         if type(result) is CoroutineType or type(result) is Unfinished:

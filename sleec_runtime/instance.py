@@ -81,9 +81,12 @@ class Instance:
 
     def known(self, label: str) -> str:
         """`label`, if a rule has it. Raises UnknownLabel."""
-        if label not in self._labels:
-            raise UnknownLabel(label, self._labels)
-        return label
+        try:
+            if label in self._labels:
+                return label
+        except TypeError:  # not hashable, so no label
+            pass
+        raise UnknownLabel(label, self._labels)
 
     def mark(self, label: str) -> Callable[[F], F]:
         """The decorator that makes a method the one of rule `label`. Raises UnknownLabel.
@@ -137,24 +140,28 @@ class Instance:
         return tuple(found)
 
     def _refuse_misplaced(self, marked: Iterable[tuple[str, Method]]) -> None:
-        """Raises Unbindable for two variants on one layer, and for a variant on the layer of a rule that the method is
-        not the one of: of the first only one would ever run, the second never."""
-        own: dict[str, set[str]] = {}
+        """Raises Unbindable for two variants on one layer, and for a variant or advice on the layer of a rule that the
+        method is not the one of: of the first only one would ever run, the second never."""
+        own: dict[int, set[str]] = {}
         methods = {}
         for label, method in marked:
-            own.setdefault(method.name, set()).add(label)
-            methods[method.name] = method
-        for name, method in methods.items():
+            # By what a call of it finds: two functions of a module may have one name.
+            own.setdefault(id(method.attribute), set()).add(label)
+            methods[id(method.attribute)] = method
+        for number, method in methods.items():
             for definition in method.definitions:
                 layers = [layer for layer, _, kind in definition if is_variant(kind)]
-                for layer in layers:
-                    if layers.count(layer) > 1:
-                        on = "the base" if layer is None else f"layer {layer.name}"
-                        raise Unbindable(f"{name} has two variants on {on}", "leave one of them out")
-                    if isinstance(layer, RuleLayer) and layer.name.rpartition(".hc")[0] not in own[name]:
+                for layer, _, kind in definition:
+                    if is_variant(kind) and layers.count(layer) > 1:
+                        on = "the base" if layer is None else f"layer {getattr(layer, 'name', layer)}"
+                        raise Unbindable(f"{method.name} has two variants on {on}", "leave one of them out")
+                    # Layers of another instance are its own business: a class may serve two.
+                    if not isinstance(layer, RuleLayer) or layer is not self.layers.get(layer.name):
+                        continue
+                    if layer.name.rpartition(".hc")[0] not in own[number]:
                         raise Unbindable(
-                            f"a variant of {name} is on layer {layer.name}, and {name} is the method of "
-                            f"{' and '.join(sorted(own[name]))}",
+                            f"a variant of {method.name} is on layer {layer.name}, and {method.name} is the method of "
+                            f"{' and '.join(sorted(own[number]))}",
                             "put it on a layer of that rule, or mark the method with the other rule too",
                         )
 

@@ -183,6 +183,8 @@ def watched(robot: object, obligations: Iterable[str]) -> Iterator[None]:
     """Lets recordings see the unmarked implementations of `robot` too, by instance attributes in front of its methods,
     until the end of the block."""
     placed: list[str] = []
+    # Attributes that the object had of its own come back.
+    own = dict(getattr(robot, "__dict__", {}))
     for name, function in implementations(robot, obligations).items():
         if obligation_of(function) is None:
             if not hasattr(robot, "__dict__"):
@@ -197,4 +199,7 @@ def watched(robot: object, obligations: Iterable[str]) -> Iterator[None]:
         yield
     finally:
         for attribute in placed:
-            delattr(robot, attribute)
+            if attribute in own:
+                setattr(robot, attribute, own[attribute])
+            else:
+                delattr(robot, attribute)

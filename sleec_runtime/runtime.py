@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from sleec_runtime.dispatch import Done, Plan, due_in, plan, run, run_async
+from sleec_runtime.dispatch import Done, Plan, cell_of, due_in, plan, run, run_async
 from sleec_runtime.errors import NotBound, SleecError, UnknownTrigger, WrongType
 from sleec_runtime.evaluation import Due, broken_assumptions
 from sleec_runtime.instance import Instance
@@ -89,8 +89,13 @@ class Sleec:
         call would not dispatch it; AlreadyBound for a second method of a rule.
         """
         with self._lock:
-            self._plan_anew(self._instance.bind(targets, self.ruleset.rules if self._objections else ()))
-            self._watch_bound()
+            labels = self._instance.bind(targets, self.ruleset.rules if self._objections else ())
+            try:
+                self._watch_bound(self._instance, self._snapshot.program)
+            except SleecError:
+                self._instance.unbind(labels)
+                raise
+            self._plan_anew(labels)
 
     def unbind(self, *labels: str) -> None:
         """Takes their methods from rules. Dispatches under way finish with them. Raises UnknownLabel."""
@@ -133,9 +138,11 @@ class Sleec:
         """The assumptions that the context breaks, if `triggers` occur in it.
 
         What was proved of the rules was proved of contexts that break none, so a robot that finds one broken has reason
-        to distrust its sensors. Rules decide in such a context as in any other.
+        to distrust its sensors. Rules decide in such a context as in any other. Raises UnknownTrigger.
         """
         snapshot = self._snapshot
+        for trigger in triggers:
+            cell_of(snapshot, trigger)
         return broken_assumptions(snapshot.program.ruleset, snapshot.context(triggers))
 
     # Triggers -------------------------------------------------------------------------------------------
@@ -307,13 +314,13 @@ class Sleec:
         if self._objections:
             instance.allow_calls(program.ruleset.rules)
         self._object(before, after, program.ruleset.rules)
+        self._watch_bound(instance, program)
         self._instance = instance
-        self._watch_bound()
         self._publish(before, after, program.ruleset.rules)
 
-    def _watch_bound(self) -> None:
+    def _watch_bound(self, instance: Instance, program: Program) -> None:
         if self._monitor is not None:
-            self._monitor.watch(self.bound_objects(), self._snapshot.program.whole.obligations)
+            self._monitor.watch(instance.objects(), program.whole.obligations)
 
     def _object(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         for objection in self._objections:

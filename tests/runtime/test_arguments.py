@@ -8,6 +8,7 @@ from __future__ import annotations
 import asyncio
 import functools
 import inspect
+import types
 from collections.abc import Callable
 from typing import Any
 
@@ -126,6 +127,73 @@ def test_two_variants_on_one_layer_are_refused() -> None:
     with pytest.raises(Unbindable, match=r"on layer r2\.hc1, and method is the method of r1"):
         sleec.bind(Astray())
     assert set(sleec.missing()) == {"r1", "r2"}
+
+    class Advised:
+        @sleec.rule("r1")
+        @cop.base
+        def method(self) -> None: ...
+
+        @cop.before(sleec.layers["r2.hc1"])
+        def method(self) -> None: ...
+
+    with pytest.raises(Unbindable, match=r"on layer r2\.hc1, and method is the method of r1"):
+        sleec.bind(Advised())
+
+    elsewhere = cop.Layer("elsewhere")
+
+    class TwiceElsewhere:
+        @sleec.rule("r1")
+        @cop.base
+        def method(self) -> None: ...
+
+        @cop.around(elsewhere)
+        def method(self) -> None: ...
+
+        @cop.around(elsewhere)
+        def method(self) -> None: ...
+
+    with pytest.raises(Unbindable, match="two variants on layer <layer elsewhere>"):
+        sleec.bind(TwiceElsewhere())
+
+
+def test_functions_of_one_name_are_looked_at_each_for_itself() -> None:
+    sleec = running("RULE r1 WHEN a THEN o1\nRULE r2 WHEN b THEN o1 UNLESS c IN WHICH CASE o2")
+
+    def made(label: str) -> object:
+        @sleec.rule(label)
+        @cop.base
+        def method() -> None: ...
+
+        @cop.around(sleec.layers["r2.hc1"])
+        def method() -> None: ...
+
+        return method
+
+    module = types.ModuleType("module")
+    vars(module).update(first=made("r1"), second=made("r2"))
+    with pytest.raises(Unbindable, match=r"on layer r2\.hc1, and method is the method of r1"):
+        sleec.bind(module)
+
+
+def test_a_class_may_serve_two_instances() -> None:
+    one = running("RULE r1 WHEN a THEN o1 UNLESS c IN WHICH CASE o2")
+    two = running("RULE r2 WHEN a THEN o1 UNLESS c IN WHICH CASE o2")
+
+    class Shared:
+        @one.rule("r1")
+        @two.rule("r2")
+        @cop.base
+        def method(self) -> None: ...
+
+        @cop.around(one.layers["r1.hc1"])
+        def method(self) -> None: ...
+
+        @cop.around(two.layers["r2.hc1"])
+        def method(self) -> None: ...
+
+    for sleec in (one, two):
+        sleec.bind(Shared())
+        assert not sleec.missing()
 
 
 def test_what_a_decorator_wraps_does_not_say_what_it_takes() -> None:
