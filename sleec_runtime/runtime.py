@@ -89,7 +89,7 @@ class Sleec:
         call would not dispatch it; AlreadyBound for a second method of a rule.
         """
         with self._lock:
-            labels = self._instance.bind(targets, self.ruleset.rules if self._objections else ())
+            labels = self._instance.bind(targets, self.ruleset.rules if self.activated_globally else ())
             try:
                 self._watch_bound(self._instance, self._snapshot.program)
             except SleecError:
@@ -268,6 +268,11 @@ class Sleec:
             if self._monitor is monitor:
                 self._monitor = None
 
+    @property
+    def activated_globally(self) -> bool:
+        """Whether plain calls of bound methods are dispatched: nothing else has objections to changes."""
+        return bool(self._objections)
+
     def allow_calls(self) -> None:
         """Sees to it that ContextPy3 dispatches bound methods as this runtime does. Raises Unbindable for one that it
         would not."""
@@ -311,7 +316,7 @@ class Sleec:
             )
         known = {name: value for name, value in before.conditions.items() if name in program.vocabulary}
         after = Snapshot.first(program, known, before.number + 1)
-        if self._objections:
+        if self.activated_globally:
             instance.allow_calls(program.ruleset.rules)
         self._object(before, after, program.ruleset.rules)
         self._watch_bound(instance, program)

@@ -247,3 +247,21 @@ def test_an_override_that_hides_the_variants_is_refused() -> None:
             sleec.bind(Hiding())
         assert "dress_assist" in sleec.missing()
         sleec.bind(robot)
+
+
+def test_it_is_on_once_and_gives_way_to_no_one() -> None:
+    sleec = running("RULE r WHEN a THEN o1 UNLESS c IN WHICH CASE o2")
+    layer = sleec.layers["r.hc1"]
+    with sleec.activate_globally():
+        with pytest.raises(SleecError, match="on already"):
+            sleec.activate_globally()
+        cop.global_activate_layer(layer)
+        with pytest.raises(SleecError, match=r"layer r\.hc1 is globally active already"):
+            sleec.update({"c": True})
+        assert dict(sleec.conditions) == {}
+        cop.global_deactivate_layer(layer)
+        sleec.update({"c": True})
+        assert layer in cop._BASELAYERS
+        cop.global_deactivate_layer(layer)
+        sleec.update({"c": False})
+    assert cop._BASELAYERS == (None,)
