@@ -22,7 +22,14 @@ from sleec_runtime.layers import (
     select,
 )
 from sleec_runtime.model import Clause, Rule, Ruleset
-from sleec_runtime.obligations import implementations, is_coroutine_function, obligation_of, recorded
+from sleec_runtime.obligations import (
+    implementations,
+    is_coroutine_function,
+    obligation_of,
+    recorded,
+    takes_time,
+    taking_time,
+)
 
 F = TypeVar("F")
 
@@ -42,7 +49,8 @@ class Method(NamedTuple):
 class Instance:
     """The layers, the methods bound to rules, and the callables that implement obligations.
 
-    Changes are made under the lock of the runtime; variants are looked up without.
+    Changes are made under the lock of the runtime; variants are looked up without. `takes_time` are the obligations
+    that are not done when their callables return.
     """
 
     def __init__(self, ruleset: Ruleset) -> None:
@@ -51,6 +59,7 @@ class Instance:
         self._labels: dict[str, None] = {}
         self._methods: dict[str, Method] = {}
         self._callables: dict[str, Callable[..., Any]] = {}
+        self.takes_time: frozenset[str] = frozenset()
         self._variants: dict[tuple[str, int], tuple[Clause, Variant | None]] = {}
         self.admit(ruleset)
 
@@ -62,6 +71,7 @@ class Instance:
         copy._labels = self._labels
         copy._methods = dict(self._methods)
         copy._callables = dict(self._callables)
+        copy.takes_time = self.takes_time
         copy._variants = {}
         return copy
 
@@ -102,6 +112,7 @@ class Instance:
         if nothing in one is marked, AlreadyBound for a second method of a rule.
         """
         found: dict[str, Method] = {}
+        targets = tuple(targets)
         for target in targets:
             marked = tuple(self._marked(target))
             if not marked:
@@ -117,6 +128,7 @@ class Instance:
                     )
                 found[label] = method
         self._methods.update(found)
+        self.takes_time = self.takes_time.union(*map(taking_time, targets))
         self._forget(found)
         return tuple(found)
 
@@ -147,6 +159,9 @@ class Instance:
                     'mark methods with @sleec_runtime.obligation("…"), or name them in snake case',
                 )
         self._callables.update(found)
+        self.takes_time = self.takes_time.difference(found).union(
+            name for name, function in found.items() if takes_time(function)
+        )
         self._forget(self._labels)
 
     def variant(self, rule: Rule, number: int, clause: Clause) -> Variant | None:
@@ -172,6 +187,19 @@ class Instance:
         variants[key] = clause, variant
         return variant
 
+    def has_method(self, label: str) -> bool:
+        """Whether a method is bound to the rule, so that no variant of it is composed of callables."""
+        return label in self._methods
+
+    def implementation(self, name: str) -> Callable[..., Any] | None:
+        """The callable that was given to an obligation, seen by recordings."""
+        function = self._callables.get(name)
+        return None if function is None else _seen(name, function)
+
+    def composed(self, label: str, layer: str | None, functions: Sequence[Callable[..., Any]]) -> Variant:
+        """A variant of rule `label` that calls `functions` in order, and does nothing else."""
+        return Variant(label, self.layers.of(layer), own_entries(_in_order(functions)), None, None)
+
     def objects(self) -> list[object]:
         """The objects that methods are bound to, once each."""
         return list({id(m.instance): m.instance for m in self._methods.values() if m.instance is not None}.values())
@@ -185,6 +213,10 @@ class Instance:
         try:
             for number, clause in enumerate(rule.clauses()):
                 self.variant(rule, number, clause)
+                if any(obligation.timing is not None for obligation in clause.obligations):
+                    from sleec_runtime.timed.units import require_code
+
+                    require_code(rule, clause, self)
         except NotBound as problem:
             return problem
         return None
@@ -215,9 +247,8 @@ class Instance:
             )
         if not names:
             return None
-        function = _in_order([_seen(name, self._callables[name]) for name in names])
-        layer = self.layers.of(rule.layer(number))
-        return Variant(rule.label, layer, own_entries(function), None, None)
+        functions = [_seen(name, self._callables[name]) for name in names]
+        return self.composed(rule.label, rule.layer(number), functions)
 
     def _marked(self, target: object) -> Iterable[tuple[str, Method]]:
         if isinstance(target, (types.FunctionType, LayeredMethod)):
