@@ -6,7 +6,7 @@ the layer that Algorithm 1 gives, and no other.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -17,6 +17,7 @@ from sleec_runtime.errors import (
     UndeterminedDecision,
     UnknownTrigger,
     VariantsFailed,
+    WrongArguments,
 )
 from sleec_runtime.evaluation import Decision, Due, Outcome, Situation, Undetermined
 from sleec_runtime.explain import conflict_in_words, outcome_in_words
@@ -39,7 +40,17 @@ class ActiveClause(NamedTuple):
 class Plan:
     """What a dispatch will do in one context: checked, and nothing run yet. Immutable."""
 
-    __slots__ = ("asynchronous", "clauses", "decisions", "mark", "obligations", "prohibitions", "triggers", "variants")
+    __slots__ = (
+        "asynchronous",
+        "clauses",
+        "decisions",
+        "fitting",
+        "mark",
+        "obligations",
+        "prohibitions",
+        "triggers",
+        "variants",
+    )
 
     def __init__(self, triggers: tuple[str, ...], due: Due, variants: tuple[Variant, ...], mark: object) -> None:
         self.triggers = triggers
@@ -50,6 +61,18 @@ class Plan:
         self.prohibitions = due.prohibitions
         self.clauses = tuple(ActiveClause(d.rule.label, d.clause) for d in due.decisions)
         self.asynchronous = any(variant.asynchronous for variant in variants)
+        self.fitting: set[tuple[object, ...]] = set()
+        """The shapes of arguments that all variants take: how many, and the names of those given by name."""
+
+    def refuse_misfits(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+        """Raises WrongArguments if the code of some rule does not take these. O(1) but for the first of a shape."""
+        shape = (len(args), *kwargs)
+        if shape in self.fitting:
+            return
+        for variant in self.variants:
+            for function in variant.called:
+                refuse_misfit(variant.label, function, args, kwargs)
+        self.fitting.add(shape)
 
 
 class Done:
@@ -68,7 +91,7 @@ class Done:
 
     @property
     def obligations(self) -> tuple[str, ...]:
-        """What was due, and is done unless `due` has it: each name once, in the order of the rules and their clauses."""
+        """What was due, and is done unless `due` has it: each name once, in the order of rules and their clauses."""
         return self._plan.obligations
 
     @property
@@ -196,6 +219,7 @@ def plan(snapshot: Snapshot, triggers: tuple[str, ...], instance: Instance) -> P
 
 def run(plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Done:
     """Runs the variants of a plan in order. Raises what a variant raised, after all have run."""
+    plan.refuse_misfits(args, kwargs)
     if plan.asynchronous:
         raise NeedsAwait(
             f"a variant of {' and '.join(plan.triggers)} is a coroutine function", "await trigger_async(…) instead"
@@ -214,6 +238,7 @@ def run(plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str,
 
 async def run_async(plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Done:
     """Runs the variants of a plan one after the other, awaiting those that are coroutines. Raises as `run` does."""
+    plan.refuse_misfits(args, kwargs)
     results: list[object] = []
     errors: list[tuple[str, Exception]] = []
     for variant in plan.variants:
@@ -224,6 +249,26 @@ async def run_async(plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwarg
     if errors:
         raise one_of(errors)
     return Done(plan, snapshot, results)
+
+
+def refuse_misfit(label: str, function: Callable[..., Any], args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> None:
+    """Raises WrongArguments if `function`, code of rule `label`, does not take these."""
+    import inspect
+
+    try:
+        signature = inspect.signature(function)
+    except (TypeError, ValueError):
+        # Built into the interpreter, with no signature to read: the call itself will tell.
+        return
+    try:
+        signature.bind(*args, **kwargs)
+    except TypeError as error:
+        plain = getattr(function, "func", function)
+        name = getattr(plain, "__name__", repr(plain))
+        raise WrongArguments(
+            f"{name}, the code of rule {label}, cannot be called so: {error}",
+            f"give the trigger what {name}{signature} takes; nothing was run",
+        ) from None
 
 
 def one_of(errors: Sequence[tuple[str, Exception]]) -> Exception:

@@ -73,6 +73,11 @@ class UnsupportedTimes(SleecError):
         self.lines = tuple(lines)
 
 
+class WrongArguments(SleecError, TypeError):
+    """Arguments of a trigger that the code of one of its rules does not take. A TypeError too, as a call that does not
+    fit is one."""
+
+
 class WrongType(SleecError):
     """A value that does not fit its condition or measure; `name` is that of the condition or measure."""
 
@@ -170,10 +175,9 @@ class Prohibited(ConflictInContext):
     """`obligation` is due, or was done, while a rule forbids it, by a prohibition with a window. From the second `over`
     on the instance's clock, it is forbidden no more; None if there is no such time."""
 
-    def __init__(self, message: str, obligation: str, over: int | None, hint: str | None = None) -> None:
+    def __init__(self, message: str, obligation: str, over: int | None, hint: str) -> None:
         super().__init__(message, None)
-        if hint is not None:
-            self.hint = hint
+        self.hint = hint
         self.obligation = obligation
         self.over = over
 

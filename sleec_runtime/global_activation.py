@@ -17,6 +17,7 @@ from sleec_runtime.dispatch import due_in
 from sleec_runtime.errors import SleecError
 from sleec_runtime.evaluation import Decision
 from sleec_runtime.layers import RuleLayer
+from sleec_runtime.untimed import require_untimed
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Rule
@@ -44,10 +45,14 @@ class GlobalActivation:
     def start(self) -> GlobalActivation:
         """Activates the layers of now, and renews them on each change. O(rules).
 
-        Raises ConflictInContext (or UndeterminedDecision) if some trigger could not be answered in this context, and
-        SleecError if one of the layers is active already: then nothing is activated.
+        Raises UnsupportedTimes for rules with times, ConflictInContext (or UndeterminedDecision) if some trigger could
+        not be answered in this context, Unbindable for a bound method that a plain call would not dispatch by the layers, and SleecError if one of the
+        layers is active already: then nothing is activated. A change into a context in which some trigger could not be
+        answered is refused as long as this is on.
         """
         with self._sleec.held() as snapshot, _GLOBAL_LAYERS:
+            _refuse_times(snapshot)
+            self._sleec.refuse_calls_without_dispatch()
             for trigger in snapshot.program.number_of:
                 due_in(snapshot, (trigger,))
             layers = self._due_layers(snapshot, snapshot.program.ruleset.rules)
@@ -55,7 +60,7 @@ class GlobalActivation:
                 if layer is not None and layer in contextpy3._BASELAYERS:
                     raise SleecError(f"layer {layer.name} is globally active already", "deactivate it first")
             self._renew(layers)
-            self._end = self._sleec.listen(self._changed)
+            self._end = self._sleec.listen(self._changed, self._refuse)
         return self
 
     def stop(self) -> None:
@@ -72,6 +77,12 @@ class GlobalActivation:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.stop()
+
+    @staticmethod
+    def _refuse(before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
+        _refuse_times(after)
+        for trigger in dict.fromkeys(rule.trigger for rule in rules):
+            due_in(after, (trigger,))
 
     def _changed(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         layers = self._due_layers(after, rules)
@@ -103,3 +114,7 @@ class GlobalActivation:
     @staticmethod
     def _not_started() -> None:
         raise SleecError("global activation is not on", "start() it first")
+
+
+def _refuse_times(snapshot: Snapshot) -> None:
+    require_untimed(snapshot.program.ruleset, "global activation, where nothing is watched,")

@@ -16,8 +16,10 @@ from sleec_runtime.layers import (
     Entry,
     LayeredMethod,
     Layers,
+    RuleLayer,
     Variant,
     inherited_entries,
+    is_variant,
     own_entries,
     select,
 )
@@ -50,7 +52,7 @@ class Instance:
     """The layers, the methods bound to rules, and the callables that implement obligations.
 
     Changes are made under the lock of the runtime; variants are looked up without. `takes_time` are the obligations
-    that are not done when their callables return.
+    that are not done when their callables return; `fitting` is where rules with times note what takes which arguments.
     """
 
     def __init__(self, ruleset: Ruleset) -> None:
@@ -60,6 +62,7 @@ class Instance:
         self._methods: dict[str, Method] = {}
         self._callables: dict[str, Callable[..., Any]] = {}
         self.takes_time: frozenset[str] = frozenset()
+        self.fitting: set[tuple[object, ...]] = set()
         self._variants: dict[tuple[str, int], tuple[Clause, Variant | None]] = {}
         self.admit(ruleset)
 
@@ -72,6 +75,7 @@ class Instance:
         copy._methods = dict(self._methods)
         copy._callables = dict(self._callables)
         copy.takes_time = self.takes_time
+        copy.fitting = set()
         copy._variants = {}
         return copy
 
@@ -127,10 +131,33 @@ class Instance:
                         f"unbind({label!r}) first, or mark one of them only",
                     )
                 found[label] = method
+            self._refuse_misplaced(marked)
         self._methods.update(found)
         self.takes_time = self.takes_time.union(*map(taking_time, targets))
         self._forget(found)
         return tuple(found)
+
+    def _refuse_misplaced(self, marked: Iterable[tuple[str, Method]]) -> None:
+        """Raises Unbindable for two variants on one layer, and for a variant on the layer of a rule that the method is
+        not the one of: of the first only one would ever run, the second never."""
+        own: dict[str, set[str]] = {}
+        methods = {}
+        for label, method in marked:
+            own.setdefault(method.name, set()).add(label)
+            methods[method.name] = method
+        for name, method in methods.items():
+            for definition in method.definitions:
+                layers = [layer for layer, _, kind in definition if is_variant(kind)]
+                for layer in layers:
+                    if layers.count(layer) > 1:
+                        on = "the base" if layer is None else f"layer {layer.name}"
+                        raise Unbindable(f"{name} has two variants on {on}", "leave one of them out")
+                    if isinstance(layer, RuleLayer) and layer.name.rpartition(".hc")[0] not in own[name]:
+                        raise Unbindable(
+                            f"a variant of {name} is on layer {layer.name}, and {name} is the method of "
+                            f"{' and '.join(sorted(own[name]))}",
+                            "put it on a layer of that rule, or mark the method with the other rule too",
+                        )
 
     def unbind(self, labels: Iterable[str]) -> None:
         """Takes their methods from rules. Raises UnknownLabel."""
@@ -196,9 +223,41 @@ class Instance:
         function = self._callables.get(name)
         return None if function is None else _seen(name, function)
 
-    def composed(self, label: str, layer: str | None, functions: Sequence[Callable[..., Any]]) -> Variant:
-        """A variant of rule `label` that calls `functions` in order, and does nothing else."""
-        return Variant(label, self.layers.of(layer), own_entries(_in_order(functions)), None, None)
+    def composed(
+        self,
+        label: str,
+        layer: str | None,
+        functions: Sequence[Callable[..., Any]],
+        plain: Sequence[Callable[..., Any]] = (),
+    ) -> Variant:
+        """A variant of rule `label` that calls `functions` in order, and does nothing else. They are `plain` with
+        something around them."""
+        return Variant(label, self.layers.of(layer), own_entries(_in_order(functions)), None, None, tuple(plain))
+
+    def refuse_calls_without_dispatch(self, rules: Iterable[Rule]) -> None:
+        """Raises Unbindable for a method of `rules` of which a plain call, under the layers that are globally active,
+        runs something else than a dispatch would: a clause without a variant (ContextPy3 runs the base there), or
+        variants that a definition in a subclass hides."""
+        for rule in rules:
+            method = self._methods.get(rule.label)
+            if method is None:
+                continue
+            for number, clause in enumerate(rule.clauses()):
+                layer = self.layers.of(rule.layer(number))
+                if select(method.definitions[:1], layer) is not None:
+                    continue
+                if select(method.definitions, layer) is not None:
+                    raise Unbindable(
+                        f"a plain call of {method.name} finds no variant for {_clause_name(rule, number)} of rule "
+                        f"{rule.label}: a definition in a subclass hides it",
+                        "write all variants in one class, or use trigger()",
+                    )
+                if layer is not None and not any(not literal.negated for literal in clause.obligations):
+                    raise Unbindable(
+                        f"a plain call of {method.name} runs the base where {_clause_name(rule, number)} decides, "
+                        "which has nothing to run",
+                        f'write an empty variant under @cop.around(sleec.layers["{layer.name}"]), or use trigger()',
+                    )
 
     def objects(self) -> list[object]:
         """The objects that methods are bound to, once each."""
@@ -247,8 +306,9 @@ class Instance:
             )
         if not names:
             return None
-        functions = [_seen(name, self._callables[name]) for name in names]
-        return self.composed(rule.label, rule.layer(number), functions)
+        functions = [self._callables[name] for name in names]
+        seen = [_seen(name, function) for name, function in zip(names, functions)]
+        return self.composed(rule.label, rule.layer(number), seen, functions)
 
     def _marked(self, target: object) -> Iterable[tuple[str, Method]]:
         if isinstance(target, (types.FunctionType, LayeredMethod)):
@@ -279,6 +339,7 @@ class Instance:
 
     def _forget(self, labels: Iterable[str]) -> None:
         gone = frozenset(labels)
+        self.fitting = set()
         self._variants = {key: known for key, known in tuple(self._variants.items()) if key[0] not in gone}
 
 

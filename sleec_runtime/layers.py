@@ -7,6 +7,7 @@ was activated last decide. What a variant sees is what it would see under ``with
 
 from __future__ import annotations
 
+import functools
 import inspect
 import types
 from collections.abc import Awaitable, Callable, Generator, Iterator, Mapping, Sequence
@@ -71,12 +72,20 @@ class Layers(Mapping[str, RuleLayer]):
 class Variant:
     """What runs for one clause: an implementation with its advice, bound to its object, and the layer it runs under."""
 
-    __slots__ = ("asynchronous", "chain", "instance", "label", "layers", "owner", "proceeds_to")
+    __slots__ = ("asynchronous", "called", "chain", "instance", "label", "layers", "owner", "proceeds_to")
 
     def __init__(
-        self, label: str, layer: RuleLayer | None, entries: Sequence[Entry], instance: object, owner: type | None
+        self,
+        label: str,
+        layer: RuleLayer | None,
+        entries: Sequence[Entry],
+        instance: object,
+        owner: type | None,
+        called: tuple[Callable[..., Any], ...] | None = None,
     ) -> None:
+        """`called` are what takes the arguments in the end, where that is not the implementation itself."""
         self.label = label
+        self.called = called if called is not None else _taking_arguments(entries, owner)
         self.layers = () if layer is None else (layer,)
         self.chain: Callable[[list[Any], tuple[Any, ...], dict[str, Any]], object]
         self.chain = contextpy3._advice.createchain([(function, kind) for _, function, kind in entries])
@@ -86,10 +95,28 @@ class Variant:
         self.asynchronous = any(is_coroutine_function(function) for _, function, _ in entries)
 
 
+def _taking_arguments(entries: Sequence[Entry], owner: type | None) -> tuple[Callable[..., Any], ...]:
+    """The implementations up to the variant, as they are when its object is given: what is beyond gets its arguments
+    from `proceed`."""
+    found: list[Callable[..., Any]] = []
+    for _, function, kind in entries:
+        plain: Any = getattr(function, "__func__", function)
+        takes_object = owner is not None and not isinstance(function, staticmethod)
+        found.append(functools.partial(plain, None) if takes_object else plain)
+        if kind is _AROUND:
+            break
+    return tuple(found)
+
+
 def _past_the_variant(chain: Any) -> Any:
     while type(chain) is not _AROUND:
         chain = chain._successor
     return chain._successor
+
+
+def is_variant(kind: Any) -> bool:
+    """Whether an implementation of this kind of advice is a variant of its own, and not run before or after one."""
+    return kind is _AROUND
 
 
 def own_entries(attribute: object) -> list[Entry]:

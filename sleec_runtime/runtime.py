@@ -15,7 +15,6 @@ from sleec_runtime.layers import Layers
 from sleec_runtime.model import Assume, Measure, Reading, Rule, Ruleset
 from sleec_runtime.program import Program
 from sleec_runtime.snapshot import Conditions, Snapshot
-from sleec_runtime.untimed import require_untimed
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -72,6 +71,7 @@ class Sleec:
         self._times: Timekeeper | None = None
         self._lock = threading.RLock()
         self._listeners: list[Listener] = []
+        self._objections: list[Listener] = []
         self._monitor: Monitor | None = None
         self._snapshot = Snapshot.first(Program(whole, domain, strict), {})
         self._instance = Instance(whole)
@@ -146,12 +146,14 @@ class Sleec:
         """One change of context, whole or not at all: no dispatch sees part of it.
 
         None says that a condition is no longer known. O(changes + size of the rules that mention them). Raises
-        UnknownCondition or WrongType, and then nothing has changed.
+        UnknownCondition or WrongType, under global activation ConflictInContext or UndeterminedDecision too, and then
+        nothing has changed.
         """
         with self._lock:
             before = self._snapshot
             after, rules = before.changed(changes)
             if after is not before:
+                self._object(before, after, rules)
                 self._publish(before, after, rules)
 
     def broken_assumptions(self, *triggers: str) -> tuple[Assume, ...]:
@@ -169,9 +171,9 @@ class Sleec:
         """The trigger occurs: decides every rule of it in one context, and runs the variants, each with the arguments.
 
         All that can be refused is refused before anything runs: UnknownTrigger, NotBound, UndeterminedDecision (in
-        strict mode), ConflictInContext, NeedsAwait. A variant that raises does not keep those of other rules from
-        running; what it raised is raised after them (VariantsFailed holds several). O(rules of the trigger) the first
-        time in a context, then O(rules that speak), however many others are loaded.
+        strict mode), ConflictInContext, WrongArguments, NeedsAwait. A variant that raises does not keep those of other
+        rules from running; what it raised is raised after them (VariantsFailed holds several). O(rules of the trigger)
+        the first time in a context, then O(rules that speak), however many others are loaded.
         """
         if self._times is not None:
             return self._times.trigger((name,), args, kwargs)
@@ -306,16 +308,24 @@ class Sleec:
         Raises UnsupportedTimes for rules with times, because nothing would be watched."""
         from sleec_runtime.global_activation import GlobalActivation
 
-        require_untimed(self.ruleset, "global activation")
         return GlobalActivation(self).start()
 
     # For the modules of the runtime ---------------------------------------------------------------------
 
-    def listen(self, listener: Listener) -> Callable[[], None]:
-        """Has `listener` told of every change of context, before the next one can come; returns what ends it."""
+    def listen(self, listener: Listener, objection: Listener | None = None) -> Callable[[], None]:
+        """Has `listener` told of every change of context, before the next one can come; returns what ends it. An
+        `objection` is asked before anything changes, and what it raises keeps all as it is."""
         with self._lock:
             self._listeners.append(listener)
-        return lambda: self._listeners.remove(listener)
+            if objection is not None:
+                self._objections.append(objection)
+
+        def end() -> None:
+            self._listeners.remove(listener)
+            if objection is not None:
+                self._objections.remove(objection)
+
+        return end
 
     @contextmanager
     def held(self) -> Iterator[Snapshot]:
@@ -335,6 +345,10 @@ class Sleec:
         with self._lock:
             if self._monitor is monitor:
                 self._monitor = None
+
+    def refuse_calls_without_dispatch(self) -> None:
+        """Raises Unbindable for a bound method that ContextPy3 would not dispatch as this runtime does."""
+        self._instance.refuse_calls_without_dispatch(self.ruleset.rules)
 
     def bound_objects(self) -> list[object]:
         """The objects whose methods are bound to rules."""
@@ -390,6 +404,7 @@ class Sleec:
             )
         known = {name: value for name, value in before.conditions.items() if name in program.vocabulary}
         after = Snapshot.first(program, known, before.number + 1)
+        self._object(before, after, program.ruleset.rules)
         self._keep_times(program)
         self._instance = instance
         self._watch_bound()
@@ -398,6 +413,10 @@ class Sleec:
     def _watch_bound(self) -> None:
         if self._monitor is not None:
             self._monitor.watch(self.bound_objects(), self._snapshot.program.whole.obligations)
+
+    def _object(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
+        for objection in self._objections:
+            objection(before, after, rules)
 
     def _publish(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         self._snapshot = after

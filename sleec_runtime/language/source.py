@@ -47,7 +47,7 @@ def tidy(text: str) -> str:
 def _read_bytes(path: str | Path) -> tuple[str, bytes]:
     name = os.fspath(path)
     if name == STDIN:
-        return "<stdin>", _read_standard_input()
+        return "<stdin>", read_standard_input()
     try:
         with open(name, "rb") as file:
             return name, file.read()
@@ -61,7 +61,7 @@ def _read_bytes(path: str | Path) -> tuple[str, bytes]:
         raise UnreadableFile(f"{name} cannot be read: {getattr(error, 'strerror', None) or error}") from None
 
 
-def _read_standard_input() -> bytes:
+def read_standard_input() -> bytes:
     if sys.stdin is None:  # what Python has in place of a stream that was closed when it was started
         raise UnreadableFile("there is no standard input: it is closed", "name a file, or redirect one to it")
     try:

@@ -395,7 +395,7 @@ class Timekeeper:
         """What users see of those of `tasks` that are not over, by when they end."""
         with self._lock:
             now = self.clock.now()
-            still = [task for task in tasks if task.is_open and not (task.literal.negated and _is_past(task, now))]
+            still = [task for task in tasks if task.is_open_at(now)]
         still.sort(key=lambda task: (task.last is None, task.first if task.last is None else task.last))
         return self.view_all(still)
 
@@ -410,13 +410,9 @@ class Timekeeper:
             self._rewake()
 
 
-def _is_past(task: Task, now: Time) -> bool:
-    return task.last is not None and task.last < now
-
-
 def _done_though_forbidden(name: str, prohibitions: Sequence[Task], now: Time) -> Prohibited:
     message = f"{name} was done at {time_in_words(now)}, and {prohibitions_in_words(prohibitions)}"
-    return prohibited(message, name, prohibitions)
+    return prohibited(message, name, prohibitions, "it was begun before that")
 
 
 def _running_loop() -> AbstractEventLoop | None:

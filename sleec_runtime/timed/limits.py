@@ -52,10 +52,8 @@ def not_enforced(ruleset: Ruleset, chains: bool) -> Iterator[tuple[str, Span]]:
                 for obligation in _asked(clause):
                     yield from _limits(obligation)
                     if not obligation.negated and obligation.name in triggers:
-                        yield (
-                            f"that {obligation.name} triggers rules when it is done (chains=True does)",
-                            obligation.span,
-                        )
+                        what = f"that {obligation.name} triggers rules when it is done (chains=True does)"
+                        yield what, obligation.span
 
 
 def _asked(clause: Clause) -> Iterator[Obligation]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from sleec_runtime.timed.words import window_in_words
 
 if TYPE_CHECKING:
     from sleec_runtime.timed.clocks import Time
+    from sleec_runtime.timed.keeper import Timekeeper
     from sleec_runtime.timed.tasks import State, Task
 
 
@@ -18,11 +18,11 @@ class Pending:
     Two are equal if they are of the same obligation of the same dispatch.
     """
 
-    __slots__ = ("_complete", "_task")
+    __slots__ = ("_keeper", "_task")
 
-    def __init__(self, task: Task, complete: Callable[[Task], object]) -> None:
+    def __init__(self, task: Task, keeper: Timekeeper) -> None:
         self._task = task
-        self._complete = complete
+        self._keeper = keeper
 
     @property
     def obligation(self) -> str:
@@ -51,17 +51,18 @@ class Pending:
 
     @property
     def state(self) -> State:
-        return self._task.state
+        """What has become of it."""
+        return self._task.state_at(self._keeper.clock.now())
 
     @property
     def is_open(self) -> bool:
         """Whether it is still to be done, or still forbidden."""
-        return self._task.is_open
+        return self._task.is_open_at(self._keeper.clock.now())
 
     def completed(self) -> None:
         """It is done: as ``sleec.completed(obligation)``, for code that has this at hand. Raises as that does, and
         SleecError for a prohibition."""
-        self._complete(self._task)
+        self._keeper.completed(self._task.name, self._task)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Pending) and other._task is self._task
@@ -70,7 +71,7 @@ class Pending:
         return hash(self._task)
 
     def __str__(self) -> str:
-        return f"{self._task.literal} ({self.rule}): {window_in_words(self._task)}, {self.state}"
+        return f"{self._task.literal} ({self.rule}): {self.state}, {window_in_words(self._task)}"
 
     def __repr__(self) -> str:
         return f"<Pending {self}>"

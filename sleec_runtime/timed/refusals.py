@@ -22,11 +22,12 @@ if TYPE_CHECKING:
 def refuse(
     stages: Sequence[Stage], agenda: Agenda, now: Time, events: Sequence[str] = (), settled: bool = False
 ) -> None:
-    """Raises if what `stages` start now, or bring, cannot be: Prohibited for what a prohibition that is in force forbids,
-    and for an obligation that is forbidden for the whole of its window; ConflictInContext (and UndeterminedDecision in
-    strict mode) for what cannot be done together now.
+    """Raises if what `stages` start now, or bring, cannot be.
 
-    `events` happen now, besides what is started; if that is `settled`, no prohibition can keep them from it. O(what starts + prohibitions in force), and what constraints cost.
+    Prohibited: for what a prohibition in force forbids, and for an obligation that is forbidden for the whole of its
+    window. ConflictInContext, and UndeterminedDecision in strict mode: for what cannot be done together now. `events`
+    happen now, besides what is started; if that is `settled`, no prohibition can keep them from it. O(what starts +
+    prohibitions in force), and what the constraints cost.
     """
     starting = [task for stage in stages for task in stage.starting(now)]
     for name in (*(() if settled else events), *(task.name for task in starting)):
@@ -44,11 +45,11 @@ def refuse(
         refuse_conflict(stage.snapshot, stages[0].triggers, due, happening)
 
 
-def prohibited(message: str, name: str, prohibitions: Sequence[Task]) -> Prohibited:
+def prohibited(message: str, name: str, prohibitions: Sequence[Task], hint: str = "nothing was executed") -> Prohibited:
     """The error that says so, with the first whole second at which the prohibitions are over."""
     ends = [task.last for task in prohibitions]
     over = None if any(end is None for end in ends) else max(floor(end) + 1 for end in ends if end is not None)
-    return Prohibited(message, name, over)
+    return Prohibited(message, name, over, hint)
 
 
 def _refuse_what_stays_forbidden(stages: Sequence[Stage], agenda: Agenda, now: Time) -> None:

@@ -12,7 +12,6 @@ from sleec_runtime.errors import NeedsAwait
 from sleec_runtime.evaluation import Due
 from sleec_runtime.instance import Unfinished
 from sleec_runtime.layers import Variant, await_under, run_all
-from sleec_runtime.timed.words import window_in_words
 
 if TYPE_CHECKING:
     from sleec_runtime.snapshot import Snapshot
@@ -46,11 +45,7 @@ class TimedDone(Done):
         return self._view(self._tasks)
 
     def explain(self) -> str:
-        lines = [
-            f"{'forbidden' if one.prohibited else 'due'}: {one.obligation} ({one.rule}), {window_in_words(one)}"
-            for one in self.due
-        ]
-        return "\n".join([super().explain(), *lines])
+        return "\n".join([super().explain(), *map(str, self.due)])
 
 
 class Run:

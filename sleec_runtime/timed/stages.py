@@ -108,16 +108,13 @@ def with_chains(first: Stage, moment: Moment) -> list[Stage]:
     O(rules of all these events). Raises as `called_by`.
     """
     stages = [first]
+    triggers, begun_only = moment.snapshot.program.number_of, moment.instance.takes_time
     seen = set(first.triggers)
     for stage in stages:
         for task in stage.starting(moment.now):
             name = task.name
-            if (
-                name not in seen
-                and name in moment.snapshot.program.number_of
-                and name not in moment.instance.takes_time
-            ):
+            if name in triggers and name not in seen and name not in begun_only:
                 seen.add(name)
-                args = replace(moment, args=task.origin.args, kwargs=task.origin.kwargs)
-                stages.append(called_by((name,), args, event=name))
+                with_its_arguments = replace(moment, args=task.origin.args, kwargs=task.origin.kwargs)
+                stages.append(called_by((name,), with_its_arguments, event=name))
     return stages

@@ -86,7 +86,18 @@ class Task:
 
     @property
     def is_open(self) -> bool:
+        """Whether it is on the agenda, or about to be."""
         return self.state in _OPEN
+
+    def state_at(self, now: Time) -> State:
+        """`state`; a prohibition is over when its window is, though the agenda may still hold it."""
+        if self.state == "in force" and self.last is not None and self.last < now:
+            return "over"
+        return self.state
+
+    def is_open_at(self, now: Time) -> bool:
+        """Whether it is still to be done, or still forbidden."""
+        return self.state_at(now) in _OPEN
 
     @property
     def is_decided(self) -> bool:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
+from sleec_runtime.dispatch import refuse_misfit
 from sleec_runtime.errors import NotBound
 from sleec_runtime.model import Clause, Number, Obligation, Rule, literals
 from sleec_runtime.obligations import is_coroutine_function
@@ -55,18 +56,23 @@ class Unit:
 
 
 def units_of(origin: Origin, tasks: Iterable[Task]) -> tuple[Unit, ...]:
-    """What does what the active clause of a rule asks for. Raises NotBound, of alternatives too."""
+    """What does what the active clause of a rule asks for. Raises NotBound and WrongArguments,
+    for what may come in its place, too."""
     decision, instance = origin.decision, origin.instance
     clause = list(decision.rule.clauses())[decision.clause]
     written = instance.variant(decision.rule, decision.clause, clause)
-    to_do = tuple(task for task in tasks if not task.literal.negated)
-    for task in to_do:
+    tasks = tuple(tasks)
+    for task in tasks:
         require_alternatives(decision.rule, task.literal, instance)
-    if written is None:
-        return ()
-    if instance.has_method(decision.rule.label):
+    method = written if instance.has_method(decision.rule.label) else None
+    if method is not None:
+        _refuse_misfits(origin, method, method.called)
+    for task in tasks:
+        _refuse_misfits_of(task, with_itself=method is None)
+    to_do = tuple(task for task in tasks if not task.literal.negated)
+    if method is not None:
         require_one_start(decision.rule, clause)
-        return (Unit(origin, to_do, to_do[0].first if to_do else origin.moment, written),)
+        return (Unit(origin, to_do, to_do[0].first if to_do else origin.moment, method),)
     return composed_units(origin, to_do)
 
 
@@ -79,6 +85,25 @@ def composed_units(origin: Origin, tasks: Iterable[Task]) -> tuple[Unit, ...]:
     units = [Unit(origin, tuple(task for task in to_do if task.first == first), first)]
     units += [Unit(origin, (task,), task.first) for task in to_do if task.first != first]
     return tuple(units)
+
+
+def _refuse_misfits_of(task: Task, with_itself: bool) -> None:
+    """Raises WrongArguments if what does `task`, or what may come in its place, does not take the arguments."""
+    if with_itself and not task.literal.negated:
+        function = task.origin.instance.implementation(task.name)
+        assert function is not None, "refused before"
+        _refuse_misfits(task.origin, task.name, (function,))
+    for alternative in (*(task.otherwise or ()), *(task.instead or ())):
+        _refuse_misfits_of(alternative, with_itself=True)
+
+
+def _refuse_misfits(origin: Origin, of: object, functions: Iterable[Callable[..., Any]]) -> None:
+    shape = (of, len(origin.args), *origin.kwargs)
+    fitting = origin.instance.fitting
+    if shape not in fitting:
+        for function in functions:
+            refuse_misfit(origin.rule.label, function, origin.args, origin.kwargs)
+        fitting.add(shape)
 
 
 def require_code(rule: Rule, clause: Clause, instance: Instance) -> None:

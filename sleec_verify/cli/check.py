@@ -17,6 +17,7 @@ from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, tal
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading
+    from sleec_verify.timed.scope import Untimed
 
 
 @click.command(
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 @options.paths(several=True)
 @options.reading
 @options.domain
+@options.untimed
 @click.option(
     "--fail-level",
     type=click.Choice(SEVERITIES),
@@ -39,6 +41,7 @@ def command(
     paths: tuple[str, ...],
     reading: Reading | None,
     domain: str | None,
+    untimed: Untimed,
     fail_level: Severity,
     form: str,
 ) -> int:
@@ -50,6 +53,7 @@ def command(
     from sleec_verify.checks import run_checks
     from sleec_verify.cli.progress import Progress
     from sleec_verify.report.palette import Palette
+    from sleec_verify.timed.scope import speaks_of_traces
 
     outcomes: list[Outcome] = []
     found = rulesets(paths, reading, domain)
@@ -59,7 +63,9 @@ def command(
                 complain(ruleset.error)
                 outcomes.append(ruleset)
             else:
-                outcomes.append(Checked(ruleset, run_checks(ruleset, None, domain, progress.on(ruleset.source.path))))
+                told = progress.on(ruleset.source.path)
+                results = run_checks(ruleset, None, domain, told, untimed)
+                outcomes.append(Checked(ruleset, results, untimed if speaks_of_traces(ruleset) else None))
     write(renderer(form)(outcomes, Palette.of(sys.stdout)))
     return _exit_code(outcomes, fail_level)
 

@@ -38,8 +38,8 @@ if TYPE_CHECKING:
 def command(
     target: str, path: str, domain: str | None, reading: Reading | None, fail_level: Severity, form: str
 ) -> int:
-    """Check that the code in TARGET does what the rules say, by reading it: a Python file, a folder, or the name of a
-    module on sys.path. Nothing of it is imported or run.
+    """Check that the code in TARGET does what the rules say, by reading it: a Python file, a folder, the name of a
+    module on sys.path, or - for a file on standard input. Nothing of it is imported or run.
 
     Each rule must have a method with a variant for each clause, which calls what implements the obligations of the
     clause, in order; and nothing may reach these around the dispatch. A place that cannot be decided without running

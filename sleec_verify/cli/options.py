@@ -30,6 +30,14 @@ reading = click.option(
 domain = click.option(
     "--domain", metavar="NAME", help="Only the rules of this domain, with those that apply everywhere."
 )
+untimed = click.option(
+    "--untimed",
+    type=click.Choice(("at", "eventually")),
+    default="at",
+    show_default=True,
+    help="When a response without a window is due, in rules with time: at the moment of its trigger, as LEGOS-SLEEC "
+    "has it, or at some time from then on, as SLEEC-TK has it.",
+)
 when = click.option(
     "--when", metavar="TRIGGERS", multiple=True, help="What occurs, separated by commas: --when Fall,Night"
 )

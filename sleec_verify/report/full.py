@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify.finding import SEVERITIES
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from sleec_runtime.model import Source
     from sleec_verify.finding import Finding
     from sleec_verify.report.palette import Palette
+    from sleec_verify.timed.scope import Untimed
 
 
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
@@ -88,7 +89,11 @@ def _on(outcome: Checked, palette: Palette) -> str:
         verdict = palette(_gravest(outcome), _counts([outcome]))
     else:
         verdict = palette("good", f"{counted(len(outcome.results), 'check')} passed")
-    return f"{ruleset.source.path}: {verdict} (reading {ruleset.reading}; {size})"
+    due = f"; responses without a window are due {_DUE[outcome.untimed]}" if outcome.untimed is not None else ""
+    return f"{ruleset.source.path}: {verdict} (reading {ruleset.reading}; {size}{due})"
+
+
+_DUE: Mapping[Untimed, str] = {"at": "at once", "eventually": "eventually"}
 
 
 def _gravest(outcome: Checked) -> str:

@@ -47,6 +47,7 @@ def _ruleset(outcome: Outcome) -> Json:
         "sha256": ruleset.source.sha256,
         "syntax": ruleset.syntax,
         "reading": ruleset.reading,
+        **({} if outcome.untimed is None else {"untimed": outcome.untimed}),
         "rules": len(ruleset.rules),
         "hedges": outcome.hedges,
         "checks": [_check(result) for result in outcome.results],

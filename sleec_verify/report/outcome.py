@@ -11,13 +11,16 @@ if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Ruleset
     from sleec_verify.finding import CheckResult, Finding, Severity
+    from sleec_verify.timed.scope import Untimed
 
 
 class Checked(NamedTuple):
-    """A ruleset and the results of the checks, in their order."""
+    """A ruleset and the results of the checks, in their order. `untimed` is what a response without a window was taken
+    to mean; None where the rules are about situations, which know no later."""
 
     ruleset: Ruleset
     results: tuple[CheckResult, ...]
+    untimed: Untimed | None = None
 
     @property
     def findings(self) -> list[Finding]:

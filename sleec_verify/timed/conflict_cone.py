@@ -61,7 +61,7 @@ class Cone:
     @property
     def past(self) -> int:
         """How many instants before now can matter: one for each rule that may still be pending."""
-        pending = sum(self.program.is_timed(rule) for rule in self.rules.values())
+        pending = sum(self.program.may_press(rule) for rule in self.rules.values())
         return pending + sum(isinstance(law, Lasting) or _looks_back(law) for law in self.program.laws)
 
 

@@ -19,7 +19,7 @@ from sleec_runtime.model import (
     leaves,
 )
 from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, Lasting, Relation
-from sleec_verify.timed.responses import Responses, occurrences
+from sleec_verify.timed.responses import Occurs, Responses, occurrences
 from sleec_verify.timed.scope import Untimed
 
 Law = Union[Relation, Exclusive, Never, Assume]
@@ -115,24 +115,32 @@ class Program:
         return index
 
     @cached_property
-    def _timed(self) -> dict[str, bool]:
+    def _occurrences(self) -> dict[str, list[Occurs]]:
         return {
-            rule.label: any(
-                occurrence.start != 0 or occurrence.end != 0
+            rule.label: [
+                occurrence
                 for clause in rule.clauses()
                 for occurrence in occurrences(self.responses.of(clause.obligations, lambda c: [1] * _size(c)))
-            )
+            ]
             for rule in self.rules
         }
 
     def is_timed(self, rule: Rule) -> bool:
         """Whether a rule demands anything of other instants than that of its trigger."""
-        return self._timed[rule.label]
+        return any(o.start != 0 or o.end != 0 for o in self._occurrences[rule.label])
+
+    def may_press(self, rule: Rule) -> bool:
+        """Whether what a rule demanded in the past may press now: it has a deadline, or forbids for some time. What is
+        due at some time without end presses no more than if it had been triggered now."""
+        return any(
+            o.start != 0 or (o.end is None and o.negated) or (o.end is not None and o.end != 0)
+            for o in self._occurrences[rule.label]
+        )
 
     @cached_property
     def has_delays(self) -> bool:
         """Whether any rule demands anything of other instants than that of its trigger."""
-        return any(self._timed.values())
+        return any(map(self.is_timed, self.rules))
 
     @cached_property
     def claims(self) -> list[Claim]:

@@ -1,11 +1,14 @@
 """The paper's own mode: what it does right, and the race that it has."""
 
+# ruff: noqa: F811 - the variants of a method share its name
+# mypy: disable-error-code=no-redef
+
 from __future__ import annotations
 
 import contextpy3 as cop
 import pytest
 
-from sleec_runtime.errors import ConflictInContext, SleecError
+from sleec_runtime.errors import ConflictInContext, SleecError, Unbindable
 from sleec_runtime.language import parse
 from tests.runtime.robots import CURTAINS, Log, listing_2, running
 
@@ -110,3 +113,70 @@ def test_the_base_never_runs_between_two_hedges_of_one_rule(monkeypatch: pytest.
     sleec.update({"UserDistressed": True})
     assert seen == [["WarnUser", "OpenCurtains"], ["WarnUser", "OpenCurtains"]]
     activation.stop()
+
+
+def test_a_change_into_a_conflicting_context_is_refused_whole() -> None:
+    sleec = running(
+        "RULE r1 WHEN a THEN o1 UNLESS c IN WHICH CASE o2\nRULE r2 WHEN a THEN o3 UNLESS c AND d IN WHICH CASE NOT o2"
+    )
+    with sleec.activate_globally():
+        sleec.update({"c": True})
+        before = cop._BASELAYERS
+        with pytest.raises(ConflictInContext):
+            sleec.update({"d": True, "c": True})
+        assert sleec.conditions.get("d") is None
+        assert before == cop._BASELAYERS
+        with pytest.raises(ConflictInContext):
+            sleec.replace(parse("RULE r1 WHEN a THEN o1 UNLESS c IN WHICH CASE NOT o1\nRULE r2 WHEN a THEN o1"))
+        assert "r2" in sleec.ruleset.by_label
+        assert before == cop._BASELAYERS
+    sleec.update({"d": True})
+
+
+def test_a_hedge_that_obliges_nothing_needs_a_variant_that_does_nothing() -> None:
+    sleec = running("RULE r WHEN a THEN o1 UNLESS c")
+
+    class Robot(Log):
+        @sleec.rule("r")
+        @cop.base
+        def method(self) -> None:
+            self.do("o1")
+
+    robot = Robot()
+    sleec.bind(robot)
+    with pytest.raises(Unbindable, match=r"runs the base where r\.hc1 decides"):
+        sleec.activate_globally()
+    assert cop._BASELAYERS == (None,)
+    sleec.unbind("r")
+
+    class Silent(Log):
+        @sleec.rule("r")
+        @cop.base
+        def method(self) -> None:
+            self.do("o1")
+
+        @cop.around(sleec.layers["r.hc1"])
+        def method(self) -> None:
+            pass
+
+    silent = Silent()
+    sleec.bind(silent)
+    with sleec.activate_globally():
+        sleec.update({"c": True})
+        assert called(silent, "method") == []
+        sleec.update({"c": False})
+        assert called(silent, "method") == ["o1"]
+
+
+def test_an_override_that_hides_the_variants_is_refused() -> None:
+    sleec = running(CURTAINS)
+    robot = listing_2(sleec)
+
+    class Hiding(type(robot)):  # type: ignore[misc]
+        def rule_0(self) -> None:
+            self.do("OpenCurtains")
+
+    sleec.unbind("dress_assist")
+    sleec.bind(Hiding())
+    with pytest.raises(Unbindable, match="a definition in a subclass hides it"):
+        sleec.activate_globally()

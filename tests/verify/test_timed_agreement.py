@@ -7,6 +7,8 @@ evaluator of traces first, and z3 is asked again with more.
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from sleec_runtime.model_time import claims
@@ -20,7 +22,7 @@ from tests import timed_oracle as oracle
 from tests.timed_strategies import timed_ruleset
 
 BATCH = 10
-SIZES = (
+SIZES: tuple[dict[str, Any], ...] = (
     {"rules": 3, "events": 3, "booleans": 1, "scale": False, "longest": 2, "relations": 1, "hedges": 1},
     {"rules": 4, "events": 3, "booleans": 1, "scale": False, "longest": 3, "relations": 1, "hedges": 2},
     {"rules": 5, "events": 4, "booleans": 2, "scale": True, "longest": 3, "relations": 2, "hedges": 2},

@@ -49,6 +49,10 @@ class Flow(ABC):
         """Whether a context manager may end its block before its end."""
 
     @abstractmethod
+    def awaits(self, node: ast.Call) -> bool:
+        """Whether a call, awaited, awaits the one thing that it is given, and no two at once."""
+
+    @abstractmethod
     def within(self, node: ast.AST) -> AbstractContextManager[object]:
         """Enters the scope of a lambda or comprehension."""
 
@@ -110,7 +114,8 @@ class Flow(ABC):
         return MAY_LEAVE if (body or other) and (returns or endless) else STAYS
 
     def _try(self, node: ast.Try, why: str | None) -> int:
-        caught = "under `try`" if node.handlers else None
+        # What is raised again leaves the function as it would without the `try`.
+        caught = None if all(map(_raises_again, node.handlers)) else "under `try`"
         body = self.statements(node.body, why or caught)
         ways = [self.statements(handler.body, why or "under `except`") for handler in node.handlers]
         after = (
@@ -118,9 +123,11 @@ class Flow(ABC):
         )
         ways.append(self.statements(node.orelse, why or after))
         final = self.statements(node.finalbody, why)
-        if LEAVES in (final, body) and (final == LEAVES or not node.handlers):
+        if LEAVES in (final, body) and (final == LEAVES or caught is None):
             return LEAVES
-        return MAY_LEAVE if any((body, final, *ways)) else STAYS
+        # A handler that raises again is no place where the function is left but by what was raised anyway.
+        others = ways if caught else ways[-1:]
+        return MAY_LEAVE if any((body, final, *others)) else STAYS
 
     def _with(self, node: ast.With | ast.AsyncWith, why: str | None) -> int:
         inside = why
@@ -188,10 +195,18 @@ class Flow(ABC):
         elif not isinstance(node.func, ast.Name):
             self.expression(node.func, why)
         followed = self.follows(node)
+        handed_on = node.args[0] if awaited and node.args and self.awaits(node) else None
         for argument in (*node.args, *(keyword.value for keyword in node.keywords)):
             if not (followed and isinstance(argument, (ast.Name, ast.Attribute))):
-                self.expression(argument, why)
+                self.expression(argument, why, awaited=argument is handed_on)
         self.call(node, why, awaited)
+
+
+def _raises_again(handler: ast.ExceptHandler) -> bool:
+    """Whether a handler ends by raising, whatever happens in it."""
+    nodes = [inner for statement in handler.body for inner in (statement, *own_nodes(statement))]
+    elsewhere = any(isinstance(inner, (ast.Return, ast.Break, ast.Continue)) for inner in nodes)
+    return isinstance(handler.body[-1], ast.Raise) and not elsewhere
 
 
 def _elements(node: ast.expr) -> list[ast.expr]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from sleec_runtime.errors import LanguageError, Problem, SleecError, UnreadableFile
-from sleec_runtime.language.source import tidy
+from sleec_runtime.language.source import STDIN, read_standard_input, tidy
 from sleec_runtime.model import Source, Span
 
 SUFFIX = ".py"
@@ -60,7 +60,8 @@ class PythonFile:
 
 
 def python_files(target: str) -> tuple[PythonFile, ...]:
-    """The files of a target: a file, a folder (every ``*.py`` below it), or a module's or package's name.
+    """The files of a target: a file, a folder (every ``*.py`` below it), a module's or package's name, or ``-`` for a
+    file on standard input.
 
     Raises:
         NoTarget: there is no such thing, or no Python in it.
@@ -74,7 +75,9 @@ def python_files(target: str) -> tuple[PythonFile, ...]:
 
 
 def _paths(target: str) -> Iterator[str]:
-    if os.path.isdir(target):
+    if target == STDIN:
+        yield target
+    elif os.path.isdir(target):
         yield from _below(target)
     elif os.path.exists(target) or target.endswith(SUFFIX) or os.path.basename(target) != target:
         yield target
@@ -134,6 +137,7 @@ def _shortest(path: str) -> str:
 
 def _read(path: str) -> PythonFile:
     source = _source(path)
+    path = source.path
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of the developer's escapes and the like
@@ -162,8 +166,11 @@ def _source(path: str) -> Source:
     from tokenize import detect_encoding
 
     try:
-        with open(path, "rb") as file:
-            data = file.read()
+        if path == STDIN:
+            path, data = "<stdin>", read_standard_input()
+        else:
+            with open(path, "rb") as file:
+                data = file.read()
     except FileNotFoundError:
         raise NoTarget(f"there is no file {path}", "check the spelling of its name and folder") from None
     except (OSError, ValueError) as error:

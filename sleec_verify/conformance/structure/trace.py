@@ -184,6 +184,9 @@ class _Body(Flow):
     def suppresses(self, node: ast.expr) -> bool:
         return isinstance(node, ast.Call) and self.value(node.func) == Api("contextlib.suppress")
 
+    def awaits(self, node: ast.Call) -> bool:
+        return self.value(node.func) in (Api("asyncio.wait_for"), Api("asyncio.shield"))
+
     @contextmanager
     def within(self, node: ast.AST) -> Iterator[None]:
         self.scopes.append(self.run.resolver.program.scope_of[node])

@@ -98,6 +98,8 @@ def test_layers_that_are_not_known(layer: str, expected: list[str] | None) -> No
         "Robot.slow_down(self)\nRobot().warn()",
         "def both(robot):\n    robot.slow_down()\n    robot.warn()\nboth(self)",
         "del self.x\nself.slow_down()\nself.warn()",
+        "try:\n    self.slow_down()\nexcept E:\n    print()\n    raise\nself.warn()",
+        "try:\n    self.slow_down()\nexcept E as e:\n    raise F from e\nelse:\n    self.warn()",
     ],
 )
 def test_what_is_certain(hedge: str) -> None:
@@ -111,6 +113,14 @@ def test_what_is_certain(hedge: str) -> None:
         ("if self.x:\n    return self.slow_down()\nelse:\n    return\nself.warn()", ["conditional-obligation"] * 2),
         ("try:\n    self.slow_down()\nexcept E:\n    return\nself.warn()", ["conditional-obligation"] * 2),
         ("try:\n    pass\nexcept E:\n    self.slow_down()\nelse:\n    self.warn()", ["conditional-obligation"] * 2),
+        (
+            "try:\n    self.slow_down()\nexcept E:\n    if x: return\n    raise\nself.warn()",
+            ["conditional-obligation"] * 2,
+        ),
+        (
+            "try:\n    self.slow_down()\nexcept E:\n    raise\nexcept F:\n    pass\nself.warn()",
+            ["conditional-obligation"] * 2,
+        ),
         ("for x in y:\n    return\nself.slow_down()\nself.warn()", ["conditional-obligation"] * 2),
         ("for x in y:\n    pass\nelse:\n    self.slow_down()\nself.warn()", ["conditional-obligation"]),
         ("self.slow_down()\nreturn (self.warn() for _ in x)", ["conditional-obligation"]),
@@ -175,6 +185,14 @@ def test_a_runtime_that_is_handed_in(annotation: str) -> None:
 def test_what_is_not_awaited_is_not_run() -> None:
     text = robot("self.slow_down()\nawait asyncio.gather(self.warn())").replace("def warn", "async def warn")
     assert kinds(RULES, robot=text.replace("    def obstacle", "    async def obstacle")) == ["conditional-obligation"]
+
+
+@pytest.mark.parametrize("waiting", ["asyncio.wait_for(self.warn(), 5)", "asyncio.shield(self.warn())"])
+def test_what_is_awaited_by_what_is_awaited_is_run(waiting: str) -> None:
+    text = robot(f"self.slow_down()\nawait {waiting}").replace("def warn", "async def warn")
+    text = text.replace("    def obstacle", "    async def obstacle")
+    assert kinds(RULES, robot=f"import asyncio\n{text}") == []
+    assert kinds(RULES, robot=f"import asyncio\n{text.replace('await ', '')}") == ["conditional-obligation"]
 
 
 def test_a_helper_behind_a_decorator_of_others() -> None:
