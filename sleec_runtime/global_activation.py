@@ -46,9 +46,9 @@ class GlobalActivation:
         """Activates the layers of now, and renews them on each change. O(rules).
 
         Raises UnsupportedTimes for rules with times, ConflictInContext (or UndeterminedDecision) if some trigger could
-        not be answered in this context, Unbindable for a bound method that a plain call would not dispatch by the layers, and SleecError if one of the
-        layers is active already: then nothing is activated. A change into a context in which some trigger could not be
-        answered is refused as long as this is on.
+        not be answered in this context, Unbindable for a bound method that a plain call would not dispatch by the
+        layers, and SleecError if one of the layers is active already: then nothing is activated. A change into a
+        context in which some trigger could not be answered is refused as long as this is on.
         """
         with self._sleec.held() as snapshot, _GLOBAL_LAYERS:
             _refuse_times(snapshot)

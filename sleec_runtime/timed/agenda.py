@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 OPENS, CLOSES = 0, 1
 """At one time, what opens comes first: it may do what closes undone otherwise."""
 
-_Entry = tuple["Time", int, int, "tuple[Task, ...]", Callable[[], object]]
+_Entry = tuple["Time", int, int, "tuple[Task, ...]", Callable[["Time"], object]]
 
 # Entries of what is done stay in the heap until they come up, or until they are too many.
 _FEW = 64
@@ -44,8 +44,8 @@ class Agenda:
             if not tasks:
                 del by_name[task.name]
 
-    def schedule(self, at: Time, kind: int, tasks: Iterable[Task], call: Callable[[], object]) -> None:
-        """Has `call` come up at the time `at`, if any of `tasks` is open then."""
+    def schedule(self, at: Time, kind: int, tasks: Iterable[Task], call: Callable[[Time], object]) -> None:
+        """Has `call` come up at the time `at`, if any of `tasks` is open then; it is given that time."""
         heappush(self._heap, (at, kind, next(self._numbers), tuple(tasks), call))
         if len(self._heap) > self._compact_at:
             self._heap = [entry for entry in self._heap if _counts(entry)]
@@ -58,10 +58,10 @@ class Agenda:
             heappop(self._heap)
         return self._heap[0][0] if self._heap else None
 
-    def pop(self, now: Time) -> Callable[[], object] | None:
-        """The next call that has come up by `now`, if there is one."""
+    def pop(self, now: Time) -> tuple[Time, Callable[[Time], object]] | None:
+        """The next call that has come up by `now`, if there is one, and its time."""
         at = self.next_time()
-        return heappop(self._heap)[-1] if at is not None and at <= now else None
+        return (at, heappop(self._heap)[-1]) if at is not None and at <= now else None
 
     def to_do(self, name: str) -> tuple[Task, ...]:
         """The open obligations to do `name`."""

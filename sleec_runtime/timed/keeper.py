@@ -18,6 +18,7 @@ from sleec_runtime.errors import DeadlineMissed, NeedsAwait, Prohibited, SleecEr
 from sleec_runtime.evaluation import Due
 from sleec_runtime.timed.agenda import CLOSES, OPENS, Agenda
 from sleec_runtime.timed.failures import Failure, Failures
+from sleec_runtime.timed.instants import Instant
 from sleec_runtime.timed.pending import Pending
 from sleec_runtime.timed.refusals import prohibited, refuse
 from sleec_runtime.timed.run import Run, TimedDone
@@ -54,6 +55,7 @@ class Timekeeper:
         self._chains = chains
         self._lock = threading.RLock()
         self._agenda = Agenda()
+        self._instant = Instant(clock.now())
         self._woken_at: Time | None = None
         self._cancel: Cancel | None = None
         self._closed = False
@@ -255,19 +257,20 @@ class Timekeeper:
         """Starts and ends all that is due by now."""
         while True:
             with self._lock:
-                call = None if self._closed else self._agenda.pop(self.clock.now())
-                if call is None:
+                next_one = None if self._closed else self._agenda.pop(self.clock.now())
+                if next_one is None:
                     self._woken_at = None
                     self._rewake()
                     return
-            call()
+            at, call = next_one
+            call(at)
 
-    def _open(self, unit: Unit) -> None:
+    def _open(self, unit: Unit, at: Time) -> None:
         with self._lock:
             snapshot, _ = self._state()
-        self._start(opened(unit, snapshot), unit.tasks)
+        self._start(opened(unit, snapshot), unit.tasks, at)
 
-    def _close(self, task: Task) -> None:
+    def _close(self, task: Task, at: Time) -> None:
         """Its window closes, and it is not done."""
         with self._lock:
             if not task.is_open:
@@ -289,7 +292,7 @@ class Timekeeper:
                 ),
             )
         elif alternatives:
-            self._start(in_place_of(task, alternatives, snapshot), alternatives)
+            self._start(in_place_of(task, alternatives, snapshot), alternatives, at)
 
     def _still_possible(self, tasks: Iterable[Task]) -> bool:
         now = self.clock.now()
@@ -297,7 +300,7 @@ class Timekeeper:
             not task.literal.negated and not task.at_once and (task.last is None or task.last >= now) for task in tasks
         )
 
-    def _close_prohibition(self, task: Task) -> None:
+    def _close_prohibition(self, task: Task, at: Time) -> None:
         """Its window closes. It forbids to the end of that moment, and is then over."""
         assert task.last is not None, "what has no end does not close"
         with self._lock:
@@ -305,20 +308,22 @@ class Timekeeper:
             alternatives = task.otherwise if task.otherwise is not None else task.instead
             snapshot, _ = self._state()
         if task.broken and alternatives:
-            self._start(in_place_of(task, alternatives, snapshot), alternatives)
+            self._start(in_place_of(task, alternatives, snapshot), alternatives, at)
 
-    def _end_locked(self, task: Task) -> None:
+    def _end_locked(self, task: Task, at: Time) -> None:
         with self._lock:
             self._end(task, "over")
 
-    def _start(self, stage: Stage, tasks: Sequence[Task]) -> None:
+    def _start(self, stage: Stage, tasks: Sequence[Task], at: Time) -> None:
         """Starts what is due now. What is forbidden now is started once it no longer is, if its window lasts."""
         loop = _running_loop()
         try:
             with self._lock:
-                run = self._admit_when_allowed(stage, in_loop=loop is not None)
+                if self._instant.at != at:
+                    self._instant = Instant(at)
+                run = self._admit_when_allowed(stage, self._instant, in_loop=loop is not None)
         except Exception as error:  # noqa: BLE001 - told
-            self._give_up(tasks, error)
+            self._give_up(tasks, error, at)
             return
         if run is None:
             return
@@ -328,10 +333,14 @@ class Timekeeper:
             run.go()
             self._report(run, stage)
 
-    def _admit_when_allowed(self, stage: Stage, in_loop: bool) -> Run | None:
+    def _admit_when_allowed(self, stage: Stage, instant: Instant, in_loop: bool) -> Run | None:
         moment = self._moment()
         try:
-            return self._admit(self._closure(stage, moment), moment.now, in_loop)
+            stages = self._closure(stage, moment)
+            instant.refuse(stages, moment.now)
+            run = self._admit(stages, moment.now, in_loop)
+            instant.note(stages, moment.now)
+            return run
         except Prohibited as refusal:
             again = refusal.over
             late = [unit for unit in stage.units if unit.at <= moment.now]
@@ -339,8 +348,11 @@ class Timekeeper:
                 raise
             for unit in late:
                 unit.at = again
-            # Nothing is left that starts now, and so nothing that could be forbidden now but by the rest of it.
-            self._admit(self._closure(stage, moment), moment.now, in_loop)
+            # With nothing that starts now, only what it forbids itself can be refused.
+            stages = self._closure(stage, moment)
+            instant.refuse(stages, moment.now)
+            self._admit(stages, moment.now, in_loop)
+            instant.note(stages, moment.now)
             return None
 
     async def _finish(self, run: Run, stage: Stage) -> None:
@@ -357,7 +369,7 @@ class Timekeeper:
         for label, error in run.errors:
             self.failures(Failure(self.clock.now(), label, tuple(task.name for task in stage.tasks), error))
 
-    def _give_up(self, tasks: Sequence[Task], error: Exception) -> None:
+    def _give_up(self, tasks: Sequence[Task], error: Exception, at: Time) -> None:
         """What was to be started now is not. What has a window stays due until that closes."""
         self._fail(tasks, error)
         for task in tasks:
@@ -369,7 +381,7 @@ class Timekeeper:
                 self._end(task, "missed" if alternatives is None else "replaced")
                 snapshot, _ = self._state()
             if alternatives:
-                self._start(in_place_of(task, alternatives, snapshot), alternatives)
+                self._start(in_place_of(task, alternatives, snapshot), alternatives, at)
 
     def _fail(self, tasks: Sequence[Task], error: Exception) -> None:
         label = tasks[0].origin.rule.label

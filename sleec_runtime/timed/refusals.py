@@ -45,9 +45,16 @@ def refuse(
         refuse_conflict(stage.snapshot, stages[0].triggers, due, happening)
 
 
-def prohibited(message: str, name: str, prohibitions: Sequence[Task], hint: str = "nothing was executed") -> Prohibited:
-    """The error that says so, with the first whole second at which the prohibitions are over."""
-    ends = [task.last for task in prohibitions]
+def prohibited(
+    message: str,
+    name: str,
+    prohibitions: Sequence[Task],
+    hint: str = "nothing was executed",
+    since: Time | None = None,
+) -> Prohibited:
+    """The error that says so, with the first whole second at which the prohibitions are over. `since` is the end of one
+    that holds but for the moment at which it is called for."""
+    ends = [since if task.at_once else task.last for task in prohibitions]
     over = None if any(end is None for end in ends) else max(floor(end) + 1 for end in ends if end is not None)
     return Prohibited(message, name, over, hint)
 

@@ -25,8 +25,10 @@ def window_in_words(task: Task) -> str:
 
 def prohibitions_in_words(prohibitions: Iterable[Task]) -> str:
     """Which rules forbid it, until when."""
-    return " and ".join(
-        f"{task.origin.rule.label} forbids it "
-        + ("for good" if task.last is None else f"until {time_in_words(task.last)}")
-        for task in prohibitions
-    )
+    return " and ".join(f"{task.origin.rule.label} forbids it {_until(task)}" for task in prohibitions)
+
+
+def _until(task: Task) -> str:
+    if task.at_once:
+        return "then"
+    return "for good" if task.last is None else f"until {time_in_words(task.last)}"
