@@ -20,7 +20,6 @@ from sleec_runtime.errors import (
     WrongArguments,
 )
 from sleec_runtime.evaluation import Decision, Due, Outcome, Situation, Undetermined
-from sleec_runtime.explain import conflict_in_words, outcome_in_words
 from sleec_runtime.instance import Instance, Unfinished
 from sleec_runtime.layers import Variant, await_under, run_all
 from sleec_runtime.model import Context, Obligation, Rule
@@ -132,6 +131,8 @@ class Done:
 
     def explain(self) -> str:
         """For every rule of the trigger: the active clause, what it obliges, and the conditions that decided."""
+        from sleec_runtime.explain import outcome_in_words
+
         conditions = self._snapshot.conditions
         program = self._snapshot.program
         lines = [f"{' and '.join(self.triggers)}, in the context of change {self.change}:"]
@@ -197,6 +198,8 @@ def refuse_conflict(
     closed = Situation(snapshot.context(triggers), program.measures)
     cause = find_conflict(literals, constraints, closed)
     if cause is not None:
+        from sleec_runtime.explain import conflict_in_words
+
         raise ConflictInContext(conflict_in_words(cause, due.decisions), cause)
     if program.strict:
         open_world = Situation(closed.context, program.measures, absent=None)

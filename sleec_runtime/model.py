@@ -82,7 +82,10 @@ class Number:
 
 @dataclass(frozen=True, slots=True)
 class ScaleValue:
-    """A value of the scale of the measure on the other side; `rank` is its place in that scale, from 0."""
+    """A value of the scale of the measure on the other side; `rank` is its place in that scale, from 0.
+
+    What is none of its values, and read all the same (a `Defect`), may have a place that the scale does not have.
+    """
 
     value: str
     rank: int
@@ -315,7 +318,7 @@ class Assume:
 Constraint = Union[Exclusive, Never, Assume]
 Statement = Union[Declaration, Measure, Constant, Exclusive, Never, Assume, Rule, "Claim", "Relation"]
 
-DefectKind = Literal["repeated-label", "foreign-value"]
+DefectKind = Literal["repeated-label", "foreign-value", "number-as-value"]
 
 
 class Defect(NamedTuple):

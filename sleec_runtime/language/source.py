@@ -62,6 +62,11 @@ def _read_bytes(path: str | Path) -> tuple[str, bytes]:
 
 
 def read_standard_input() -> bytes:
+    """All of standard input.
+
+    Raises:
+        UnreadableFile: it is closed, or cannot be read.
+    """
     if sys.stdin is None:  # what Python has in place of a stream that was closed when it was started
         raise UnreadableFile("there is no standard input: it is closed", "name a file, or redirect one to it")
     try:

@@ -8,7 +8,7 @@ from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding
 
-_KINDS = {"repeated-label": 0, "foreign-value": 1}
+_KINDS = {"repeated-label": 0, "foreign-value": 1, "number-as-value": 2}
 
 
 def _defects(cones: Cones) -> Iterator[Finding]:
@@ -27,7 +27,7 @@ DEFECTS = Check(
             "error",
             "a label that two rules have",
             "Tools tell of a rule by its label, and some keep only the last rule of each label. The second rule is "
-            "called label#2 here, so that both count.",
+            "called label#2 here, so that both count. The labels of concerns and purposes are read alike.",
             _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nR1 when Answer then Wait\nrule_end\n",
             _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nR2 when Answer then Wait\nrule_end\n",
         ),
@@ -41,6 +41,17 @@ DEFECTS = Check(
             "R1 when Called and ({noise} = high) then Answer\nrule_end\n",
             _DEFINED + "measure noise: scale(quiet, loud)\ndef_end\nrule_start\n"
             "R1 when Called and ({noise} = loud) then Answer\nrule_end\n",
+        ),
+        FindingKind(
+            "SLEEC508",
+            "error",
+            "a scale that is compared with a number",
+            "Tools that keep the values of a scale as numbers read over it: the number stands for the value in that "
+            "place, counted from 0, and past the end of the scale the comparison is always true or always false. It "
+            "is read so here, too. Write the value that is meant.",
+            _DEFINED + "constant LIMIT = 20\ndef_end\nrule_start\n"
+            "R1 when Called and ({risk} > LIMIT) then Answer\nrule_end\n",
+            _DEFINED + "def_end\nrule_start\nR1 when Called and ({risk} > low) then Answer\nrule_end\n",
         ),
     ),
     _defects,

@@ -1,6 +1,7 @@
 """The command ``sleec-verify``.
 
-Exit codes: 0 all holds; 1 findings at or above ``--fail-level``; 2 unusable input or usage; 3 some verdict is unknown.
+Exit codes: 0 all holds; 1 findings at or above ``--fail-level``; 2 unusable input or usage; 3 some verdict is unknown;
+130 interrupted by Ctrl-C; 141 the pipe that the output goes to was closed, as by ``| head``.
 """
 
 from __future__ import annotations

@@ -59,5 +59,6 @@ class _Lazy(click.Group):
 def sleec_verify() -> None:
     """Prove things about SLEEC rules.
 
-    Exit codes: 0 all holds; 1 findings; 2 unusable input or usage; 3 some verdict is unknown.
+    Exit codes: 0 all holds; 1 findings; 2 unusable input or usage; 3 some verdict is unknown;
+    130 interrupted (Ctrl-C); 141 the output was closed by its reader.
     """

@@ -39,7 +39,7 @@ def command(
     target: str, path: str, domain: str | None, reading: Reading | None, fail_level: Severity, form: str
 ) -> int:
     """Check that the code in TARGET does what the rules say, by reading it: a Python file, a folder, the name of a
-    module on sys.path, or - for a file on standard input. Nothing of it is imported or run.
+    module on sys.path, or - for standard input. Nothing of it is imported or run.
 
     Each rule must have a method with a variant for each clause, which calls what implements the obligations of the
     clause, in order; and nothing may reach these around the dispatch. A place that cannot be decided without running
@@ -49,6 +49,8 @@ def command(
     from sleec_verify.conformance.structure.target import python_files
     from sleec_verify.report.palette import Palette
 
+    if target == path == "-":
+        raise click.UsageError("standard input can be TARGET or the rules, not both")
     ruleset = one_ruleset(path, reading, domain)
     result = check_structure(ruleset, python_files(target), domain)
     write(renderer(form)([Checked(ruleset, (result,))], Palette.of(sys.stdout)))

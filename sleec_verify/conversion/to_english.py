@@ -16,22 +16,22 @@ from sleec_runtime.model import (
     ScaleValue,
     Span,
     Statement,
-    Term,
 )
 from sleec_runtime.model_time import Claim
 from sleec_verify.conversion.parts import with_formulas
+from sleec_verify.measures import MIRRORED
 
 
 def in_english(ruleset: Ruleset) -> tuple[Ruleset, list[str]]:
     """`ruleset` as structured English says it, and what to know about the result.
 
     What is read only because others read it is put right: a value of another scale becomes the one that it is read
-    as, and the second of two rules with one label gets one of its own.
+    as, a number too, and the second of two rules with one label gets one of its own.
     """
     if ruleset.syntax == "english":
         return replace(ruleset, reading_stated=True), []
     labels = {s.label for s in ruleset.statements if isinstance(s, (Rule, Claim))}
-    notes = [_at_line(d.span, d.message, ruleset) for d in ruleset.defects if d.kind == "foreign-value"]
+    notes = [_at_line(d.span, d.message, ruleset) for d in ruleset.defects if d.kind != "repeated-label"]
     statements: list[Statement] = []
     for statement in ruleset.statements:
         if isinstance(statement, (Rule, Claim)) and "#" in statement.label:
@@ -64,13 +64,21 @@ def _own_values(formula: Formula, ruleset: Ruleset) -> Formula:
         return replace(formula, operand=_own_values(formula.operand, ruleset))
     if isinstance(formula, (And, Or)):
         return replace(formula, operands=tuple(_own_values(operand, ruleset) for operand in formula.operands))
-    if isinstance(formula, Comparison):
-        left, right = formula.left, formula.right
-        return replace(formula, left=_own_value(left, right, ruleset), right=_own_value(right, left, ruleset))
-    return formula
+    return _own_comparison(formula, ruleset) if isinstance(formula, Comparison) else formula
 
 
-def _own_value(term: Term, opposite: Term, ruleset: Ruleset) -> Term:
-    if isinstance(term, ScaleValue) and isinstance(opposite, MeasureRef):
-        return replace(term, value=ruleset.measures[opposite.name].values[term.rank])
-    return term
+def _own_comparison(comparison: Comparison, ruleset: Ruleset) -> Comparison:
+    left, right = comparison.left, comparison.right
+    measure, value = (left, right) if isinstance(left, MeasureRef) else (right, left)
+    if not isinstance(measure, MeasureRef) or not isinstance(value, ScaleValue):
+        return comparison
+    values = ruleset.measures[measure.name].values
+    if 0 <= value.rank < len(values):
+        own = replace(value, value=values[value.rank])
+        return replace(comparison, right=own) if measure is left else replace(comparison, left=own)
+    # Out of the scale, the order is always the same. A comparison says so and is, as every one, false of a measure
+    # that has no value, which `true` would not be.
+    below = value.rank > 0
+    operator = comparison.operator if measure is left else MIRRORED[comparison.operator]
+    holds = operator in ("<", "<=", "!=") if below else operator in (">", ">=", "!=")
+    return replace(comparison, left=measure, operator=">=" if holds else "<", right=ScaleValue(values[0], 0))

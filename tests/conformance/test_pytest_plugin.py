@@ -215,6 +215,12 @@ def test_fixtures_and_coverage(run, pytester: pytest.Pytester) -> None:
     assert result.ret == pytest.ExitCode.OK
 
 
+def test_a_target_that_names_its_rules_otherwise_is_covered_all_the_same(run) -> None:
+    options = ("--sleec-ruleset", "house.sleec", "--sleec-target", "robot.py:make", "--sleec-cov")
+    result = run("house.cases.toml", *options, house_cases_toml=CASES)
+    result.stdout.fnmatch_lines(["*house.sleec: 3 of 4 clauses active (75.0 %)"])
+
+
 def test_going_through_all_contexts_covers_nothing(run) -> None:
     run("house.sleec", "--sleec-cov").stdout.fnmatch_lines(["no ruleset was used"])
     run("house.sleec", "--sleec-cov", "--sleec-ruleset", "house.sleec").stdout.fnmatch_lines(

@@ -10,8 +10,21 @@ from time import perf_counter
 import pytest
 
 from sleec_runtime.errors import LanguageError
+from sleec_runtime.evaluation import decide
 from sleec_runtime.language import load, parse, print_ruleset
-from sleec_runtime.model import And, Atom, Comparison, MeasureRef, Not, Number, Or, Ruleset, ScaleValue, literals
+from sleec_runtime.model import (
+    And,
+    Atom,
+    Comparison,
+    Context,
+    MeasureRef,
+    Not,
+    Number,
+    Or,
+    Ruleset,
+    ScaleValue,
+    literals,
+)
 from sleec_runtime.model_time import (
     Claim,
     Effect,
@@ -232,6 +245,44 @@ def test_labels_and_values_that_others_read_are_defects():
     assert [defect.kind for defect in ruleset.defects] == ["foreign-value"]
     assert ruleset.rules[0].guard == Comparison(MeasureRef("one"), "=", ScaleValue("d", 1))
     assert parse(print_ruleset(ruleset)) == ruleset
+
+
+@pytest.mark.parametrize(
+    ("written", "rank", "said"),
+    [
+        ("1", 1, "one is a scale, and 1 a number; it is read as b, which has place 1, counted from 0"),
+        ("K", 20, "one is a scale, and K, which is 20, a number; every value of one lies below it, so"),
+        ("-1", -1, "one is a scale, and -1 a number; every value of one lies above it, so"),
+        ("e", 2, "e is no value of one but of two; every value of one lies below it, so"),
+    ],
+)
+def test_what_is_no_value_of_a_scale_is_read_by_its_place(written, rank, said):
+    text = (
+        "def_start\nevent A\nmeasure one: scale(a, b)\nmeasure two: scale(c, d, e)\nconstant K = 20\ndef_end\n"
+        f"rule_start\nR1 when A and ({{one}} > {written}) then A\n"
+        f"R2 when A and ({written} <= {{one}}) then A\nrule_end\n"
+    )
+    ruleset = parse(text)
+    assert ruleset.rules[0].guard == Comparison(MeasureRef("one"), ">", ScaleValue(written, rank))
+    assert ruleset.rules[1].guard == Comparison(ScaleValue(written, rank), "<=", MeasureRef("one"))
+    assert {defect.kind for defect in ruleset.defects} == {"foreign-value" if written == "e" else "number-as-value"}
+    assert [defect.message.startswith(said) for defect in ruleset.defects] == [True, True]
+    assert parse(print_ruleset(ruleset)) == ruleset
+    for rule in ruleset.rules:
+        decided = [
+            decide(rule, Context(frozenset({"A"}), {"one": value}), "priority", ruleset.measures) for value in "ab"
+        ]
+        above = [place > rank if rule.label == "R1" else place >= rank for place in range(2)]
+        assert [decision is not None for decision in decided] == above
+
+
+def test_neither_a_constant_in_braces_nor_a_measure_is_a_place_in_a_scale():
+    for written in ("{K}", "{n}", "n"):
+        with pytest.raises(LanguageError, match="is no value of `one`"):
+            parse(
+                "def_start\nevent A\nmeasure one: scale(a, b)\nmeasure n: numeric\nconstant K = 1\ndef_end\n"
+                f"rule_start\nR1 when A and ({{one}} > {written}) then A\nrule_end\n"
+            )
 
 
 def test_ten_megabytes_of_rules_are_read_in_time_linear_in_their_size():

@@ -134,6 +134,19 @@ def test_what_is_only_read_because_others_read_it_is_put_right():
     foreign = convert(dsl("and {one} = d then B"), "english")
     assert "WHEN A AND one = b THEN B" in foreign.text
     assert foreign.notes == ["line 9: d is no value of one but of two; it is read as b, which has the same place"]
+    for written, meant in (
+        ("{one} >= 1", "one >= b"),
+        ("0 = {one}", "a = one"),
+        ("{one} < 2", "one >= a"),
+        ("{one} = 2", "one < a"),
+        ("2 <= {one}", "one < a"),
+        ("-1 != {one}", "one >= a"),
+        ("-1 > {one}", "one < a"),
+    ):
+        number = convert(dsl(f"and ({written}) then B"), "english")
+        assert f"WHEN A AND {meant} THEN B" in number.text
+        (note,) = number.notes
+        assert note.startswith("line 9: one is a scale, and ")
     twice = convert(dsl("then B R1 when B then A R1_2 when B then A"), "english")
     assert [rule.label for rule in twice.ruleset.rules] == ["R1", "R1_2_", "R1_2"]
     assert twice.notes == ["line 9: R1#2 is called R1_2_ here"]

@@ -12,6 +12,7 @@ from sleec_runtime.model import (
     Comparison,
     Constant,
     Defect,
+    DefectKind,
     Measure,
     MeasureRef,
     Number,
@@ -144,7 +145,7 @@ class Names:
                 "repeated-label",
                 f"there is another {label} in line {self.line(first)}; this one is called {label}#{count + 1} here",
                 span,
-                "give each rule a label of its own",
+                "give each a label of its own",
             )
         )
         return f"{label}#{count + 1}"
@@ -268,25 +269,21 @@ class Names:
         return measure if measure is not None and measure.kind == "scale" else None
 
     def _value(self, measure: Measure, side: Side) -> ScaleValue | None:
-        """The other side of a comparison with a scale. A literal of another scale is read by its place there, as others
-        read it, and is a defect."""
+        """The other side of a comparison with a scale. A literal of another scale and a number are read by their
+        place, as others read them, and are defects."""
         value = side.written
         if isinstance(value, str) and not side.braced:
             if value in measure.values:
                 return ScaleValue(value, measure.values.index(value))
             owner = self.measures.get(self._owners.get(value, ""))
-            rank = owner.values.index(value) if owner is not None else len(measure.values)
-            if owner is not None and rank < len(measure.values):
-                self.defects.append(
-                    Defect(
-                        "foreign-value",
-                        f"{value} is no value of {measure.name} but of {owner.name}; "
-                        f"it is read as {measure.values[rank]}, which has the same place",
-                        side.span,
-                        f"write {measure.values[rank]}, if that is meant; {measure.name} can be {_values(measure)}",
-                    )
-                )
-                return ScaleValue(value, rank)
+            if owner is not None:
+                said = f"{value} is no value of {measure.name} but of {owner.name}"
+                return self._by_place(measure, value, owner.values.index(value), "foreign-value", said, side.span)
+        number = self.constants[value].value if isinstance(value, str) and value in self.constants else value
+        if isinstance(number, int) and not side.braced:
+            named = f"{value}, which is {number}," if isinstance(value, str) else str(number)
+            said = f"{measure.name} is a scale, and {named} a number"
+            return self._by_place(measure, str(value), number, "number-as-value", said, side.span)
         near = self._nearest(value, measure.values) if isinstance(value, str) else None
         self.problem(
             f"{quoted(str(value))} is no value of {quoted(measure.name)}",
@@ -294,6 +291,23 @@ class Names:
             f"{did_you_mean(near) + ' ' if near else ''}{quoted(measure.name)} can be {_values(measure)}",
         )
         return None
+
+    def _by_place(
+        self, measure: Measure, written: str, rank: int, kind: DefectKind, said: str, span: Span
+    ) -> ScaleValue:
+        """What is no value of the measure, as the value in that place of its scale; there may be none."""
+        can_be = f"{measure.name} can be {_values(measure)}"
+        if 0 <= rank < len(measure.values):
+            meant = measure.values[rank]
+            place = "the same place" if kind == "foreign-value" else f"place {rank}, counted from 0"
+            read = f"it is read as {meant}, which has {place}"
+            hint = f"write {meant}, if that is meant; {can_be}"
+        else:
+            side = "below" if rank > 0 else "above"
+            read = f"every value of {measure.name} lies {side} it, so the answer is always the same"
+            hint = f"write the value that is meant; {can_be}"
+        self.defects.append(Defect(kind, f"{said}; {read}", span, hint))
+        return ScaleValue(written, rank)
 
     def _stray(self, side: Side, other: Side) -> bool:
         """Whether one side is a value of a scale and the other no scale, which is then reported."""

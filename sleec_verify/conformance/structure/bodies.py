@@ -28,6 +28,16 @@ def compare(findings: Findings, rule: Rule, number: int, variant: Variant, trace
             note=note,
             help="call what implements the obligations of the clause",
         )
+    for trigger, at_node, file in trace.triggers:
+        if trigger == rule.trigger:
+            findings.add(
+                "endless-trigger",
+                f"this triggers {trigger} again in the same context, and so this variant, without end",
+                (file, at_node),
+                clause=reference,
+                note=note,
+                help="update() the context first, or trigger it once this one is served",
+            )
     for doubt in trace.doubts:
         findings.undecided(doubt.file, doubt.node, doubt.why)
     left = list(due)

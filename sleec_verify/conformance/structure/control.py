@@ -12,6 +12,15 @@ from sleec_verify.conformance.structure.program import Def
 STAYS, MAY_LEAVE, LEAVES = 0, 1, 2
 """Whether control leaves the function within a block."""
 
+_AWAITERS = {
+    f"asyncio.{module}{name}"
+    for module in ("", "tasks.")
+    for name in ("wait_for", "shield", "create_task", "ensure_future")
+}
+"""What awaits, or starts, the one coroutine that it is given: who awaits the call awaits that."""
+_RUNNERS = {"asyncio.run", "asyncio.runners.run"}
+_GATHERERS = {"asyncio.gather", "asyncio.tasks.gather"}
+
 _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda)
 
 
@@ -21,6 +30,18 @@ def own_nodes(node: ast.AST) -> Iterator[ast.AST]:
         yield child
         if not isinstance(child, _SCOPES):
             yield from own_nodes(child)
+
+
+def always_raises(body: Sequence[ast.stmt]) -> bool:
+    """Whether a block is never left but by an exception."""
+    ways_out = (ast.Return, ast.Break, ast.Continue)
+    if any(isinstance(node, ways_out) for statement in body for node in (statement, *own_nodes(statement))):
+        return False
+    return any(
+        isinstance(statement, ast.Raise)
+        or (isinstance(statement, ast.If) and always_raises(statement.body) and always_raises(statement.orelse))
+        for statement in body
+    )
 
 
 def is_generator(function: Def) -> bool:
@@ -49,16 +70,16 @@ class Flow(ABC):
         """Whether a context manager may end its block before its end."""
 
     @abstractmethod
-    def awaits(self, node: ast.Call) -> bool:
-        """Whether a call, awaited, awaits the one thing that it is given, and no two at once."""
-
-    @abstractmethod
     def within(self, node: ast.AST) -> AbstractContextManager[object]:
         """Enters the scope of a lambda or comprehension."""
 
     @abstractmethod
     def follows(self, node: ast.Call) -> bool:
         """Whether the arguments of a call are looked at where they arrive."""
+
+    @abstractmethod
+    def outside(self, node: ast.expr) -> str | None:
+        """The dotted name of what an expression stands for, if that is not the target's."""
 
     # Statements -----------------------------------------------------------------------------------------
 
@@ -114,20 +135,23 @@ class Flow(ABC):
         return MAY_LEAVE if (body or other) and (returns or endless) else STAYS
 
     def _try(self, node: ast.Try, why: str | None) -> int:
-        # What is raised again leaves the function as it would without the `try`.
-        caught = None if all(map(_raises_again, node.handlers)) else "under `try`"
+        # A handler that raises again lets no exception pass: what follows runs only if the whole body did.
+        catching = [handler for handler in node.handlers if not always_raises(handler.body)]
+        caught = "under `try`" if catching else None
         body = self.statements(node.body, why or caught)
-        ways = [self.statements(handler.body, why or "under `except`") for handler in node.handlers]
+        ways = []
+        for handler in node.handlers:
+            way = self.statements(handler.body, why or "under `except`")
+            if handler in catching:
+                ways.append(way)
         after = (
             "in the `else` of a `try`" if caught else "after a place where this function may be left" if body else None
         )
         ways.append(self.statements(node.orelse, why or after))
         final = self.statements(node.finalbody, why)
-        if LEAVES in (final, body) and (final == LEAVES or caught is None):
+        if LEAVES in (final, body) and (final == LEAVES or not catching):
             return LEAVES
-        # A handler that raises again is no place where the function is left but by what was raised anyway.
-        others = ways if caught else ways[-1:]
-        return MAY_LEAVE if any((body, final, *others)) else STAYS
+        return MAY_LEAVE if any((body, final, *ways)) else STAYS
 
     def _with(self, node: ast.With | ast.AsyncWith, why: str | None) -> int:
         inside = why
@@ -195,18 +219,14 @@ class Flow(ABC):
         elif not isinstance(node.func, ast.Name):
             self.expression(node.func, why)
         followed = self.follows(node)
-        handed_on = node.args[0] if awaited and node.args and self.awaits(node) else None
+        outside = self.outside(node.func)
+        gathered = awaited and outside in _GATHERERS
+        inside = why or ("one of those in `gather()`, which keeps no order" if gathered else None)
+        passed_on = gathered or outside in _RUNNERS or (awaited and outside in _AWAITERS)
         for argument in (*node.args, *(keyword.value for keyword in node.keywords)):
             if not (followed and isinstance(argument, (ast.Name, ast.Attribute))):
-                self.expression(argument, why, awaited=argument is handed_on)
+                self.expression(argument, inside, passed_on)
         self.call(node, why, awaited)
-
-
-def _raises_again(handler: ast.ExceptHandler) -> bool:
-    """Whether a handler ends by raising, whatever happens in it."""
-    nodes = [inner for statement in handler.body for inner in (statement, *own_nodes(statement))]
-    elsewhere = any(isinstance(inner, (ast.Return, ast.Break, ast.Continue)) for inner in nodes)
-    return isinstance(handler.body[-1], ast.Raise) and not elsewhere
 
 
 def _elements(node: ast.expr) -> list[ast.expr]:

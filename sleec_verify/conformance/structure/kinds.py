@@ -138,7 +138,8 @@ _kind(
     "lost-variant",
     "a variant that a later definition replaces",
     "A `def` without a decorator of ContextPy3 binds the name anew, and the variants above it are gone. Put @cop.base "
-    "above it, or give it another name.",
+    "above it, or give it another name. Where layers are globally active, so does a base in a subclass with the "
+    "variants that it inherits.",
     HEAD + BASE + HEDGE + "    def request(self, message):\n        self.open_curtains()\n\n" + TAIL,
 )
 _kind(
@@ -202,6 +203,15 @@ _kind(
     "proceed() runs the base after all, and so the default that the hedge is an exception to. Call what the clause "
     "obliges instead.",
     ROBOT.replace(BODY, BODY + "        cop.proceed(message)\n"),
+)
+_kind(
+    620,
+    "endless-trigger",
+    "a variant that triggers its own rule again",
+    "The same trigger in the same context means the same clause, and so the same variant: this comes to an end only "
+    "if something changes the context meanwhile. Update it first, or trigger once this one is served.",
+    ROBOT.replace(BODY, BODY + '        sleec.trigger("CurtainRequest", message)\n'),
+    severity="warning",
 )
 
 # Around the dispatch --------------------------------------------------------------------------------------

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 
 from sleec_runtime.language.suggest import nearest
 from sleec_runtime.model import Rule
+from sleec_verify.checks.base import listed
 from sleec_verify.conformance.structure.bodies import compare
-from sleec_verify.conformance.structure.methods import Method, Variant
+from sleec_verify.conformance.structure.methods import Method, Variant, calls_super
 from sleec_verify.conformance.structure.program import Function
 from sleec_verify.conformance.structure.report import Findings, clause_name, expression
 from sleec_verify.conformance.structure.trace import Trace, Tracer
@@ -55,6 +56,8 @@ class MethodCheck:
                 missing.remove(meant)
                 compare(self.findings, self.rule, meant, unit.variant, unit.trace)
         self._missing(missing)
+        if self.by_hand:
+            self._hidden()
         for number, (unit, *_) in self.units.items():
             other = self._clause_of(unit, number, expected)
             if other is not None:
@@ -145,12 +148,7 @@ class MethodCheck:
             if advice.kind in ("before", "after") and same:
                 more = self._one(advice)
                 first, second = (more, trace) if advice.kind == "before" else (trace, more)
-                trace = Trace(
-                    first.calls + second.calls,
-                    first.doubts + second.doubts,
-                    first.proceeds + second.proceeds,
-                    first.unfollowed + second.unfollowed,
-                )
+                trace = first.then(second)
         return trace
 
     def _one(self, variant: Variant) -> Trace:
@@ -220,6 +218,24 @@ class MethodCheck:
                 note=self.findings.obliged(self.rule, number),
                 help=f"write one under {expression(self.rule, number)}",
             )
+
+    def _hidden(self) -> None:
+        """A base of a subclass hides inherited variants where layers are globally active: ContextPy3 looks for them in
+        one definition only, whereas a trigger finds them in all."""
+        for place, group in enumerate(self.method.groups):
+            bases = [variant.function for variant in group.variants if variant.is_base]
+            own = {variant.layer for variant in group.variants}
+            inherited = [variant for above in self.method.groups[place + 1 :] for variant in above.variants]
+            lost = [v.layer.name for v in inherited if isinstance(v.layer, Layer) and v.layer not in own]
+            if bases and lost and not calls_super(bases[0], group.name):
+                self.findings.add(
+                    "lost-variant",
+                    f"this {group.name} hides the inherited {'variant' if len(lost) == 1 else 'variants'} for "
+                    f"{listed(dict.fromkeys(lost))} where layers are globally active",
+                    (bases[0].file, bases[0].node),
+                    rules=(self.rule.label,),
+                    help=f"call super().{group.name}(…) in it, or leave it to trigger() to run the method",
+                )
 
     def _clause_of(self, unit: Unit, number: int, expected: dict[int, list[str]]) -> int | None:
         """The other clause that a variant does the obligations of, if that clause's own variant does not."""

@@ -160,6 +160,18 @@ def _group(scope: Scope, name: str, defined: list[Variant]) -> Group:
     return Group(scope, name, kept, lost)
 
 
+def calls_super(function: Function, name: str) -> bool:
+    """Whether a method calls the inherited one of that name."""
+    return any(
+        isinstance(node, ast.Attribute)
+        and node.attr == name
+        and isinstance(node.value, ast.Call)
+        and isinstance(node.value.func, ast.Name)
+        and node.value.func.id == "super"
+        for node in ast.walk(function.node)
+    )
+
+
 Holder = Union[Class, Scope]
 
 

@@ -12,10 +12,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from sleec_runtime.errors import LanguageError, Problem, SleecError, UnreadableFile
-from sleec_runtime.language.source import STDIN, read_standard_input, tidy
+from sleec_runtime.language.source import read_standard_input, tidy
 from sleec_runtime.model import Source, Span
 
 SUFFIX = ".py"
+_STDIN = "-"
 _HEAD = re.compile(r"(?:async\s+)?(?:def|class)\s+\w+")
 _NOT_THE_DEVELOPERS = {"__pycache__", "node_modules", "site-packages"}
 
@@ -60,8 +61,8 @@ class PythonFile:
 
 
 def python_files(target: str) -> tuple[PythonFile, ...]:
-    """The files of a target: a file, a folder (every ``*.py`` below it), a module's or package's name, or ``-`` for a
-    file on standard input.
+    """The files of a target: a file, a folder (every ``*.py`` below it), a module's or package's name, or
+    ``-``, which is standard input.
 
     Raises:
         NoTarget: there is no such thing, or no Python in it.
@@ -75,11 +76,9 @@ def python_files(target: str) -> tuple[PythonFile, ...]:
 
 
 def _paths(target: str) -> Iterator[str]:
-    if target == STDIN:
-        yield target
-    elif os.path.isdir(target):
+    if os.path.isdir(target):
         yield from _below(target)
-    elif os.path.exists(target) or target.endswith(SUFFIX) or os.path.basename(target) != target:
+    elif target == _STDIN or os.path.exists(target) or target.endswith(SUFFIX) or os.path.basename(target) != target:
         yield target
     else:
         yield from _module(target)
@@ -87,7 +86,12 @@ def _paths(target: str) -> Iterator[str]:
 
 def _below(folder: str) -> Iterator[str]:
     """Every Python file of the developer's own: hidden folders and virtual environments are left out."""
-    for parent, folders, names in os.walk(folder):
+
+    def refuse(error: OSError) -> None:
+        # What is in there may be what reaches around the dispatch.
+        raise UnreadableFile(f"the folder {error.filename} cannot be read: {error.strerror}") from None
+
+    for parent, folders, names in os.walk(folder, onerror=refuse):
         folders[:] = sorted(
             name
             for name in folders
@@ -137,7 +141,6 @@ def _shortest(path: str) -> str:
 
 def _read(path: str) -> PythonFile:
     source = _source(path)
-    path = source.path
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of the developer's escapes and the like
@@ -160,21 +163,25 @@ def _problem(source: Source, error: SyntaxError) -> Problem:
     return Problem(f"this is no Python: {error.msg}", span)
 
 
+def _bytes(path: str) -> tuple[str, bytes]:
+    """What to call a file, and what it holds."""
+    if path == _STDIN:
+        return "<stdin>", read_standard_input()
+    try:
+        with open(path, "rb") as file:
+            return path, file.read()
+    except FileNotFoundError:
+        raise NoTarget(f"there is no file {path}", "check the spelling of its name and folder") from None
+    except (OSError, ValueError) as error:
+        raise UnreadableFile(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from None
+
+
 def _source(path: str) -> Source:
     from hashlib import sha256
     from io import BytesIO
     from tokenize import detect_encoding
 
-    try:
-        if path == STDIN:
-            path, data = "<stdin>", read_standard_input()
-        else:
-            with open(path, "rb") as file:
-                data = file.read()
-    except FileNotFoundError:
-        raise NoTarget(f"there is no file {path}", "check the spelling of its name and folder") from None
-    except (OSError, ValueError) as error:
-        raise UnreadableFile(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    path, data = _bytes(path)
     try:
         encoding, _ = detect_encoding(BytesIO(data).readline)
         text = data.decode(encoding)

@@ -13,7 +13,7 @@ from sleec_verify.conformance.structure.control import Flow, is_generator
 from sleec_verify.conformance.structure.methods import HARMLESS
 from sleec_verify.conformance.structure.names import Names
 from sleec_verify.conformance.structure.program import DEFS, Class, Function, Scope
-from sleec_verify.conformance.structure.resolve import Resolver
+from sleec_verify.conformance.structure.resolve import Resolver, maybe_runtime
 from sleec_verify.conformance.structure.target import PythonFile
 from sleec_verify.conformance.structure.values import (
     Api,
@@ -25,11 +25,15 @@ from sleec_verify.conformance.structure.values import (
     Object,
     ObligationMark,
     Outside,
+    Runtime,
+    Text,
     Unknown,
     Value,
 )
 
 _MOST_CALLS = 2_000
+_CHANGES = {"update", "replace"}
+"""What a runtime, or what reads its sensors, is told to change the context or the rules by."""
 REPLACERS = {f"builtins.{name}" for name in ("exec", "eval", "compile", "__import__", "globals", "locals", "vars")}
 
 
@@ -52,12 +56,26 @@ class Doubt(NamedTuple):
 
 @dataclass
 class Trace:
-    """What one variant does. `unfollowed` are calls of inherited or imported code that is not in the target."""
+    """What one variant does. `unfollowed` are calls of inherited or imported code that is not in the target;
+    `triggers` are those that it triggers for certain while nothing has changed, so far as is seen (`changed`)."""
 
     calls: list[Call] = field(default_factory=list)
     doubts: list[Doubt] = field(default_factory=list)
     proceeds: list[tuple[ast.AST, PythonFile]] = field(default_factory=list)
     unfollowed: list[str] = field(default_factory=list)
+    triggers: list[tuple[str, ast.AST, PythonFile]] = field(default_factory=list)
+    changed: bool = False
+
+    def then(self, other: Trace) -> Trace:
+        """This, and then the other."""
+        return Trace(
+            self.calls + other.calls,
+            self.doubts + other.doubts,
+            self.proceeds + other.proceeds,
+            self.unfollowed + other.unfollowed,
+            self.triggers + ([] if self.changed else other.triggers),
+            self.changed or other.changed,
+        )
 
     @property
     def executed(self) -> list[str]:
@@ -184,14 +202,15 @@ class _Body(Flow):
     def suppresses(self, node: ast.expr) -> bool:
         return isinstance(node, ast.Call) and self.value(node.func) == Api("contextlib.suppress")
 
-    def awaits(self, node: ast.Call) -> bool:
-        return self.value(node.func) in (Api("asyncio.wait_for"), Api("asyncio.shield"))
-
     @contextmanager
     def within(self, node: ast.AST) -> Iterator[None]:
         self.scopes.append(self.run.resolver.program.scope_of[node])
         yield
         self.scopes.pop()
+
+    def outside(self, node: ast.expr) -> str | None:
+        value = self.value(node)
+        return value.name if isinstance(value, Api) else None
 
     def nested(self, node: ast.stmt) -> None:
         """A function defined within: what it executes is executed where it is called."""
@@ -217,6 +236,7 @@ class _Body(Flow):
 
     def call(self, node: ast.Call, why: str | None, awaited: bool) -> None:
         value = self.value(node.func)
+        self._triggered(node, why, awaited)
         own = self._own_attribute(node.func)
         if own is not None:
             self._by_name(node, own, why)
@@ -231,6 +251,20 @@ class _Body(Flow):
             self._api(node, value, why)
         elif isinstance(value, (Unknown, Outside)):
             self._unresolved(node, value, why)
+
+    def _triggered(self, node: ast.Call, why: str | None, awaited: bool) -> None:
+        """Notes a trigger that the variant itself sets off, and what may have the rule decide otherwise by then."""
+        if not isinstance(node.func, ast.Attribute):
+            return
+        method, trace = node.func.attr, self.run.trace
+        if method in _CHANGES:
+            trace.changed = True
+        elif method == "trigger" or (method == "trigger_async" and awaited):
+            owner = self.value(node.func.value)
+            name = self.value(node.args[0]) if node.args else None
+            runtime = isinstance(owner, Runtime) or maybe_runtime(owner)
+            if runtime and isinstance(name, Text) and why is None and not trace.changed:
+                trace.triggers.append((name.value, node, self.file))
 
     def _own_attribute(self, node: ast.expr) -> str | None:
         """The obligation that an attribute implements which the robot's methods assign: whatever it is, by its name."""

@@ -11,7 +11,7 @@ from sleec_verify.conformance.structure.around import Around
 from sleec_verify.conformance.structure.layering import MethodCheck
 from sleec_verify.conformance.structure.methods import Group, Method, groups, methods
 from sleec_verify.conformance.structure.names import Names
-from sleec_verify.conformance.structure.program import Class, Program
+from sleec_verify.conformance.structure.program import Assigned, Class, Function, Program
 from sleec_verify.conformance.structure.report import Findings
 from sleec_verify.conformance.structure.resolve import Resolver
 from sleec_verify.conformance.structure.tables import Tables
@@ -59,6 +59,8 @@ class _Whole:
         self._rules(tuple(rule for rule in ruleset.rules if rule.applies_in(domain)))
         for group in concerned:
             self._definitions(group)
+        for method in self.methods:
+            self._bound_otherwise(method)
         around = Around(
             self.resolver, self.names, self.findings, self.tracer, self.tables, self.methods, self.layers, self.globally
         )
@@ -159,6 +161,16 @@ class _Whole:
                 help="put @cop.base above the later one, or give it another name",
             )
         self._unmarked(group)
+
+    def _bound_otherwise(self, method: Method) -> None:
+        """A subclass that gives the name of a rule's method to something else than a `def`, such as a lambda."""
+        classes = () if method.class_ is None else self.resolver.order(method.class_)[0]
+        for class_ in classes:
+            for binding in class_.inner.bindings.get(method.name, ()):
+                if not isinstance(binding, Function):
+                    node = binding.value if isinstance(binding, Assigned) else class_.node
+                    why = f"{method.name} is bound otherwise than by `def`, and that may replace the method of a rule"
+                    self.findings.undecided(class_.scope.file, node, why)
 
     def _unmarked(self, group: Group) -> None:
         holders = [method for method in self.methods if group.name == method.name and group in method.groups]

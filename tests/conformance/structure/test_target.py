@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import sys
+from io import BytesIO, TextIOWrapper
 from pathlib import Path
 
 import pytest
@@ -48,6 +50,30 @@ def test_a_module_is_found_and_not_imported(folder: Path) -> None:
 def test_a_module_of_the_working_folder_is_found(folder: Path) -> None:
     write(folder / "here.py")
     assert paths("here") == ["here.py"]
+
+
+def test_a_folder_that_may_not_be_read(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write(folder / "robot" / "a.py")
+    write(folder / "robot" / "closed" / "b.py")
+    scandir = os.scandir
+
+    def refusing(path: str) -> object:
+        if str(path).endswith("closed"):
+            raise PermissionError(13, "Permission denied", path)
+        return scandir(path)
+
+    monkeypatch.setattr(os, "scandir", refusing)
+    with pytest.raises(UnreadableFile, match="closed cannot be read: Permission denied"):
+        python_files("robot")
+
+
+def test_standard_input(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdin", TextIOWrapper(BytesIO("\ufeffx = 'ü'\n".encode())))
+    (file,) = python_files("-")
+    assert (file.source.path, file.source.text) == ("<stdin>", "x = 'ü'\n")
+    monkeypatch.setattr(sys, "stdin", TextIOWrapper(BytesIO(b"def")))
+    with pytest.raises(NotPython, match="<stdin>"):
+        python_files("-")
 
 
 @pytest.mark.parametrize("name", ["no_such", "bot.no_such", "no.such", ".x", ""])
