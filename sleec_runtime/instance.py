@@ -379,7 +379,7 @@ def _in_order(functions: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
     def called(*args: Any, **kwargs: Any) -> Unfinished | None:
         for place, function in enumerate(functions):
             result = function(*args, **kwargs)
-            if type(result) is types.CoroutineType:
+            if type(result) is types.CoroutineType or type(result) is Unfinished:
                 return Unfinished(result, functions[place + 1 :], args, kwargs)
         return None
 

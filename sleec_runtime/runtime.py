@@ -176,7 +176,7 @@ class Sleec:
         the first time in a context, then O(rules that speak), however many others are loaded.
         """
         if self._times is not None:
-            return self._times.trigger((name,), args, kwargs)
+            return self._times.trigger((name,), args, kwargs, self._monitor)
         snapshot = self._snapshot
         ready = self._ready(snapshot, name)
         monitor = self._monitor
@@ -187,7 +187,7 @@ class Sleec:
     def trigger_all(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
         """Several triggers occur at once: one context, the rules of all in their order. Otherwise as `trigger`."""
         if self._times is not None:
-            return self._times.trigger(_together(names), args, kwargs)
+            return self._times.trigger(_together(names), args, kwargs, self._monitor)
         snapshot = self._snapshot
         ready = plan(snapshot, _together(names), self._instance)
         monitor = self._monitor
@@ -199,7 +199,7 @@ class Sleec:
         """`trigger`, where variants may be coroutine functions: they are awaited one after the other. The context is
         that of the moment when this is first awaited."""
         if self._times is not None:
-            return await self._times.trigger_async((name,), args, kwargs)
+            return await self._times.trigger_async((name,), args, kwargs, self._monitor)
         snapshot = self._snapshot
         ready = self._ready(snapshot, name)
         monitor = self._monitor
@@ -210,7 +210,7 @@ class Sleec:
     async def trigger_all_async(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
         """`trigger_all`, where variants may be coroutine functions."""
         if self._times is not None:
-            return await self._times.trigger_async(_together(names), args, kwargs)
+            return await self._times.trigger_async(_together(names), args, kwargs, self._monitor)
         snapshot = self._snapshot
         ready = plan(snapshot, _together(names), self._instance)
         monitor = self._monitor
@@ -374,7 +374,7 @@ class Sleec:
             return
         from sleec_runtime.timed.limits import has_times, name_limits
 
-        name_limits(program.ruleset, self._chains, self._strict_times, stacklevel=5)
+        name_limits(program.ruleset, self._chains, self._strict_times)
         if self._times is None and (self._chains or has_times(program.ruleset)):
             from sleec_runtime.timed.clocks import MonotonicClock
             from sleec_runtime.timed.keeper import Timekeeper

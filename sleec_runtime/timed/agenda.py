@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from heapq import heapify, heappop, heappush
-from itertools import count
+from itertools import count, islice
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -72,8 +72,10 @@ class Agenda:
         return tuple(task for task in self._forbidden.get(name, ()) if task.covers(now))
 
     def forbidden(self, now: Time) -> Iterator[Task]:
-        """All prohibitions that are in force at `now`."""
-        return (task for tasks in self._forbidden.values() for task in tasks if task.covers(now))
+        """A prohibition that is in force at `now` of each name that has one. The newest are looked at first: however
+        many there are, one of these most often is."""
+        for tasks in self._forbidden.values():
+            yield from islice((task for task in reversed(tasks) if task.covers(now)), 1)
 
     def all_prohibitions(self, name: str) -> tuple[Task, ...]:
         """Those of `name` that are in force, or come to be."""

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import sys
 import threading
-from collections.abc import Callable, Coroutine, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Coroutine, Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from math import floor
 from typing import TYPE_CHECKING, Any
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
     from sleec_runtime.instance import Instance
     from sleec_runtime.layers import Variant
+    from sleec_runtime.monitor import Monitor
     from sleec_runtime.snapshot import Snapshot
     from sleec_runtime.timed.clocks import Cancel, Clock, Time
 
@@ -63,23 +65,38 @@ class Timekeeper:
 
     # Triggers -------------------------------------------------------------------------------------------------
 
-    def trigger(self, names: tuple[str, ...], args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> TimedDone:
-        """`Sleec.trigger`, for one name or several."""
+    def trigger(
+        self, names: tuple[str, ...], args: tuple[Any, ...], kwargs: Mapping[str, Any], monitor: Monitor | None
+    ) -> TimedDone:
+        """`Sleec.trigger`, for one name or several; `monitor` looks at it."""
         run, snapshot = self._decide(names, args, kwargs)
-        run.go()
+        with self._looked_at(names, snapshot, monitor):
+            run.go()
         if run.errors:
             raise one_of(run.errors)
         return run.done(names, snapshot)
 
     async def trigger_async(
-        self, names: tuple[str, ...], args: tuple[Any, ...], kwargs: Mapping[str, Any]
+        self, names: tuple[str, ...], args: tuple[Any, ...], kwargs: Mapping[str, Any], monitor: Monitor | None
     ) -> TimedDone:
-        """`Sleec.trigger_async`, for one name or several."""
+        """`Sleec.trigger_async`, for one name or several; `monitor` looks at it."""
         run, snapshot = self._decide(names, args, kwargs, in_loop=True)
-        await run.go_async()
+        with self._looked_at(names, snapshot, monitor):
+            await run.go_async()
         if run.errors:
             raise one_of(run.errors)
         return run.done(names, snapshot)
+
+    def _looked_at(
+        self, names: tuple[str, ...], snapshot: Snapshot, monitor: Monitor | None
+    ) -> AbstractContextManager[None]:
+        if monitor is None:
+            return nullcontext()
+        chained: Collection[str] = ()
+        if self._chains:
+            _, instance = self._state()
+            chained = snapshot.program.number_of.keys() - instance.takes_time
+        return monitor.looking(names, snapshot, chained)
 
     def due(self, names: tuple[str, ...]) -> Due:
         """`Sleec.due`: the decisions, if nothing refuses them now."""

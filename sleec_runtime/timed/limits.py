@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Iterator
 
@@ -22,7 +23,7 @@ def has_times(ruleset: Ruleset) -> bool:
     )
 
 
-def name_limits(ruleset: Ruleset, chains: bool, strict: bool, stacklevel: int) -> None:
+def name_limits(ruleset: Ruleset, chains: bool, strict: bool) -> None:
     """Warns of what the runtime does not enforce, by NotEnforced; if `strict`, raises UnsupportedTimes instead.
 
     O(size of the rules).
@@ -38,7 +39,15 @@ def name_limits(ruleset: Ruleset, chains: bool, strict: bool, stacklevel: int) -
             [line for _, line in found],
             "leave these out, or load the ruleset without strict_times and see to them yourself",
         )
-    warnings.warn(NotEnforced(f"the runtime does not enforce: {said}{more}", found), stacklevel=stacklevel)
+    warnings.warn(NotEnforced(f"the runtime does not enforce: {said}{more}", found), stacklevel=_outside())
+
+
+def _outside() -> int:
+    """How many calls up the code is that uses the runtime: a warning is to point there."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "sleec_runtime":
+        level, frame = level + 1, frame.f_back
+    return level
 
 
 def not_enforced(ruleset: Ruleset, chains: bool) -> Iterator[tuple[str, Span]]:

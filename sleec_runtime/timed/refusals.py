@@ -10,7 +10,7 @@ from sleec_runtime.dispatch import refuse_conflict
 from sleec_runtime.errors import Prohibited
 from sleec_runtime.evaluation import Decision, Due
 from sleec_runtime.model import Obligation
-from sleec_runtime.timed.words import prohibitions_in_words, time_in_words, window_in_words
+from sleec_runtime.timed.words import prohibitions_in_words, window_in_words
 
 if TYPE_CHECKING:
     from sleec_runtime.timed.agenda import Agenda
@@ -76,9 +76,8 @@ def _refuse_if_forbidden(task: Task, prohibitions: Iterable[Task], now: Time) ->
         return
     for other in prohibitions:
         if other.name == task.name and other.covers_all(max(task.first, now), task.last):
-            when = "some time" if task.last is None else time_in_words(task.last)
             raise prohibited(
-                f"{task.name} is due {window_in_words(task)} ({task.origin.rule.label}), and until {when} "
+                f"{task.name} is due {window_in_words(task)} ({task.origin.rule.label}), and "
                 f"{prohibitions_in_words([other])}",
                 task.name,
                 [other],

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.dispatch import refuse_misfit
 from sleec_runtime.errors import NotBound
+from sleec_runtime.instance import Unfinished
 from sleec_runtime.model import Clause, Number, Obligation, Rule, literals
 from sleec_runtime.obligations import is_coroutine_function
 
@@ -163,12 +164,8 @@ def _telling(function: Callable[..., Any], task: Task, did: Did) -> Callable[...
     def called(*args: Any, **kwargs: Any) -> object:
         result = function(*args, **kwargs)
         if type(result) is CoroutineType:
-            return finished(result)
+            return Unfinished(result, [lambda: did(task)], (), {})
         did(task)
         return None
-
-    async def finished(result: Any) -> None:
-        await result
-        did(task)
 
     return called

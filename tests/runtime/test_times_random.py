@@ -12,7 +12,7 @@ import pytest
 
 from sleec_runtime import Sleec, VirtualClock, errors, obligation
 from sleec_runtime.language import parse
-from sleec_runtime.model import literals
+from sleec_runtime.model import Value, literals
 from sleec_runtime.trace import Instant, Trace, broken, broken_so_far
 from tests.timed_strategies import BOOLEANS, SCALE, timed_ruleset
 
@@ -53,7 +53,7 @@ class World:
         self.ruleset = in_minutes(seed)
         self.clock = VirtualClock()
         self.instants: dict[int, set[str]] = {}
-        self.values: dict[int, dict[str, object]] = {}
+        self.values: dict[int, dict[str, Value]] = {}
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", errors.NotEnforced)
             self.sleec = Sleec(self.ruleset, clock=self.clock, chains=True, on_error=lambda failure: None)
@@ -66,12 +66,15 @@ class World:
         return obligation(name)(lambda: self.note(name))
 
     def note(self, name: str) -> None:
-        now = self.clock.now()
+        now = self.now()
         self.instants.setdefault(now, set()).add(name)
         self.values[now] = dict(self.sleec.conditions)
 
+    def now(self) -> int:
+        return int(self.clock.now())
+
     def trace(self) -> Trace:
-        now = self.clock.now()
+        now = self.now()
         times = sorted({*self.instants, now})
         return Trace(
             tuple(
@@ -81,7 +84,7 @@ class World:
         )
 
     def step(self, number: int) -> None:
-        now = self.clock.now()
+        now = self.now()
         self.clock.advance((now // 60 + self.random.randint(1, 2)) * 60 + number - now)
         values = {name: self.random.random() < 0.5 for name in BOOLEANS}
         self.sleec.update({name: value for name, value in values.items() if name in self.sleec.vocabulary})
