@@ -13,6 +13,8 @@ import pytest
 import sleec_verify.pytest_plugin
 import sleec_verify.testing.items
 import sleec_verify.testing.summary  # noqa: F401
+from sleec_runtime.language import parse
+from sleec_verify.checks import checks_for
 
 RULES = """
 MEASURE Age: number
@@ -22,6 +24,9 @@ UNLESS Undressed IN WHICH CASE (Refuse AND Explain)
 UNLESS Distressed OR Age < 12 IN WHICH CASE (Warn AND Open)
 RULE stop WHEN Stop AND NOT Asleep THEN Halt
 """
+ITEMS = len(checks_for(parse(RULES))) + 2
+"""An item a check, and one a rule."""
+
 CONFLICT = """
 RULE a WHEN T THEN o
 RULE b WHEN T THEN NOT o
@@ -102,13 +107,23 @@ def test_findings_fail_by_their_level(run) -> None:
     strict.stdout.fnmatch_lines(["FAILED house.sleec::check[[]reading]*"])
 
 
+def test_rules_with_time_are_checked_and_not_tested_one_by_one(run) -> None:
+    text = "RULE a WHEN T THEN o WITHIN 5 minutes\nRULE b WHEN S THEN NOT o\n"
+    result = run("-rs", "timed.sleec", timed_sleec=text)
+    result.stdout.fnmatch_lines(
+        ["*timed.sleec:*error[[]SLEEC101]*", "*SKIPPED*rules with time are not tested one by one*"]
+    )
+    assert result.parseoutcomes()["skipped"] == 2
+    assert result.parseoutcomes()["failed"] == 1
+
+
 def test_a_target_is_run_against_its_rules(run) -> None:
     assert run("house.sleec", "--sleec-target", "robot.py:make").ret == pytest.ExitCode.OK
     result = run("house.sleec", "--sleec-target", "robot.py:careless")
     result.stdout.fnmatch_lines(
         ["*did not execute Explain*", "*by rule curtains, clause 1, layer curtains.hc1: Refuse AND Explain"]
     )
-    result.assert_outcomes(failed=1, passed=13)
+    result.assert_outcomes(failed=1, passed=ITEMS - 1)
 
 
 def test_a_target_is_for_its_own_ruleset_only(run) -> None:
@@ -247,7 +262,7 @@ def test_fixtures_say_what_is_missing(run, pytester: pytest.Pytester) -> None:
 def test_cases_of_other_tools_are_left_alone(run) -> None:
     for text in ("rows = 3\n", "no toml at all [", "[[case]]\nwhen = 'T'\n"):
         result = run(".", other_cases_toml=text)
-        result.assert_outcomes(passed=14)
+        result.assert_outcomes(passed=ITEMS)
         assert "other.cases.toml" not in result.stdout.str()
     elsewhere = 'ruleset = "house.sleec"\n' + CASES
     run(".", other_cases_toml=elsewhere).assert_outcomes(passed=16)

@@ -1,113 +1,49 @@
-"""The answers about rules with time against the second method: a direct encoding in z3 that shares nothing with the
-product (tests/timed_oracle.py).
-
-Where the two differ, one of them may only have looked at too few instants: a trace that either shows is replayed by the
-evaluator of traces first, and z3 is asked again with more.
-"""
+"""The answers about rules with time are those of the second method (tests/timed_agreement.py)."""
 
 from __future__ import annotations
 
-from typing import Any
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
-from sleec_runtime.model_time import claims
-from sleec_runtime.trace import broken, broken_so_far, claim_holds
-from sleec_verify.solver import Undecided
-from sleec_verify.timed.conflicts import conflict
-from sleec_verify.timed.program import Program
-from sleec_verify.timed.questions import breaking, coming_about, triggering
-from sleec_verify.timed.replay import as_trace
-from tests import timed_oracle as oracle
-from tests.timed_strategies import timed_ruleset
+from tests.timed_agreement import compare_all
 
-BATCH = 10
-SIZES: tuple[dict[str, Any], ...] = (
-    {"rules": 3, "events": 3, "booleans": 1, "scale": False, "longest": 2, "relations": 1, "hedges": 1},
-    {"rules": 4, "events": 3, "booleans": 1, "scale": False, "longest": 3, "relations": 1, "hedges": 2},
-    {"rules": 5, "events": 4, "booleans": 2, "scale": True, "longest": 3, "relations": 2, "hedges": 2},
-)
-"""The last of them only in the long run: a conflict among five rules with windows takes seconds."""
+ROOT = Path(__file__).parents[2]
 
 
-def answered(question):
-    """The answer, or None where it is given up."""
-    try:
-        return question()
-    except Undecided:
-        return None
+def test_some_random_rulesets_are_answered_as_z3_answers_them():
+    compare_all(300, 320)
 
 
-def compare(ruleset, untimed):
-    """How many questions were answered; fails where the two methods differ."""
-    program = Program(ruleset, untimed)
-    count = 0
-    for rule in ruleset.rules:
-        answer = answered(lambda: breaking(program, rule))  # noqa: B023
-        if answer is not None:
-            count += 1
-            if answer.trace is not None:
-                found = broken(ruleset, as_trace(answer.trace), untimed)
-                assert found, "the trace breaks the rule"
-                assert {b.statement for b in found} == {rule}
-            assert_same(answer.trace is None, lambda n: oracle.redundant(ruleset, rule.label, n, untimed))  # noqa: B023
-        answer = answered(lambda: triggering(program, rule))  # noqa: B023
-        if answer is not None:
-            count += 1
-            if answer.trace is not None:
-                assert broken(ruleset, as_trace(answer.trace), untimed) == ()
-            theirs = oracle.vacuous(ruleset, rule.label, 4, untimed)
-            # The table asks besides whether the guard can hold at all, which is the check dead-rule here.
-            assert answer.trace is None or not theirs.found
-            assert answer.trace is not None or theirs.moments is None
-        history = answered(lambda: (conflict(program, rule),))  # noqa: B023
-        if history is not None:
-            count += 1
-            if history[0] is not None:
-                assert broken_so_far(ruleset, as_trace(history[0].timeline), untimed) == ()
-                assert rule.label in history[0].matter
-            assert_same(
-                history[0] is not None,
-                lambda n: oracle.conflict(ruleset, rule.label, past=2, later=n - 2, longest=n, untimed=untimed),  # noqa: B023
-            )
-    for kind in ("concern", "purpose"):
-        for claim in claims(ruleset, kind):
-            answer = answered(lambda: coming_about(program, claim))  # noqa: B023
-            if answer is not None:
-                count += 1
-                if answer.trace is not None:
-                    assert broken(ruleset, as_trace(answer.trace), untimed) == ()
-                    assert claim_holds(claim, ruleset, as_trace(answer.trace), untimed)
-                assert_same(answer.trace is not None, lambda n: oracle.concern(ruleset, claim, n, untimed))  # noqa: B023
-    return count
-
-
-def assert_same(ours, theirs):
-    """z3 looks at four instants, and at seven where it differs."""
-    try:
-        if ours != theirs(4).found:
-            assert ours == theirs(7).found
-    except oracle.Undecided:
-        pass
-
-
-def compare_batch(batch, size):
-    total = 0
-    for seed in range(batch * BATCH, (batch + 1) * BATCH):
-        ruleset = timed_ruleset(seed, **SIZES[size(seed)])
-        try:
-            total += compare(ruleset, ("at", "eventually")[seed % 7 == 0])
-        except AssertionError as error:
-            raise AssertionError(f"seed {seed}: {error}\n{ruleset.source.text}") from error
-    return total
-
-
-@pytest.mark.parametrize("batch", range(30))
-def test_random_rulesets_are_answered_as_z3_answers_them(batch):
-    assert compare_batch(batch, lambda seed: int(seed % 10 == 9)) > 40, "few questions are given up"
+@pytest.mark.timeout(600)
+def test_random_rulesets_are_answered_as_z3_answers_them():
+    """In processes of their own, side by side, where no coverage is measured: that would take several times as long."""
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("COVERAGE")}
+    command = [sys.executable, "-m", "tests.timed_agreement"]
+    runs = [
+        subprocess.Popen(
+            [*command, str(first), str(first + 100)],
+            cwd=ROOT,
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        for first in (0, 100, 200)
+    ]
+    answered = 0
+    for run in runs:
+        output, errors = run.communicate()
+        assert (run.returncode, errors) == (0, "")
+        answered += int(output)
+    assert answered > 2_000, "few questions are given up"
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("batch", range(30, 500))
-def test_many_random_rulesets_are_answered_as_z3_answers_them(batch):
-    compare_batch(batch, lambda seed: seed % 3)
+@pytest.mark.timeout(3600)
+@pytest.mark.parametrize("first", range(320, 5_020, 100))
+def test_many_random_rulesets_are_answered_as_z3_answers_them(first):
+    compare_all(first, min(first + 100, 5_020), large=True)
