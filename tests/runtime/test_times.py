@@ -529,8 +529,8 @@ def test_a_method_of_a_rule_is_run_when_the_window_opens():
         def a(self, message):
             self.x()
 
-        @cop.around(sleec.layers["a.hc1"])
-        def a(self, message):  # type: ignore[no-redef]  # noqa: F811
+        @cop.around(sleec.layers["a.hc1"])  # type: ignore[no-redef]
+        def a(self, message):  # noqa: F811
             log.append((clock.now(), "Y", message))
 
         @obligation("X", completes=False)
