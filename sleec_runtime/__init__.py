@@ -9,6 +9,7 @@ from __future__ import annotations
 TYPE_CHECKING = False
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from sleec_runtime import errors as errors
@@ -19,29 +20,79 @@ if TYPE_CHECKING:
     from sleec_runtime.obligations import recording as recording
     from sleec_runtime.predicates import Sensors as Sensors
     from sleec_runtime.runtime import Sleec as Sleec
+    from sleec_runtime.timed.clocks import AsyncioClock as AsyncioClock
+    from sleec_runtime.timed.clocks import Clock as Clock
+    from sleec_runtime.timed.clocks import MonotonicClock as MonotonicClock
+    from sleec_runtime.timed.clocks import PolledClock as PolledClock
+    from sleec_runtime.timed.clocks import VirtualClock as VirtualClock
+    from sleec_runtime.timed.failures import Failure as Failure
+    from sleec_runtime.timed.pending import Pending as Pending
 
 _HOMES = {
+    "AsyncioClock": "timed.clocks",
+    "Clock": "timed.clocks",
+    "Failure": "timed.failures",
     "Monitor": "monitor",
+    "MonotonicClock": "timed.clocks",
+    "Pending": "timed.pending",
+    "PolledClock": "timed.clocks",
     "Sensors": "predicates",
     "Sleec": "runtime",
     "SleecError": "errors",
+    "VirtualClock": "timed.clocks",
     "obligation": "obligations",
     "recording": "obligations",
 }
-__all__ = ["Monitor", "Sensors", "Sleec", "SleecError", "errors", "load", "obligation", "recording"]
+__all__ = [
+    "AsyncioClock",
+    "Clock",
+    "Failure",
+    "Monitor",
+    "MonotonicClock",
+    "Pending",
+    "PolledClock",
+    "Sensors",
+    "Sleec",
+    "SleecError",
+    "VirtualClock",
+    "errors",
+    "load",
+    "obligation",
+    "recording",
+]
 
 
-def load(path: str | Path, domain: str | None = None, reading: Reading | None = None, strict: bool = False) -> Sleec:
+def load(
+    path: str | Path,
+    domain: str | None = None,
+    reading: Reading | None = None,
+    strict: bool = False,
+    *,
+    clock: Clock | None = None,
+    chains: bool = False,
+    on_error: Callable[[Failure], object] | None = None,
+    strict_times: bool = False,
+) -> Sleec:
     """Reads the rules of a file and sets them to work.
 
     `domain` leaves out the rules of other domains. `reading`, ``cascade`` or ``priority``, goes before the file's own.
     `strict` makes a decision that depends on unreported conditions an error; without it they count as false, as
-    Definition 1 of the paper has it. Raises UnreadableFile, LanguageError and UnknownDomain.
+    Definition 1 of the paper has it. `clock`, `chains`, `on_error` and `strict_times` are for rules with times: see
+    `Sleec`. Raises UnreadableFile, LanguageError and UnknownDomain, and UnsupportedTimes with `strict_times`.
     """
     from sleec_runtime import language
     from sleec_runtime.runtime import Sleec
 
-    return Sleec(language.load(path), domain, reading, strict)
+    return Sleec(
+        language.load(path),
+        domain,
+        reading,
+        strict,
+        clock=clock,
+        chains=chains,
+        on_error=on_error,
+        strict_times=strict_times,
+    )
 
 
 def __getattr__(name: str) -> object:

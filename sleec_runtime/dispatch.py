@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from types import CoroutineType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sleec_runtime.conflicts import find_conflict, missing_for
 from sleec_runtime.errors import (
@@ -22,8 +22,11 @@ from sleec_runtime.errors import (
 from sleec_runtime.evaluation import Decision, Due, Outcome, Situation, Undetermined
 from sleec_runtime.instance import Instance, Unfinished
 from sleec_runtime.layers import Variant, await_under, run_all
-from sleec_runtime.model import Context, Rule
+from sleec_runtime.model import Context, Obligation, Rule
 from sleec_runtime.snapshot import Cell, Snapshot
+
+if TYPE_CHECKING:
+    from sleec_runtime.timed.pending import Pending
 
 
 class ActiveClause(NamedTuple):
@@ -69,7 +72,7 @@ class Plan:
             # Plans go with their context; variants stay.
             if shape not in variant.fitting:
                 for function in variant.called:
-                    _refuse_misfit(variant.label, function, args, kwargs)
+                    refuse_misfit(variant.label, function, args, kwargs)
                 variant.fitting.add(shape)
         self.fitting.add(shape)
 
@@ -97,7 +100,7 @@ class Done:
 
     @property
     def obligations(self) -> tuple[str, ...]:
-        """What was due and done: each name once, in the order of the rules and of their clauses."""
+        """What was due, and is done unless `due` has it: each name once, in the order of rules and their clauses."""
         return self._plan.obligations
 
     @property
@@ -129,6 +132,12 @@ class Done:
     def change(self) -> int:
         """The number of the change of context that made it."""
         return self._snapshot.number
+
+    @property
+    def due(self) -> tuple[Pending, ...]:
+        """What of it is not over yet, with its window: obligations that are still to be done, prohibitions that are
+        still in force. Asked again later, there is less of it."""
+        return ()
 
     def explain(self) -> str:
         """For every rule of the trigger: the active clause, what it obliges, and the conditions that decided."""
@@ -184,13 +193,17 @@ def due_in(snapshot: Snapshot, triggers: Sequence[str]) -> Due:
     if missing:
         raise UndeterminedDecision(triggers, tuple(dict.fromkeys(missing)))
     due = Due(tuple(outcome for outcome in outcomes if isinstance(outcome, Decision)))
-    _refuse_conflict(snapshot, triggers, due)
+    refuse_conflict(snapshot, triggers, due)
     return due
 
 
-def _refuse_conflict(snapshot: Snapshot, triggers: Sequence[str], due: Due) -> None:
+def refuse_conflict(
+    snapshot: Snapshot, triggers: Sequence[str], due: Due, happening: tuple[Obligation, ...] = ()
+) -> None:
+    """Raises ConflictInContext if what is due, and what happens besides, cannot all be together in this context, and
+    UndeterminedDecision if, in strict mode, that depends on what nobody reported."""
     program = snapshot.program
-    literals = due.literals
+    literals = (*due.literals, *happening)
     constraints = program.constraints_on(literals)
     closed = Situation(snapshot.context(triggers), program.measures)
     cause = find_conflict(literals, constraints, closed)
@@ -229,7 +242,7 @@ def run(plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str,
                 f"a variant of {' and '.join(plan.triggers)} returned a coroutine", "await trigger_async(…) instead"
             )
     if errors:
-        raise _one_of(errors)
+        raise one_of(errors)
     return Done(plan, snapshot, results)
 
 
@@ -244,11 +257,12 @@ async def run_async(plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwarg
         except Exception as error:  # noqa: BLE001 - raised again once all have run
             errors.append((variant.label, error))
     if errors:
-        raise _one_of(errors)
+        raise one_of(errors)
     return Done(plan, snapshot, results)
 
 
-def _refuse_misfit(label: str, function: Callable[..., Any], args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+def refuse_misfit(label: str, function: Callable[..., Any], args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> None:
+    """Raises WrongArguments if `function`, code of rule `label`, does not take these."""
     import inspect
 
     try:
@@ -268,7 +282,7 @@ def _refuse_misfit(label: str, function: Callable[..., Any], args: tuple[Any, ..
         ) from None
 
 
-def _one_of(errors: Sequence[tuple[str, Exception]]) -> Exception:
+def one_of(errors: Sequence[tuple[str, Exception]]) -> Exception:
     """What one variant raised, as it raised it; of several, an error that holds them all."""
     if len(errors) == 1:
         return errors[0][1]

@@ -64,10 +64,12 @@ class UnreadableFile(SleecError):
 
 
 class UnsupportedTimes(SleecError):
-    """Rules with times, or relations, given to what cannot keep them yet. `lines` are those of the constructs."""
+    """Rules with times, or relations, given to what cannot keep them. `lines` are those of the constructs."""
 
-    def __init__(self, message: str, lines: Sequence[int]) -> None:
-        super().__init__(message, "leave them out, or leave it at `sleec-verify check`, `entail` and `explain` for now")
+    def __init__(self, message: str, lines: Sequence[int], hint: str | None = None) -> None:
+        super().__init__(
+            message, hint or "leave them out, or leave it at `sleec-verify check`, `entail` and `explain` for now"
+        )
         self.lines = tuple(lines)
 
 
@@ -150,22 +152,35 @@ class Unbindable(SleecError):
 
 
 class UndeterminedDecision(SleecError):
-    """Strict mode: the decision depends on conditions that nobody reported. `missing` names them."""
+    """What is due depends on what nobody reported: in strict mode on conditions; in any, on a measure that says how
+    long a window is. `missing` names them."""
 
-    def __init__(self, triggers: Sequence[str], missing: Sequence[str]) -> None:
+    def __init__(self, triggers: Sequence[str], missing: Sequence[str], hint: str | None = None) -> None:
         super().__init__(
             f"what {' and '.join(triggers)} calls for depends on what nobody reported: {', '.join(missing)}",
-            "report these with update(), or load the ruleset without strict",
+            hint or "report these with update(), or load the ruleset without strict",
         )
         self.missing = tuple(missing)
 
 
 class ConflictInContext(SleecError):
-    """What is due cannot all be done in this context, so nothing is. `conflict` holds the smallest cause."""
+    """What is due cannot all be done in this context, so nothing is. `conflict` holds the smallest cause; None where
+    that is a prohibition that is in force since before."""
 
-    def __init__(self, message: str, conflict: Conflict) -> None:
+    def __init__(self, message: str, conflict: Conflict | None) -> None:
         super().__init__(message, "nothing was executed; `sleec-verify check` finds every such context beforehand")
         self.conflict = conflict
+
+
+class Prohibited(ConflictInContext):
+    """`obligation` is due, or was done, while a rule forbids it, by a prohibition with a window. From the second `over`
+    on the instance's clock, it is forbidden no more; None if there is no such time."""
+
+    def __init__(self, message: str, obligation: str, over: int | None, hint: str) -> None:
+        super().__init__(message, None)
+        self.hint = hint
+        self.obligation = obligation
+        self.over = over
 
 
 class NeedsAwait(SleecError):
@@ -178,3 +193,24 @@ class VariantsFailed(SleecError):
     def __init__(self, errors: Sequence[tuple[str, Exception]]) -> None:
         super().__init__("; ".join(f"{label}: {error!r}" for label, error in errors))
         self.errors = tuple(errors)
+
+
+# What happens while time passes ---------------------------------------------------------------------------
+
+
+class DeadlineMissed(SleecError):
+    """`obligation` was not done in its window, and no rule says what is due in its place. `until` is when that closed;
+    None if it had no end, and what is due at once failed."""
+
+    def __init__(self, message: str, obligation: str, until: object) -> None:
+        super().__init__(message)
+        self.obligation = obligation
+        self.until = until
+
+
+class NotEnforced(UserWarning):
+    """What of a ruleset its runtime does not see to. `constructs` pairs what each is with its line."""
+
+    def __init__(self, message: str, constructs: Sequence[tuple[str, int]]) -> None:
+        super().__init__(message)
+        self.constructs = tuple(constructs)

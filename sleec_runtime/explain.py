@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from sleec_runtime.conflicts import Conflict
 from sleec_runtime.evaluation import Decision, Step
 from sleec_runtime.language.formula_printer import print_formula, print_number
-from sleec_runtime.model import Comparison, Exclusive, Formula, Rule, Value, leaves, measures_of
+from sleec_runtime.model import Comparison, Exclusive, Formula, Obligation, Rule, Value, leaves, measures_of
 
 
 def outcome_in_words(rule: Rule, outcome: Decision | None, conditions: Mapping[str, Value]) -> str:
@@ -28,10 +28,7 @@ def decision_in_words(decision: Decision, conditions: Mapping[str, Value]) -> st
 
 def conflict_in_words(cause: Conflict, decisions: tuple[Decision, ...]) -> str:
     """What cannot all be done, which rules ask for it, and which constraints forbid it."""
-    literals = " and ".join(
-        f"{literal} ({', '.join(d.rule.label for d in decisions if literal in d.obligations)})"
-        for literal in cause.literals
-    )
+    literals = " and ".join(_with_rules(literal, decisions) for literal in cause.literals)
     forbidding = "; ".join(
         "EXCLUSIVE " + ", ".join(c.names) if isinstance(c, Exclusive) else f"NEVER {print_formula(c.formula)}"
         for c in cause.constraints
@@ -40,6 +37,11 @@ def conflict_in_words(cause: Conflict, decisions: tuple[Decision, ...]) -> str:
         return f"this situation is one that must not be: {forbidding}"
     verb = "is" if len(cause.literals) == 1 else "are"
     return f"{literals} {verb} due, against {forbidding}" if forbidding else f"{literals} are both due"
+
+
+def _with_rules(literal: Obligation, decisions: tuple[Decision, ...]) -> str:
+    labels = dict.fromkeys(d.rule.label for d in decisions if literal in d.obligations)
+    return f"{literal} ({', '.join(labels)})" if labels else str(literal)
 
 
 def _step(step: Step, conditions: Mapping[str, Value]) -> str:

@@ -17,6 +17,7 @@ from sleec_runtime.dispatch import due_in
 from sleec_runtime.errors import SleecError
 from sleec_runtime.evaluation import Decision
 from sleec_runtime.layers import RuleLayer
+from sleec_runtime.untimed import require_untimed
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Rule
@@ -44,13 +45,15 @@ class GlobalActivation:
     def start(self) -> GlobalActivation:
         """Activates the layers of now, and renews them on each change. O(rules).
 
-        Raises ConflictInContext (or UndeterminedDecision) if some trigger could not be answered in this context,
+        Raises UnsupportedTimes for rules with times, ConflictInContext (or UndeterminedDecision) if some trigger could
+        not be answered in this context,
         Unbindable for a bound method that a plain call would not dispatch by the layers, and SleecError if this is on
         already, or one of the layers is active: then nothing is activated. As long as this is on, a change into a
         context in which some trigger could not be answered, or to a layer that someone else activated, is refused, and
         so is binding such a method.
         """
         with self._sleec.held() as snapshot, _GLOBAL_LAYERS:
+            _refuse_times(snapshot)
             if self._sleec.activated_globally:
                 raise SleecError("global activation is on already", "stop() it first")
             self._sleec.allow_calls()
@@ -78,6 +81,7 @@ class GlobalActivation:
         self.stop()
 
     def _refuse(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
+        _refuse_times(after)
         # What a NEVER says of the context may be at odds with rules that do not mention what changed.
         everything = before.mark is not after.mark
         for trigger in after.program.number_of if everything else dict.fromkeys(rule.trigger for rule in rules):
@@ -121,3 +125,7 @@ class GlobalActivation:
     @staticmethod
     def _not_started() -> None:
         raise SleecError("global activation is not on", "start() it first")
+
+
+def _refuse_times(snapshot: Snapshot) -> None:
+    require_untimed(snapshot.program.ruleset, "global activation, where nothing is watched,")

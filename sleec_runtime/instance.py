@@ -26,7 +26,14 @@ from sleec_runtime.layers import (
     silence,
 )
 from sleec_runtime.model import Clause, Rule, Ruleset
-from sleec_runtime.obligations import implementations, is_coroutine_function, obligation_of, recorded
+from sleec_runtime.obligations import (
+    implementations,
+    is_coroutine_function,
+    obligation_of,
+    recorded,
+    takes_time,
+    taking_time,
+)
 
 F = TypeVar("F")
 
@@ -48,7 +55,8 @@ class Method(NamedTuple):
 class Instance:
     """The layers, the methods bound to rules, and the callables that implement obligations.
 
-    Changes are made under the lock of the runtime; variants are looked up without.
+    Changes are made under the lock of the runtime; variants are looked up without. `takes_time` are the obligations
+    that are not done when their callables return; `fitting` is where rules with times note what takes which arguments.
     """
 
     def __init__(self, ruleset: Ruleset) -> None:
@@ -58,6 +66,8 @@ class Instance:
         self._silent: frozenset[str] = frozenset()
         self._methods: dict[str, Method] = {}
         self._callables: dict[str, Callable[..., Any]] = {}
+        self.takes_time: frozenset[str] = frozenset()
+        self.fitting: set[tuple[object, ...]] = set()
         self._variants: dict[tuple[str, int], tuple[Clause, Variant | None]] = {}
         self.admit(ruleset)
 
@@ -70,6 +80,8 @@ class Instance:
         copy._silent = self._silent
         copy._methods = dict(self._methods)
         copy._callables = dict(self._callables)
+        copy.takes_time = self.takes_time
+        copy.fitting = set()
         copy._variants = {}
         return copy
 
@@ -119,6 +131,7 @@ class Instance:
         of a rule.
         """
         found: dict[str, Method] = {}
+        targets = tuple(targets)
         for target in targets:
             marked = tuple(self._marked(target))
             if not marked:
@@ -136,6 +149,7 @@ class Instance:
             self._refuse_misplaced(marked)
         _allow_calls(called, found, self.layers)
         self._methods.update(found)
+        self.takes_time = self.takes_time.union(*map(taking_time, targets))
         self._forget(found)
         return tuple(found)
 
@@ -192,6 +206,9 @@ class Instance:
                     'mark methods with @sleec_runtime.obligation("…"), or name them in snake case',
                 )
         self._callables.update(found)
+        self.takes_time = self.takes_time.difference(found).union(
+            name for name, function in found.items() if takes_time(function)
+        )
         self._forget(self._labels)
 
     def variant(self, rule: Rule, number: int, clause: Clause) -> Variant | None:
@@ -226,6 +243,30 @@ class Instance:
         """
         _allow_calls(rules, self._methods, self.layers)
 
+    def has_method(self, label: str) -> bool:
+        """Whether a method is bound to the rule, so that no variant of it is composed of callables."""
+        return label in self._methods
+
+    def given(self, name: str) -> Callable[..., Any] | None:
+        """The callable that was given to an obligation, as it was given."""
+        return self._callables.get(name)
+
+    def implementation(self, name: str) -> Callable[..., Any] | None:
+        """The callable that was given to an obligation, seen by recordings."""
+        function = self._callables.get(name)
+        return None if function is None else _seen(name, function)
+
+    def composed(
+        self,
+        label: str,
+        layer: str | None,
+        functions: Sequence[Callable[..., Any]],
+        plain: Sequence[Callable[..., Any]] = (),
+    ) -> Variant:
+        """A variant of rule `label` that calls `functions` in order, and does nothing else. They are `plain` with
+        something around them."""
+        return Variant(label, self.layers.of(layer), own_entries(_in_order(functions)), None, None, tuple(plain))
+
     def objects(self) -> list[object]:
         """The objects that methods are bound to, once each."""
         return list({id(m.instance): m.instance for m in self._methods.values() if m.instance is not None}.values())
@@ -239,6 +280,10 @@ class Instance:
         try:
             for number, clause in enumerate(rule.clauses()):
                 self.variant(rule, number, clause)
+                if any(obligation.timing is not None for obligation in clause.obligations):
+                    from sleec_runtime.timed.units import require_code
+
+                    require_code(rule, clause, self)
         except NotBound as problem:
             return problem
         return None
@@ -270,9 +315,8 @@ class Instance:
         if not names:
             return None
         functions = [self._callables[name] for name in names]
-        function = _in_order([_seen(name, function) for name, function in zip(names, functions)])
-        layer = self.layers.of(rule.layer(number))
-        return Variant(rule.label, layer, own_entries(function), None, None, tuple(functions))
+        seen = [_seen(name, function) for name, function in zip(names, functions)]
+        return self.composed(rule.label, rule.layer(number), seen, functions)
 
     def _marked(self, target: object) -> Iterable[tuple[str, Method]]:
         if isinstance(target, (types.FunctionType, LayeredMethod)):
@@ -303,6 +347,7 @@ class Instance:
 
     def _forget(self, labels: Iterable[str]) -> None:
         gone = frozenset(labels)
+        self.fitting = set()
         self._variants = {key: known for key, known in tuple(self._variants.items()) if key[0] not in gone}
 
 
@@ -376,7 +421,7 @@ def _in_order(functions: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
     def called(*args: Any, **kwargs: Any) -> Unfinished | None:
         for place, function in enumerate(functions):
             result = function(*args, **kwargs)
-            if type(result) is types.CoroutineType:
+            if type(result) is types.CoroutineType or type(result) is Unfinished:
                 return Unfinished(result, functions[place + 1 :], args, kwargs)
         return None
 

@@ -198,7 +198,7 @@ def constructs(ruleset: Ruleset) -> Iterator[Construct]:
                     if obligation.timing is not None:
                         yield from _of_timing(obligation.timing, clause)
         elif isinstance(statement, RELATIONS):
-            yield Construct(f"the relation {_called(statement)}", statement.span)
+            yield Construct(f"the relation {relation_name(statement)}", statement.span)
 
 
 def _of_timing(timing: Timing, clause: Clause) -> Iterator[Construct]:
@@ -210,7 +210,8 @@ def _of_timing(timing: Timing, clause: Clause) -> Iterator[Construct]:
         yield Construct("else", timing.instead.span)
 
 
-def _called(relation: Relation) -> str:
+def relation_name(relation: Relation) -> str:
+    """The word, or words, that a relation is written with."""
     if isinstance(relation, Lasting):
         return "when ... for" if relation.duration is not None else "when ... until"
     return f"measure {relation.relation}" if isinstance(relation, MeasureRelation) else relation.relation

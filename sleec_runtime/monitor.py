@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from contextlib import ExitStack
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.dispatch import Done, Plan, run, run_async
 from sleec_runtime.errors import WrongType
-from sleec_runtime.evaluation import Due, decide
+from sleec_runtime.evaluation import Decision, Due, decide
 from sleec_runtime.obligations import Recording, recording, watched
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Context
+    from sleec_runtime.model import Context, Obligation
     from sleec_runtime.runtime import Sleec
     from sleec_runtime.snapshot import Snapshot
 
@@ -52,7 +52,8 @@ class Monitor:
     What is due is decided afresh from the rules and the context, not taken from the dispatch. Executions are seen of
     callables marked with ``@obligation``, of those given to `implement`, and of the snake-case methods of bound objects
     and of those in `watch`. What a variant hands to another thread is not seen, nor what an inner trigger executes,
-    which is looked at for itself. If `on_difference` raises, the trigger does.
+    which is looked at for itself, nor what the clock starts: what goes wrong there is in `Sleec.failures`. If
+    `on_difference` raises, the trigger does.
 
     Cost: once more the evaluation of the rules of the trigger, and a note for each execution; see docs/runtime.md for
     figures. One monitor at a time.
@@ -109,7 +110,7 @@ class Monitor:
             try:
                 return run(plan, snapshot, args, kwargs)
             finally:
-                self._compare(plan, snapshot, seen)
+                self._compare(plan.triggers, snapshot, seen)
 
     async def run_async(self, plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Done:
         """`dispatch.run_async`, looked at, unless it is refused before anything runs."""
@@ -118,17 +119,30 @@ class Monitor:
             try:
                 return await run_async(plan, snapshot, args, kwargs)
             finally:
-                self._compare(plan, snapshot, seen)
+                self._compare(plan.triggers, snapshot, seen)
 
-    def _compare(self, plan: Plan, snapshot: Snapshot, seen: Recording) -> None:
-        program = snapshot.program
-        context = snapshot.context(plan.triggers)
-        rules = sorted(
-            (rule for trigger in plan.triggers for rule in program.cells[program.number_of[trigger]]),
-            key=lambda rule: program.order[rule.label],
-        )
-        decisions = (decide(rule, context, program.ruleset.reading, program.measures) for rule in rules)
-        due = Due(tuple(decision for decision in decisions if decision is not None))
+    @contextmanager
+    def looking(self, triggers: tuple[str, ...], snapshot: Snapshot, chained: Collection[str]) -> Iterator[None]:
+        """Looks at a dispatch of rules with times, which is that of the block: at what it starts at once. `chained`
+        are the responses that are events, and set off rules as they are done."""
+        with recording(apart=True) as seen:
+            try:
+                yield
+            finally:
+                self._compare(triggers, snapshot, seen, chained)
+
+    def _compare(
+        self, triggers: tuple[str, ...], snapshot: Snapshot, seen: Recording, chained: Collection[str] = ()
+    ) -> None:
+        context = snapshot.context(triggers)
+        decisions = list(_decided(triggers, snapshot))
+        happened = set(triggers)
+        for decision in decisions:
+            for literal in decision.obligations:
+                if literal.name in chained and literal.name not in happened and not literal.negated:
+                    happened.add(literal.name)
+                    decisions += _decided((literal.name,), snapshot)
+        due = Due(tuple(decisions))
         in_order = tuple(o.name for decision in due.decisions for o in decision.obligations if not o.negated)
         executed = _without(seen.executed, seen.failed)
         prohibited = tuple(name for name in dict.fromkeys(seen.executed) if name in due.prohibitions)
@@ -145,6 +159,25 @@ class Monitor:
                     prohibited=prohibited,
                 )
             )
+
+
+def _decided(triggers: tuple[str, ...], snapshot: Snapshot) -> Iterator[Decision]:
+    """What the rules of `triggers` say, in their order: so much of it as counts at once."""
+    program = snapshot.program
+    context = snapshot.context(triggers)
+    rules = sorted(
+        (rule for trigger in triggers for rule in program.cells[program.number_of[trigger]]),
+        key=lambda rule: program.order[rule.label],
+    )
+    for rule in rules:
+        decision = decide(rule, context, program.ruleset.reading, program.measures)
+        if decision is not None:
+            yield replace(decision, obligations=tuple(o for o in decision.obligations if _counts_at_once(o)))
+
+
+def _counts_at_once(obligation: Obligation) -> bool:
+    window = None if obligation.timing is None else obligation.timing.window
+    return window is None or window.start is None or window.start.seconds == 0
 
 
 def _without(executed: Iterable[str], failed: Iterable[str]) -> tuple[str, ...]:

@@ -20,6 +20,7 @@ from sleec_runtime.errors import Unbindable
 F = TypeVar("F", bound=Callable[..., Any])
 
 _MARK = "__sleec_obligation__"
+_TAKES_TIME = "__sleec_takes_time__"
 _WORD_BORDER = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 
 
@@ -90,10 +91,12 @@ def snake_case(name: str) -> str:
     return _WORD_BORDER.sub("_", name).lower()
 
 
-def obligation(name: str) -> Callable[[F], F]:
+def obligation(name: str, completes: bool = True) -> Callable[[F], F]:
     """Marks a function or method as the implementation of obligation `name`: impl(O) of the paper, Section 3.2.
 
     What it does is unchanged; each call of it is seen by the recordings that are on, at the cost of one look-up.
+    `completes` is False for what is only begun when it returns: it is done when ``sleec.completed(name)`` says so.
+    That matters in rulesets with times.
     """
 
     def mark(function: F) -> F:
@@ -101,6 +104,7 @@ def obligation(name: str) -> Callable[[F], F]:
             return type(function)(mark(function.__func__))
         wrapper = recorded(name, function)
         setattr(wrapper, _MARK, name)
+        setattr(wrapper, _TAKES_TIME, not completes)
         return wrapper  # type: ignore[return-value]
 
     return mark
@@ -152,6 +156,24 @@ def obligation_of(function: object) -> str | None:
     """The obligation that a callable is marked with."""
     name = getattr(function, _MARK, None)
     return name if isinstance(name, str) else None
+
+
+def takes_time(function: object) -> bool:
+    """Whether a callable is marked as one that only begins what it is to do."""
+    return getattr(function, _TAKES_TIME, False) is True
+
+
+def taking_time(robot: object) -> Iterator[str]:
+    """The obligations that callables of `robot` (an object, a class or a module) only begin. O(attributes)."""
+    owner = robot if isinstance(robot, type) else type(robot)
+    attributes: dict[str, object] = {}
+    for holder in (*reversed(owner.__mro__), robot):
+        attributes.update(getattr(holder, "__dict__", {}))
+    for attribute in attributes.values():
+        function = _underlying(attribute)
+        name = obligation_of(function)
+        if name is not None and takes_time(function):
+            yield name
 
 
 def implementations(robot: object, obligations: Iterable[str]) -> dict[str, Callable[..., Any]]:

@@ -9,7 +9,6 @@ from sleec_runtime.chunks import Chunks
 from sleec_runtime.conflicts import Forbidding, forbidding, mentioned
 from sleec_runtime.errors import SleecError, UnknownCondition, UnknownDomain, WrongType
 from sleec_runtime.model import Measure, Never, Obligation, Rule, Ruleset, Value, formulas_of, names_of
-from sleec_runtime.untimed import require_untimed
 from sleec_runtime.values import fit
 
 
@@ -25,7 +24,6 @@ class Program:
     def __init__(self, whole: Ruleset, domain: str | None = None, strict: bool = False) -> None:
         if domain is not None and domain not in whole.domains:
             raise UnknownDomain(domain, whole.domains)
-        require_untimed(whole, "the runtime")
         self.whole = whole
         self.domain = domain
         self.strict = strict

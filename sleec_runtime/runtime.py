@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from sleec_runtime.dispatch import Done, Plan, cell_of, due_in, plan, run, run_async
-from sleec_runtime.errors import NotBound, SleecError, UnknownTrigger, WrongType
+from sleec_runtime.errors import NotBound, SleecError, UnknownObligation, UnknownTrigger, WrongType
 from sleec_runtime.evaluation import Due, broken_assumptions
 from sleec_runtime.instance import Instance
 from sleec_runtime.layers import Layers
@@ -17,8 +17,14 @@ from sleec_runtime.program import Program
 from sleec_runtime.snapshot import Conditions, Snapshot
 
 if TYPE_CHECKING:
+    from types import TracebackType
+
     from sleec_runtime.global_activation import GlobalActivation
     from sleec_runtime.monitor import Monitor
+    from sleec_runtime.timed.clocks import Clock, MonotonicClock
+    from sleec_runtime.timed.failures import Failure
+    from sleec_runtime.timed.keeper import Timekeeper
+    from sleec_runtime.timed.pending import Pending
 
 F = TypeVar("F")
 
@@ -32,22 +38,44 @@ class Sleec:
     Any thread may call anything at any time. A dispatch reads one reference and never waits; changes take a lock.
     `strict` makes a decision that depends on unreported conditions an error; without it they are false
     (Definition 1). `domain` leaves out the rules of other domains; `reading` goes before the ruleset's own.
+
+    For rules with times (docs/runtime.md): `clock` counts their windows, by default the computer's own, with a thread
+    while there is something to watch. With `chains`, a response that is done is an event and triggers the rules of
+    that name. `on_error` is told of each `Failure` of what the clock started; without it, the log is. What the runtime
+    does not enforce is named by a NotEnforced warning, or with `strict_times` by UnsupportedTimes.
     """
 
     def __init__(
-        self, ruleset: Ruleset, domain: str | None = None, reading: Reading | None = None, strict: bool = False
+        self,
+        ruleset: Ruleset,
+        domain: str | None = None,
+        reading: Reading | None = None,
+        strict: bool = False,
+        *,
+        clock: Clock | None = None,
+        chains: bool = False,
+        on_error: Callable[[Failure], object] | None = None,
+        strict_times: bool = False,
     ) -> None:
         whole = _read(ruleset, reading)
-        if not isinstance(strict, bool):
-            raise WrongType("strict", strict, "a choice, True or False", "give True or False")
+        for name, choice in (("strict", strict), ("chains", chains), ("strict_times", strict_times)):
+            if not isinstance(choice, bool):
+                raise WrongType(name, choice, "a choice, True or False", "give True or False")
         self._reading = reading
         self._strict = strict
+        self._chains = chains
+        self._strict_times = strict_times
+        self._clock = clock
+        self._own_clock: MonotonicClock | None = None
+        self._on_error = on_error
+        self._times: Timekeeper | None = None
         self._lock = threading.RLock()
         self._listeners: list[Listener] = []
         self._objections: list[Listener] = []
         self._monitor: Monitor | None = None
         self._snapshot = Snapshot.first(Program(whole, domain, strict), {})
         self._instance = Instance(whole)
+        self._keep_times(self._snapshot.program)
 
     # What there is --------------------------------------------------------------------------------------
 
@@ -155,6 +183,8 @@ class Sleec:
         rules from running; what it raised is raised after them (VariantsFailed holds several). O(rules of the trigger)
         the first time in a context, then O(rules that speak), however many others are loaded.
         """
+        if self._times is not None:
+            return self._times.trigger((name,), args, kwargs, self._monitor)
         snapshot = self._snapshot
         ready = self._ready(snapshot, name)
         monitor = self._monitor
@@ -164,6 +194,8 @@ class Sleec:
 
     def trigger_all(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
         """Several triggers occur at once: one context, the rules of all in their order. Otherwise as `trigger`."""
+        if self._times is not None:
+            return self._times.trigger(_together(names), args, kwargs, self._monitor)
         snapshot = self._snapshot
         ready = plan(snapshot, _together(names), self._instance)
         monitor = self._monitor
@@ -174,6 +206,8 @@ class Sleec:
     async def trigger_async(self, name: str, /, *args: Any, **kwargs: Any) -> Done:
         """`trigger`, where variants may be coroutine functions: they are awaited one after the other. The context is
         that of the moment when this is first awaited."""
+        if self._times is not None:
+            return await self._times.trigger_async((name,), args, kwargs, self._monitor)
         snapshot = self._snapshot
         ready = self._ready(snapshot, name)
         monitor = self._monitor
@@ -183,6 +217,8 @@ class Sleec:
 
     async def trigger_all_async(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
         """`trigger_all`, where variants may be coroutine functions."""
+        if self._times is not None:
+            return await self._times.trigger_async(_together(names), args, kwargs, self._monitor)
         snapshot = self._snapshot
         ready = plan(snapshot, _together(names), self._instance)
         monitor = self._monitor
@@ -193,7 +229,56 @@ class Sleec:
     def due(self, *names: str) -> Due:
         """What would be due if these triggers occurred now; nothing is run, and no code need be bound. Raises as
         `trigger` does, but for what concerns code."""
+        if self._times is not None:
+            return self._times.due(names)
         return due_in(self._snapshot, names)
+
+    # Times ----------------------------------------------------------------------------------------------
+
+    def completed(self, obligation: str) -> tuple[Pending, ...]:
+        """Something that takes time is done, now. Returns the pending obligations that this fulfils.
+
+        With `chains`, it also triggers the rules of that name, with the arguments of the trigger that asked for it.
+        Raises UnknownObligation; Prohibited if a rule forbids it now, which does not undo it; and what triggering
+        raises.
+        """
+        if self._times is not None:
+            return self._times.completed(obligation)
+        obligations = self._snapshot.program.whole.obligations
+        if obligation not in obligations:
+            raise UnknownObligation(obligation, obligations)
+        return ()
+
+    def pending(self) -> tuple[Pending, ...]:
+        """All that was asked for and is not over, by when it ends: obligations that are still to be done, and
+        prohibitions that are still in force, of rules that have been replaced since, too."""
+        return () if self._times is None else self._times.pending()
+
+    @property
+    def failures(self) -> tuple[Failure, ...]:
+        """What went wrong with what the clock started, and deadlines that were missed: the last thousand, in order."""
+        return () if self._times is None else self._times.failures.kept()
+
+    def tick(self) -> None:
+        """Starts and ends all that is due by now; for a clock that wakes nobody. Nothing is raised: see `failures`."""
+        if self._times is not None:
+            self._times.tick()
+
+    def close(self) -> None:
+        """Ends the watching of windows, and the thread that did it. What is pending stays so; a trigger that would
+        bring more of it raises SleecError. ``with sleec:`` does this at its end."""
+        if self._times is not None:
+            self._times.close()
+        if self._own_clock is not None:
+            self._own_clock.close()
+
+    def __enter__(self) -> Sleec:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
 
     # Other rules, other modes ---------------------------------------------------------------------------
 
@@ -227,7 +312,8 @@ class Sleec:
 
     def activate_globally(self) -> GlobalActivation:
         """The paper's own mode (Section 4): from now on the layers of the active clauses are globally active, so that
-        methods can be called without a trigger. See `GlobalActivation` for what that costs and where it is wrong."""
+        methods can be called without a trigger. See `GlobalActivation` for what that costs and where it is wrong.
+        Raises UnsupportedTimes for rules with times, because nothing would be watched."""
         from sleec_runtime.global_activation import GlobalActivation
 
         return GlobalActivation(self).start()
@@ -296,6 +382,22 @@ class Sleec:
             ready = cell.plan = plan(snapshot, (name,), self._instance)
         return ready
 
+    def _keep_times(self, program: Program) -> None:
+        """Makes ready for what `program` says of time. Raises UnsupportedTimes, and then nothing has changed."""
+        if not program.ruleset.is_timed and not self._chains:
+            return
+        from sleec_runtime.timed.limits import has_times, name_limits
+
+        name_limits(program.ruleset, self._chains, self._strict_times)
+        if self._times is None and (self._chains or has_times(program.ruleset)):
+            from sleec_runtime.timed.clocks import MonotonicClock
+            from sleec_runtime.timed.keeper import Timekeeper
+
+            clock = self._clock
+            if clock is None:
+                clock = self._own_clock = MonotonicClock()
+            self._times = Timekeeper(lambda: (self._snapshot, self._instance), clock, self._chains, self._on_error)
+
     def _plan_anew(self, labels: Iterable[str]) -> None:
         by_label = self.ruleset.by_label
         triggers = dict.fromkeys(by_label[label].trigger for label in labels if label in by_label)
@@ -320,6 +422,7 @@ class Sleec:
             instance.allow_calls(program.ruleset.rules)
         self._object(before, after, program.ruleset.rules)
         self._watch_bound(instance, program)
+        self._keep_times(program)
         self._instance = instance
         self._publish(before, after, program.ruleset.rules)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-import sleec_runtime
 from sleec_runtime.errors import UnsupportedTimes
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
@@ -136,15 +135,6 @@ def test_what_is_due_is_said_with_its_time():
     assert answer.prohibitions == ("B",)
     assert [str(o.timing) for o in answer.timed] == ["within 5 minutes, otherwise NOT C"]
     assert answer.because[0].in_words() == ("B within 5 minutes, otherwise NOT C",)
-
-
-@pytest.mark.parametrize("response", ["B within 5 minutes", "B eventually", "B otherwise C"])
-def test_the_runtime_refuses_what_it_cannot_keep(response, tmp_path):
-    path = tmp_path / "timed.sleec"
-    path.write_text(text(response), encoding="utf-8")
-    with pytest.raises(UnsupportedTimes, match="in line 13") as caught:
-        sleec_runtime.load(path)
-    assert caught.value.lines == (13,)
 
 
 def test_the_runtime_takes_rules_of_the_dsl_without_times():

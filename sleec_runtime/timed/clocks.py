@@ -1,0 +1,195 @@
+"""What tells the runtime the time, and wakes it.
+
+A clock counts seconds from a start of its own; windows are counted from the moment of the trigger. `MonotonicClock` is
+the one for robots, `AsyncioClock` for code that lives in an event loop, `PolledClock` for a main loop that calls
+`Sleec.tick`, and `VirtualClock` for tests.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol, Union
+
+from sleec_runtime.errors import WrongType
+from sleec_runtime.values import exact
+
+if TYPE_CHECKING:
+    from asyncio import AbstractEventLoop
+    from fractions import Fraction
+
+Time = Union[int, float, "Fraction"]
+"""Seconds on some clock."""
+
+Cancel = Callable[[], None]
+
+
+class Clock(Protocol):
+    """What the runtime asks of a clock, in any thread that uses the instance; `wake` under the instance's lock."""
+
+    def now(self) -> Time:
+        """The time, which never goes back."""
+        ...
+
+    def wake(self, at: Time, call: Callable[[], object]) -> Cancel:
+        """Has `call` called once it is `at`, soon if that is past, and never within `wake` itself. Returns what calls
+        it off."""
+        ...
+
+
+class _Alarms:
+    """Calls to be made, by time."""
+
+    def __init__(self) -> None:
+        self._calls: dict[object, tuple[Time, Callable[[], object]]] = {}
+
+    def __len__(self) -> int:
+        return len(self._calls)
+
+    def add(self, at: Time, call: Callable[[], object]) -> object:
+        key = object()
+        self._calls[key] = at, call
+        return key
+
+    def drop(self, key: object) -> None:
+        self._calls.pop(key, None)
+
+    def clear(self) -> None:
+        self._calls.clear()
+
+    def earliest(self) -> Time | None:
+        # An instance has one alarm set at a time, so these are as many as share the clock.
+        return min((at for at, _ in self._calls.values()), default=None)
+
+    def take(self, until: Time) -> tuple[Time, Callable[[], object]] | None:
+        """The earliest call that is not later than `until`, taken out."""
+        key = min(self._calls, key=lambda key: self._calls[key][0], default=None)
+        return self._calls.pop(key) if key is not None and self._calls[key][0] <= until else None
+
+
+class VirtualClock:
+    """A clock that stands still until it is told otherwise: for tests, and for simulations.
+
+    What is due on the way runs in the thread that calls `advance`, each at its own time, in order.
+    """
+
+    def __init__(self, start: Time = 0) -> None:
+        self._now = start
+        self._lock = threading.Lock()
+        self._alarms = _Alarms()
+
+    def now(self) -> Time:
+        return self._now
+
+    def wake(self, at: Time, call: Callable[[], object]) -> Cancel:
+        with self._lock:
+            key = self._alarms.add(at, call)
+
+        def cancel() -> None:
+            with self._lock:
+                self._alarms.drop(key)
+
+        return cancel
+
+    def advance(self, seconds: Time) -> None:
+        """Lets `seconds` pass, and all happen that is due until then. Raises WrongType for a negative number."""
+        number = exact(seconds)
+        if number is None or number < 0:
+            raise WrongType("the time that passes", seconds, "a number of seconds, from 0 on")
+        target = self._now + number if not isinstance(self._now, float) else self._now + seconds
+        while True:
+            with self._lock:
+                alarm = self._alarms.take(target)
+                self._now = max(self._now, target if alarm is None else alarm[0])
+            if alarm is None:
+                return
+            alarm[1]()
+
+    def __repr__(self) -> str:
+        return f"VirtualClock({self._now})"
+
+
+class PolledClock:
+    """The computer's monotonic clock, which wakes nobody: call `Sleec.tick` often enough instead."""
+
+    def now(self) -> Time:
+        return time.monotonic()
+
+    def wake(self, at: Time, call: Callable[[], object]) -> Cancel:
+        return _nothing
+
+
+def _nothing() -> None:
+    """There is nothing to call off."""
+
+
+class MonotonicClock:
+    """The computer's monotonic clock, with a thread that wakes: it lives only while there is something to wait for, and
+    ends with the program."""
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self._alarms = _Alarms()
+        self._thread: threading.Thread | None = None
+
+    def now(self) -> Time:
+        return time.monotonic()
+
+    def wake(self, at: Time, call: Callable[[], object]) -> Cancel:
+        with self._changed:
+            key = self._alarms.add(at, call)
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._watch, name="sleec clock", daemon=True)
+                self._thread.start()
+            self._changed.notify()
+
+        def cancel() -> None:
+            with self._changed:
+                self._alarms.drop(key)
+                self._changed.notify()
+
+        return cancel
+
+    def close(self) -> None:
+        """Calls all off, and waits until the thread has ended; within a call that the clock makes, it does not wait."""
+        with self._changed:
+            self._alarms.clear()
+            self._changed.notify()
+            thread = self._thread
+        if thread is not None and thread is not threading.current_thread():
+            thread.join()
+
+    def _watch(self) -> None:
+        while True:
+            with self._changed:
+                alarm = self._alarms.take(self.now())
+                while alarm is None:
+                    earliest = self._alarms.earliest()
+                    if earliest is None:
+                        self._thread = None
+                        return
+                    self._changed.wait(min(max(float(earliest - self.now()), 0), threading.TIMEOUT_MAX))
+                    alarm = self._alarms.take(self.now())
+            alarm[1]()
+
+
+class AsyncioClock:
+    """The clock of an event loop, which wakes in it: callables may be coroutine functions, and are run as its tasks.
+
+    `loop` is the running one if it is not given. Use the instance in that loop's thread only; from others, by
+    ``loop.call_soon_threadsafe(sleec.trigger, …)``.
+    """
+
+    def __init__(self, loop: AbstractEventLoop | None = None) -> None:
+        if loop is None:
+            from asyncio import get_running_loop
+
+            loop = get_running_loop()
+        self._loop = loop
+
+    def now(self) -> Time:
+        return self._loop.time()
+
+    def wake(self, at: Time, call: Callable[[], object]) -> Cancel:
+        return self._loop.call_at(float(at), call).cancel

@@ -1,0 +1,86 @@
+"""What of a ruleset its runtime does not see to, said when the rules are put in force."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Iterator
+
+from sleec_runtime.errors import NotEnforced, UnsupportedTimes
+from sleec_runtime.model import Clause, MeasureRef, Obligation, Rule, Ruleset, Span, in_text_order
+from sleec_runtime.model_time import RELATIONS, relation_name
+
+_SHOWN = 5
+
+
+def has_times(ruleset: Ruleset) -> bool:
+    """Whether a response of the rules says when it is due, or what is due in its place."""
+    return any(
+        obligation.timing is not None
+        for rule in ruleset.rules
+        for clause in rule.clauses()
+        for obligation in clause.obligations
+    )
+
+
+def name_limits(ruleset: Ruleset, chains: bool, strict: bool) -> None:
+    """Warns of what the runtime does not enforce, by NotEnforced; if `strict`, raises UnsupportedTimes instead.
+
+    O(size of the rules).
+    """
+    found = [(name, ruleset.source.place(span).line) for name, span in not_enforced(ruleset, chains)]
+    if not found:
+        return
+    said = "; ".join(f"{name}, line {line}" for name, line in found[:_SHOWN])
+    more = f"; and {len(found) - _SHOWN:,} more" if len(found) > _SHOWN else ""
+    if strict:
+        raise UnsupportedTimes(
+            f"the runtime does not enforce: {said}{more}",
+            [line for _, line in found],
+            "leave these out, or load the ruleset without strict_times and see to them yourself",
+        )
+    warnings.warn(NotEnforced(f"the runtime does not enforce: {said}{more}", found), stacklevel=_outside())
+
+
+def _outside() -> int:
+    """How many calls up the code is that uses the runtime: a warning is to point there."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "sleec_runtime":
+        level, frame = level + 1, frame.f_back
+    return level
+
+
+def not_enforced(ruleset: Ruleset, chains: bool) -> Iterator[tuple[str, Span]]:
+    """What each is called, and where it stands, in the order of the text."""
+    triggers = {rule.trigger for rule in ruleset.rules} if has_times(ruleset) and not chains else set()
+    for statement in ruleset.statements:
+        if isinstance(statement, RELATIONS):
+            yield f"the relation {relation_name(statement)}", statement.span
+        elif isinstance(statement, Rule):
+            for clause in statement.clauses():
+                for obligation in _asked(clause):
+                    yield from _limits(obligation)
+                    if not obligation.negated and obligation.name in triggers:
+                        what = f"that {obligation.name} triggers rules when it is done (chains=True does)"
+                        yield what, obligation.span
+
+
+def _asked(clause: Clause) -> Iterator[Obligation]:
+    """What a clause asks for, and what comes in place of that."""
+    for obligation in clause.obligations:
+        yield obligation
+        if obligation.timing is not None:
+            for alternative in obligation.timing.alternatives():
+                for inner in in_text_order(alternative):
+                    yield from _asked(inner)
+
+
+def _limits(obligation: Obligation) -> Iterator[tuple[str, Span]]:
+    window = None if obligation.timing is None else obligation.timing.window
+    if window is None:
+        return
+    if window.end is None and not obligation.negated:
+        yield f"{obligation.name} eventually (it is begun, and has no deadline)", window.span
+    for length in (window.start, window.end):
+        if length is not None and isinstance(length.amount, MeasureRef):
+            yield f"a window for as long as {length.amount.name} says, while that has no value", window.span

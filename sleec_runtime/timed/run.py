@@ -1,0 +1,141 @@
+"""One dispatch of rules with times: what runs, in which order, and what comes of it."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from types import CoroutineType
+from typing import TYPE_CHECKING
+
+from sleec_runtime.dispatch import Done, Plan
+from sleec_runtime.errors import NeedsAwait
+from sleec_runtime.evaluation import Due
+from sleec_runtime.instance import Unfinished
+from sleec_runtime.layers import Variant, await_under, run_all
+
+if TYPE_CHECKING:
+    from sleec_runtime.snapshot import Snapshot
+    from sleec_runtime.timed.clocks import Time
+    from sleec_runtime.timed.keeper import Timekeeper
+    from sleec_runtime.timed.pending import Pending
+    from sleec_runtime.timed.stages import Stage
+    from sleec_runtime.timed.tasks import Task
+    from sleec_runtime.timed.units import Unit
+
+
+class TimedDone(Done):
+    """What one dispatch of rules with times did, and what of it is not over."""
+
+    __slots__ = ("_tasks", "_view")
+
+    def __init__(
+        self,
+        plan: Plan,
+        snapshot: Snapshot,
+        results: Sequence[object],
+        tasks: Sequence[Task],
+        view: Callable[[Iterable[Task]], tuple[Pending, ...]],
+    ) -> None:
+        super().__init__(plan, snapshot, results)
+        self._tasks = tasks
+        self._view = view
+
+    @property
+    def due(self) -> tuple[Pending, ...]:
+        return self._view(self._tasks)
+
+    def explain(self) -> str:
+        return "\n".join([super().explain(), *map(str, self.due)])
+
+
+class Run:
+    """The stages of a dispatch, which have been checked and are on the agenda. It is over when `units` is.
+
+    Whoever runs it takes each unit, runs it, and says with `ended` what came of it. `errors` has what was raised, with
+    the labels of the rules.
+    """
+
+    def __init__(self, keeper: Timekeeper, stages: Sequence[Stage], now: Time) -> None:
+        self.errors: list[tuple[str, Exception]] = []
+        self._keeper = keeper
+        self._now = now
+        self._stages = deque(stages)
+        self._happened: set[str] = set()
+        self._begun: list[Stage] = []
+        self._variants: list[Variant] = []
+        self._results: list[object] = []
+
+    @property
+    def asynchronous(self) -> bool:
+        """Whether something in it is known to need an event loop."""
+        return any(unit.asynchronous for stage in self._stages for unit in stage.units if unit.at <= self._now)
+
+    def units(self) -> Iterator[Unit]:
+        """What to run, one after the other."""
+        while self._stages:
+            stage = self._stages.popleft()
+            if stage.event is not None and stage.event not in self._happened:
+                self._keeper.withdraw(stage.tasks)
+                continue
+            self._begun.append(stage)
+            for unit in stage.units:
+                if unit.at <= self._now:
+                    yield unit
+
+    def go(self) -> None:
+        """Runs all units."""
+        for unit in self.units():
+            variant = self._keeper.begin(unit, self.did)
+            (result,), errors = run_all((variant,), unit.origin.args, dict(unit.origin.kwargs))
+            error = errors[0][1] if errors else None
+            if type(result) is CoroutineType or type(result) is Unfinished:
+                result.close()
+                error = NeedsAwait(
+                    f"a variant of {unit.origin.rule.label} returned a coroutine",
+                    "await trigger_async(…) instead; what the clock starts needs an AsyncioClock",
+                )
+            self.ended(unit, variant, result, error)
+
+    async def go_async(self) -> None:
+        """Runs all units, awaiting those that are coroutines."""
+        for unit in self.units():
+            variant = self._keeper.begin(unit, self.did)
+            result: object = None
+            error = None
+            try:
+                result = await await_under(variant, unit.origin.args, dict(unit.origin.kwargs))
+            except Exception as raised:  # noqa: BLE001 - kept with the others
+                error = raised
+            self.ended(unit, variant, result, error)
+
+    def did(self, task: Task) -> None:
+        """The obligation is done, now."""
+        self._happened.add(task.name)
+        self.errors += [(task.origin.rule.label, error) for error in self._keeper.happened(task.name, task)]
+
+    def ended(self, unit: Unit, variant: Variant, result: object, error: Exception | None) -> None:
+        """A unit has run. What it left undone, because it raised, may have something in its place."""
+        self._variants.append(variant)
+        self._results.append(result)
+        if error is not None:
+            self.errors.append((unit.origin.rule.label, error))
+        for task in unit.tasks:
+            if error is not None:
+                self._replace(task)
+            elif unit.written is not None and task.name not in unit.origin.instance.takes_time and task.is_open:
+                self.did(task)
+
+    def _replace(self, task: Task) -> None:
+        try:
+            stages = self._keeper.failed(task)
+        except Exception as error:  # noqa: BLE001 - the alternative was refused, and is kept with the others
+            self.errors.append((task.origin.rule.label, error))
+        else:
+            self._stages.extendleft(reversed(stages))
+
+    def done(self, triggers: tuple[str, ...], snapshot: Snapshot) -> TimedDone:
+        """What it did, if nothing was raised."""
+        decisions = tuple(decision for stage in self._begun for decision in stage.decisions)
+        plan = Plan(triggers, Due(decisions), tuple(self._variants), snapshot.mark)
+        tasks = [task for stage in self._begun for task in stage.tasks]
+        return TimedDone(plan, snapshot, self._results, tasks, self._keeper.view)

@@ -1,0 +1,178 @@
+"""What one response asks for, in times of the clock: all of it is settled at the trigger.
+
+Hedges behind `otherwise` and `else` are decided, and lengths that a measure says are read, in the context of the
+trigger; so the whole tree of what may become due is known before anything runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+from sleec_runtime.errors import UndeterminedDecision, WrongType
+from sleec_runtime.evaluation import Decision, Situation, Undetermined, walk
+from sleec_runtime.model import Clause, Number, Obligation, Rational, Rule
+from sleec_runtime.model_time import SECONDS, Length
+
+if TYPE_CHECKING:
+    from sleec_runtime.instance import Instance
+    from sleec_runtime.snapshot import Snapshot
+    from sleec_runtime.timed.clocks import Time
+
+State = Literal["waiting", "under way", "done", "missed", "replaced", "withdrawn", "in force", "over"]
+"""Of an obligation: its window is not open, or it is held back; started; done; its window closed, or it failed, with
+nothing in its place; something is due in its place; called for by what did not happen. Of a prohibition: in force, or
+over."""
+
+_OPEN: frozenset[State] = frozenset({"waiting", "under way", "in force"})
+
+
+@dataclass(frozen=True, eq=False)
+class Origin:
+    """A rule that spoke at `moment`, and what all that it asks for is done with, until it is over: the context and
+    rules, the code, and the arguments, of that moment."""
+
+    decision: Decision
+    moment: Time
+    snapshot: Snapshot
+    instance: Instance
+    args: tuple[Any, ...] = ()
+    kwargs: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def rule(self) -> Rule:
+        return self.decision.rule
+
+
+class Task:
+    """One literal that is due from `first` to `last` on the clock (None: whenever), and what may come in its place.
+
+    `at_once`: it is not watched, because nothing but the moment counts: without a window, or with one of length 0. What
+    is due at once and takes time has no deadline that could be kept, and is pending without one. `alternative`: it is
+    due in the place of another.
+    """
+
+    __slots__ = (
+        "alternative",
+        "at_once",
+        "broken",
+        "first",
+        "instead",
+        "last",
+        "literal",
+        "origin",
+        "otherwise",
+        "state",
+    )
+
+    def __init__(
+        self, literal: Obligation, origin: Origin, first: Time, last: Time | None, at_once: bool, alternative: bool
+    ) -> None:
+        self.literal = literal
+        self.origin = origin
+        self.first = first
+        self.last = last
+        self.at_once = at_once
+        self.alternative = alternative
+        self.otherwise: tuple[Task, ...] | None = None
+        self.instead: tuple[Task, ...] | None = None
+        self.state: State = "in force" if literal.negated else "waiting"
+        self.broken = False
+
+    @property
+    def name(self) -> str:
+        return self.literal.name
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is on the agenda, or about to be."""
+        return self.state in _OPEN
+
+    def state_at(self, now: Time) -> State:
+        """`state`; a prohibition is over when its window is, though the agenda may still hold it."""
+        if self.state == "in force" and self.last is not None and self.last < now:
+            return "over"
+        return self.state
+
+    def is_open_at(self, now: Time) -> bool:
+        """Whether it is still to be done, or still forbidden."""
+        return self.state_at(now) in _OPEN
+
+    @property
+    def is_decided(self) -> bool:
+        """Whether nothing may come in its place."""
+        return self.otherwise is None and self.instead is None
+
+    def covers(self, time: Time) -> bool:
+        return self.first <= time and (self.last is None or time <= self.last)
+
+    def counts_at(self, now: Time) -> bool:
+        """Whether it is due, or forbidden, at `now`, the time at which it is called for or comes up."""
+        return self.covers(now) or (self.at_once and self.first <= now)
+
+    def covers_all(self, first: Time, last: Time | None) -> bool:
+        """Whether its window holds all times from `first` to `last`."""
+        return self.first <= first and (self.last is None or (last is not None and last <= self.last))
+
+
+def tasks_of(
+    obligations: Sequence[Obligation], due: Time, origin: Origin, alternative: bool = False
+) -> tuple[Task, ...]:
+    """What `obligations` ask for if they are due from the time `due` on.
+
+    O(size of the responses). Raises UndeterminedDecision if a hedge of theirs, or the length of a window, depends on
+    what nobody reported, and WrongType for a length that is none.
+    """
+    return tuple(_task(obligation, due, origin, alternative) for obligation in obligations)
+
+
+def _task(obligation: Obligation, due: Time, origin: Origin, alternative: bool) -> Task:
+    timing = obligation.timing
+    window = None if timing is None else timing.window
+    last: Time | None
+    if window is None:
+        first, last, at_once = due, None, True
+    else:
+        start = 0 if window.start is None else _seconds(window.start, origin)
+        first = due + start
+        if window.end is None:
+            last, at_once = None, False
+        else:
+            end = _seconds(window.end, origin)
+            if end < start:
+                raise WrongType(
+                    str(window.end), end, f"the end of a window that starts after {start} seconds", "end it later"
+                )
+            # A window of no length is kept by starting in it.
+            last, at_once = due + end, end == start
+    task = Task(obligation, origin, first, last, at_once, alternative)
+    if timing is not None and timing.otherwise is not None:
+        over = due if last is None else last
+        task.otherwise = tasks_of(_active(timing.otherwise, origin), over, origin, alternative=True)
+    if timing is not None and timing.instead is not None:
+        task.instead = tasks_of(_active(timing.instead, origin), due, origin, alternative=True)
+    return task
+
+
+def _active(clause: Clause, origin: Origin) -> tuple[Obligation, ...]:
+    """What a chain of its own obliges, such as one behind `otherwise`: as a rule with nothing but that chain."""
+    program = origin.snapshot.program
+    situation = Situation(origin.snapshot.context(), program.measures, None if program.strict else False)
+    outcome = walk(Rule("", "", None, clause, ()), situation, program.ruleset.reading)
+    if isinstance(outcome, Undetermined):
+        raise UndeterminedDecision((origin.rule.trigger,), outcome.missing)
+    assert outcome is not None, "a rule without a guard always speaks"
+    return outcome.obligations
+
+
+def _seconds(length: Length, origin: Origin) -> Rational:
+    if isinstance(length.amount, Number):
+        return length.amount.value * SECONDS[length.unit]
+    name = length.amount.name
+    value = origin.snapshot.conditions.get(name)
+    if value is None:
+        raise UndeterminedDecision((origin.rule.trigger,), (name,), f"report {name} with update(): it is how long")
+    if isinstance(value, (bool, str)) or value < 0:
+        raise WrongType(name, value, "the length of a window, a number from 0 on")
+    return value * SECONDS[length.unit]
