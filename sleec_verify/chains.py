@@ -53,10 +53,11 @@ def chain(ruleset: Ruleset, context: Context, answer: Entailment) -> tuple[Step,
         if name in triggers and name not in expanded and name not in context.triggers:
             expanded[name] = because_of(name)
             _note_prohibitions(expanded[name], forbidding)
-            ahead += _done_by(expanded[name])
+            ahead += (done for done, _ in _done_by(expanded[name]))
 
-    def step(name: str, path: tuple[str, ...], shown: set[str]) -> Step:
-        forbidden = tuple(forbidding.get(name, ()))
+    def step(name: str, at_once: bool, path: tuple[str, ...], shown: set[str]) -> Step:
+        # What is due at another time may be done when it is no longer forbidden.
+        forbidden = tuple(forbidding.get(name, ())) if at_once else ()
         if name in path or name in context.triggers:
             return Step(name, cycle=name in triggers, forbidden=forbidden)
         if name not in expanded:
@@ -67,26 +68,30 @@ def chain(ruleset: Ruleset, context: Context, answer: Entailment) -> tuple[Step,
             return Step(name, more=True, forbidden=forbidden)
         shown.add(name)
         clauses = tuple(
-            (because, tuple(step(done, (*path, name), shown) for done in _done_by((because,))))
+            (because, tuple(step(done, now, (*path, name), shown) for done, now in _done_by((because,))))
             for because in expanded[name]
         )
         return Step(name, clauses, forbidden=forbidden)
 
     shown: set[str] = set()
-    steps = tuple(step(name, (), shown) for name in answer.obligations)
+    steps = tuple(step(name, now, (), shown) for name, now in _done_by(answer.because))
     return tuple(one for one in steps if one.leads_on or one.forbidden)
 
 
-def _done_by(because: tuple[Because, ...]) -> Iterator[str]:
-    """The obligations of clauses, each once, without the prohibitions."""
-    names = (name for one in because for name in one.obligations if not name.startswith("NOT "))
-    yield from dict.fromkeys(names)
+def _done_by(because: tuple[Because, ...]) -> Iterator[tuple[str, bool]]:
+    """The obligations of clauses, each once, without the prohibitions; whether one is due at once."""
+    found: dict[str, bool] = {}
+    for one in because:
+        for name, when in zip(one.obligations, one.times):
+            if not name.startswith("NOT "):
+                found[name] = found.get(name, False) or not when
+    yield from found.items()
 
 
 def _note_prohibitions(because: tuple[Because, ...], forbidding: dict[str, list[str]]) -> None:
     for one in because:
-        for name in one.obligations:
-            if name.startswith("NOT "):
+        for name, when in zip(one.obligations, one.times):
+            if name.startswith("NOT ") and not when:
                 forbidding.setdefault(name.removeprefix("NOT "), []).append(one.layer or one.rule)
 
 

@@ -114,7 +114,8 @@ def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[
         )
     if answer.timed:
         yield (
-            f"{palette('note', 'note')}: whether what is due at other times can be kept with it is not decided yet\n"
+            f"{palette('note', 'note')}: what is due at other times is not weighed here; `sleec-verify check` tells "
+            "whether it can all be kept\n"
         )
     if answer.missing:
         yield (
