@@ -39,6 +39,8 @@ def chain(ruleset: Ruleset, context: Context, answer: Entailment) -> tuple[Step,
 
     Each event is expanded once, so the tree is linear in the clauses that it reaches.
     """
+    if not answer.consistent:
+        return ()
     triggers = {rule.trigger for rule in ruleset.rules}
     expanded: dict[str, tuple[Because, ...]] = {}
     forbidding: dict[str, list[str]] = {}
