@@ -69,9 +69,19 @@ class Plan:
         if shape in self.fitting:
             return
         for variant in self.variants:
-            for function in variant.called:
-                refuse_misfit(variant.label, function, args, kwargs)
+            # Plans go with their context; variants stay.
+            if shape not in variant.fitting:
+                for function in variant.called:
+                    refuse_misfit(variant.label, function, args, kwargs)
+                variant.fitting.add(shape)
         self.fitting.add(shape)
+
+    def refuse_coroutines(self) -> None:
+        """Raises NeedsAwait if a variant is known to be a coroutine function."""
+        if self.asynchronous:
+            raise NeedsAwait(
+                f"a variant of {' and '.join(self.triggers)} is a coroutine function", "await trigger_async(…) instead"
+            )
 
 
 class Done:
@@ -223,10 +233,7 @@ def plan(snapshot: Snapshot, triggers: tuple[str, ...], instance: Instance) -> P
 def run(plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Done:
     """Runs the variants of a plan in order. Raises what a variant raised, after all have run."""
     plan.refuse_misfits(args, kwargs)
-    if plan.asynchronous:
-        raise NeedsAwait(
-            f"a variant of {' and '.join(plan.triggers)} is a coroutine function", "await trigger_async(…) instead"
-        )
+    plan.refuse_coroutines()
     results, errors = run_all(plan.variants, args, kwargs)
     for result in results:
         if type(result) is CoroutineType or type(result) is Unfinished:
@@ -259,7 +266,8 @@ def refuse_misfit(label: str, function: Callable[..., Any], args: tuple[Any, ...
     import inspect
 
     try:
-        signature = inspect.signature(function)
+        # Not what a decorator says that it wraps: it may take other arguments than that, and hand over others.
+        signature = inspect.signature(function, follow_wrapped=False)
     except (TypeError, ValueError):
         # Built into the interpreter, with no signature to read: the call itself will tell.
         return

@@ -94,7 +94,8 @@ class UnknownName(SleecError, LookupError):
 
     def __init__(self, name: str, known: Iterable[str], hint: str | None = None) -> None:
         if not isinstance(name, str):
-            hint = f"give the name of a {self.kind}, a str"
+            article = "an" if self.kind[0] in "aeiou" else "a"
+            hint = f"give the name of {article} {self.kind}, a str"
         super().__init__(f"unknown {self.kind} {name!r}", hint or self._suggestion(name, sorted(known)))
         self.name = name
 

@@ -46,19 +46,21 @@ class GlobalActivation:
         """Activates the layers of now, and renews them on each change. O(rules).
 
         Raises UnsupportedTimes for rules with times, ConflictInContext (or UndeterminedDecision) if some trigger could
-        not be answered in this context, Unbindable for a bound method that a plain call would not dispatch by the
-        layers, and SleecError if one of the layers is active already: then nothing is activated. A change into a
-        context in which some trigger could not be answered is refused as long as this is on.
+        not be answered in this context,
+        Unbindable for a bound method that a plain call would not dispatch by the layers, and SleecError if this is on
+        already, or one of the layers is active: then nothing is activated. As long as this is on, a change into a
+        context in which some trigger could not be answered, or to a layer that someone else activated, is refused, and
+        so is binding such a method.
         """
         with self._sleec.held() as snapshot, _GLOBAL_LAYERS:
             _refuse_times(snapshot)
-            self._sleec.refuse_calls_without_dispatch()
+            if self._sleec.activated_globally:
+                raise SleecError("global activation is on already", "stop() it first")
+            self._sleec.allow_calls()
             for trigger in snapshot.program.number_of:
                 due_in(snapshot, (trigger,))
             layers = self._due_layers(snapshot, snapshot.program.ruleset.rules)
-            for layer in layers.values():
-                if layer is not None and layer in contextpy3._BASELAYERS:
-                    raise SleecError(f"layer {layer.name} is globally active already", "deactivate it first")
+            self._refuse_active(layers)
             self._renew(layers)
             self._end = self._sleec.listen(self._changed, self._refuse)
         return self
@@ -78,11 +80,18 @@ class GlobalActivation:
     ) -> None:
         self.stop()
 
-    @staticmethod
-    def _refuse(before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
+    def _refuse(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         _refuse_times(after)
-        for trigger in dict.fromkeys(rule.trigger for rule in rules):
+        # What a NEVER says of the context may be at odds with rules that do not mention what changed.
+        everything = before.mark is not after.mark
+        for trigger in after.program.number_of if everything else dict.fromkeys(rule.trigger for rule in rules):
             due_in(after, (trigger,))
+        self._refuse_active(self._due_layers(after, rules))
+
+    def _refuse_active(self, layers: dict[str, RuleLayer | None]) -> None:
+        for label, layer in layers.items():
+            if layer is not None and layer is not self._active.get(label) and layer in contextpy3._BASELAYERS:
+                raise SleecError(f"layer {layer.name} is globally active already", "deactivate it first")
 
     def _changed(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         layers = self._due_layers(after, rules)
@@ -107,7 +116,9 @@ class GlobalActivation:
                 contextpy3.global_activate_layer(layer)
                 self._active[label] = layer
             if old is not None:
-                contextpy3.global_deactivate_layer(old)
+                # Unless someone else did.
+                if old in contextpy3._BASELAYERS:
+                    contextpy3.global_deactivate_layer(old)
                 if layer is None:
                     del self._active[label]
 

@@ -20,8 +20,10 @@ from sleec_runtime.layers import (
     Variant,
     inherited_entries,
     is_variant,
+    layered,
     own_entries,
     select,
+    silence,
 )
 from sleec_runtime.model import Clause, Rule, Ruleset
 from sleec_runtime.obligations import (
@@ -40,12 +42,14 @@ _METHODS = (types.FunctionType, staticmethod, classmethod, LayeredMethod)
 
 
 class Method(NamedTuple):
-    """MM(R): a method's implementations, nearest definition first, and the object or class that they are bound to."""
+    """MM(R): a method's implementations, nearest definition first, and the object or class that they are bound to.
+    `attribute` is the nearest definition itself, which is what a plain call finds."""
 
     name: str
     definitions: Sequence[Sequence[Entry]]
     instance: object
     owner: type | None
+    attribute: object
 
 
 class Instance:
@@ -59,6 +63,7 @@ class Instance:
         self.layers = Layers()
         self._token = object()
         self._labels: dict[str, None] = {}
+        self._silent: frozenset[str] = frozenset()
         self._methods: dict[str, Method] = {}
         self._callables: dict[str, Callable[..., Any]] = {}
         self.takes_time: frozenset[str] = frozenset()
@@ -72,6 +77,7 @@ class Instance:
         copy.layers = self.layers
         copy._token = self._token
         copy._labels = self._labels
+        copy._silent = self._silent
         copy._methods = dict(self._methods)
         copy._callables = dict(self._callables)
         copy.takes_time = self.takes_time
@@ -83,18 +89,24 @@ class Instance:
         """Makes the rules of `ruleset` and their layers known, so that methods can be written for them."""
         self.layers.admit(ruleset)
         self._labels = {**self._labels, **dict.fromkeys(rule.label for rule in ruleset.rules)}
+        self._silent |= {rule.label for rule in ruleset.rules if any(map(_obliges_nothing, rule.clauses()))}
 
     def known(self, label: str) -> str:
         """`label`, if a rule has it. Raises UnknownLabel."""
-        if label not in self._labels:
-            raise UnknownLabel(label, self._labels)
-        return label
+        try:
+            if label in self._labels:
+                return label
+        except TypeError:  # not hashable, so no label
+            pass
+        raise UnknownLabel(label, self._labels)
 
     def mark(self, label: str) -> Callable[[F], F]:
         """The decorator that makes a method the one of rule `label`. Raises UnknownLabel.
 
         It returns what it was given, a function or ContextPy3's layered method, with a note on it: ContextPy3 finds a
-        method's earlier variants by looking at the name in the class body, and must find what it put there.
+        method's earlier variants by looking at the name in the class body, and must find what it put there. Only where
+        a hedge obliges nothing, and so may have no variant, a function becomes a layered method at once: a plain call,
+        even of a bound method that was taken from its object early, must find the layer of that hedge.
         """
         note = (self._token, self.known(label))
 
@@ -104,16 +116,19 @@ class Instance:
                     f"{method!r} cannot be the method of rule {label}",
                     "mark a function or method, above its @cop.base or @cop.around",
                 )
+            if label in self._silent and not isinstance(method, LayeredMethod):
+                method = layered(method)
             setattr(method, _MARK, (*getattr(method, _MARK, ()), note))
             return method
 
         return decorator
 
-    def bind(self, targets: Iterable[object]) -> tuple[str, ...]:
+    def bind(self, targets: Iterable[object], called: Iterable[Rule] = ()) -> tuple[str, ...]:
         """Makes the marked methods of `targets` those of their rules: all of them, or none. Returns the labels.
 
         A target is an object, a class (for its static and class methods), a module, or one function. Raises Unbindable
-        if nothing in one is marked, AlreadyBound for a second method of a rule.
+        if nothing in one is marked, or as `allow_calls` does for a rule of `called`; AlreadyBound for a second method
+        of a rule.
         """
         found: dict[str, Method] = {}
         targets = tuple(targets)
@@ -132,30 +147,35 @@ class Instance:
                     )
                 found[label] = method
             self._refuse_misplaced(marked)
+        _allow_calls(called, found, self.layers)
         self._methods.update(found)
         self.takes_time = self.takes_time.union(*map(taking_time, targets))
         self._forget(found)
         return tuple(found)
 
     def _refuse_misplaced(self, marked: Iterable[tuple[str, Method]]) -> None:
-        """Raises Unbindable for two variants on one layer, and for a variant on the layer of a rule that the method is
-        not the one of: of the first only one would ever run, the second never."""
-        own: dict[str, set[str]] = {}
+        """Raises Unbindable for two variants on one layer, and for a variant or advice on the layer of a rule that the
+        method is not the one of: of the first only one would ever run, the second never."""
+        own: dict[int, set[str]] = {}
         methods = {}
         for label, method in marked:
-            own.setdefault(method.name, set()).add(label)
-            methods[method.name] = method
-        for name, method in methods.items():
+            # By what a call of it finds: two functions of a module may have one name.
+            own.setdefault(id(method.attribute), set()).add(label)
+            methods[id(method.attribute)] = method
+        for number, method in methods.items():
             for definition in method.definitions:
                 layers = [layer for layer, _, kind in definition if is_variant(kind)]
-                for layer in layers:
-                    if layers.count(layer) > 1:
-                        on = "the base" if layer is None else f"layer {layer.name}"
-                        raise Unbindable(f"{name} has two variants on {on}", "leave one of them out")
-                    if isinstance(layer, RuleLayer) and layer.name.rpartition(".hc")[0] not in own[name]:
+                for layer, _, kind in definition:
+                    if is_variant(kind) and layers.count(layer) > 1:
+                        on = "the base" if layer is None else f"layer {getattr(layer, 'name', layer)}"
+                        raise Unbindable(f"{method.name} has two variants on {on}", "leave one of them out")
+                    # Layers of another instance are its own business: a class may serve two.
+                    if not isinstance(layer, RuleLayer) or layer is not self.layers.get(layer.name):
+                        continue
+                    if layer.name.rpartition(".hc")[0] not in own[number]:
                         raise Unbindable(
-                            f"a variant of {name} is on layer {layer.name}, and {name} is the method of "
-                            f"{' and '.join(sorted(own[name]))}",
+                            f"a variant of {method.name} is on layer {layer.name}, and {method.name} is the method of "
+                            f"{' and '.join(sorted(own[number]))}",
                             "put it on a layer of that rule, or mark the method with the other rule too",
                         )
 
@@ -214,9 +234,22 @@ class Instance:
         variants[key] = clause, variant
         return variant
 
+    def allow_calls(self, rules: Iterable[Rule]) -> None:
+        """Sees to it that a plain call of a method of `rules`, under the layers that are globally active, runs what a
+        dispatch would, and nothing where a clause without a variant obliges nothing (ContextPy3 runs the base there).
+
+        Raises Unbindable for a method that cannot be called so, because a definition in a subclass hides its variants
+        or because it has no layers at all.
+        """
+        _allow_calls(rules, self._methods, self.layers)
+
     def has_method(self, label: str) -> bool:
         """Whether a method is bound to the rule, so that no variant of it is composed of callables."""
         return label in self._methods
+
+    def given(self, name: str) -> Callable[..., Any] | None:
+        """The callable that was given to an obligation, as it was given."""
+        return self._callables.get(name)
 
     def implementation(self, name: str) -> Callable[..., Any] | None:
         """The callable that was given to an obligation, seen by recordings."""
@@ -233,31 +266,6 @@ class Instance:
         """A variant of rule `label` that calls `functions` in order, and does nothing else. They are `plain` with
         something around them."""
         return Variant(label, self.layers.of(layer), own_entries(_in_order(functions)), None, None, tuple(plain))
-
-    def refuse_calls_without_dispatch(self, rules: Iterable[Rule]) -> None:
-        """Raises Unbindable for a method of `rules` of which a plain call, under the layers that are globally active,
-        runs something else than a dispatch would: a clause without a variant (ContextPy3 runs the base there), or
-        variants that a definition in a subclass hides."""
-        for rule in rules:
-            method = self._methods.get(rule.label)
-            if method is None:
-                continue
-            for number, clause in enumerate(rule.clauses()):
-                layer = self.layers.of(rule.layer(number))
-                if select(method.definitions[:1], layer) is not None:
-                    continue
-                if select(method.definitions, layer) is not None:
-                    raise Unbindable(
-                        f"a plain call of {method.name} finds no variant for {_clause_name(rule, number)} of rule "
-                        f"{rule.label}: a definition in a subclass hides it",
-                        "write all variants in one class, or use trigger()",
-                    )
-                if layer is not None and not any(not literal.negated for literal in clause.obligations):
-                    raise Unbindable(
-                        f"a plain call of {method.name} runs the base where {_clause_name(rule, number)} decides, "
-                        "which has nothing to run",
-                        f'write an empty variant under @cop.around(sleec.layers["{layer.name}"]), or use trigger()',
-                    )
 
     def objects(self) -> list[object]:
         """The objects that methods are bound to, once each."""
@@ -285,7 +293,7 @@ class Instance:
         entries = select(method.definitions, layer)
         if entries is not None:
             return Variant(rule.label, layer, entries, method.instance, method.owner)
-        if all(literal.negated for literal in clause.obligations):
+        if _obliges_nothing(clause):
             return None
         decorator = "@cop.base" if layer is None else f'@cop.around(sleec.layers["{layer.name}"])'
         raise NotBound(
@@ -349,12 +357,46 @@ def _of_class(name: str, instance: object, owner: type) -> Method:
         isinstance(entry[1], types.FunctionType) for entries in definitions for entry in entries
     ):
         raise Unbindable(f"{owner.__name__}.{name} needs an object", f"bind an instance of {owner.__name__}")
-    return Method(name, definitions, instance, owner)
+    return Method(name, definitions, instance, owner, inspect.getattr_static(owner, name))
 
 
 def _function(function: Any) -> Method:
     definition = own_entries(function)
-    return Method(getattr(definition[0][1], "__name__", repr(function)), [definition], None, None)
+    return Method(getattr(definition[0][1], "__name__", repr(function)), [definition], None, None, function)
+
+
+def _allow_calls(rules: Iterable[Rule], methods: Mapping[str, Method], layers: Layers) -> None:
+    silent: list[tuple[Method, RuleLayer]] = []
+    for rule in rules:
+        method = methods.get(rule.label)
+        if method is None:
+            continue
+        for number, clause in enumerate(rule.clauses()):
+            layer = layers.of(rule.layer(number))
+            if select(method.definitions[:1], layer) is not None:
+                continue
+            if select(method.definitions, layer) is not None:
+                raise Unbindable(
+                    f"a plain call of {method.name} finds no variant for {_clause_name(rule, number)} of rule "
+                    f"{rule.label}: a definition in a subclass hides it",
+                    "write all variants in one class, or use trigger()",
+                )
+            if layer is None or not _obliges_nothing(clause):
+                continue
+            if not isinstance(method.attribute, LayeredMethod):
+                raise Unbindable(
+                    f"a plain call of {method.name} runs it where {_clause_name(rule, number)} decides, which has "
+                    "nothing to run",
+                    f'write an empty variant under @cop.around(sleec.layers["{layer.name}"]), or use trigger()',
+                )
+            silent.append((method, layer))
+    for method, layer in silent:
+        base = select(method.definitions, None) or ()
+        silence(method.attribute, layer, any(is_coroutine_function(function) for _, function, _ in base))
+
+
+def _obliges_nothing(clause: Clause) -> bool:
+    return all(literal.negated for literal in clause.obligations)
 
 
 def _clause_name(rule: Rule, number: int) -> str:

@@ -17,10 +17,11 @@ import contextpy3
 
 from sleec_runtime.errors import Unbindable, UnknownLayer
 from sleec_runtime.model import Ruleset
-from sleec_runtime.obligations import is_coroutine_function
+from sleec_runtime.obligations import is_coroutine_function, unrecorded
 
 _TLS: Any = contextpy3._TLS
 _AROUND: Any = contextpy3._around
+_AFTER: Any = contextpy3._after
 _NO_GUARD: Any = contextpy3._true
 LayeredMethod: Any = contextpy3._layeredmethoddescriptor
 
@@ -72,7 +73,7 @@ class Layers(Mapping[str, RuleLayer]):
 class Variant:
     """What runs for one clause: an implementation with its advice, bound to its object, and the layer it runs under."""
 
-    __slots__ = ("asynchronous", "called", "chain", "instance", "label", "layers", "owner", "proceeds_to")
+    __slots__ = ("asynchronous", "called", "chain", "fitting", "instance", "label", "layers", "owner", "proceeds_to")
 
     def __init__(
         self,
@@ -85,7 +86,9 @@ class Variant:
     ) -> None:
         """`called` are what takes the arguments in the end, where that is not the implementation itself."""
         self.label = label
-        self.called = called if called is not None else _taking_arguments(entries, owner)
+        self.called = _taking_arguments(entries, owner) if called is None else tuple(map(unrecorded, called))
+        self.fitting: set[tuple[object, ...]] = set()
+        """The shapes of arguments that these are known to take: how many, and the names of those given by name."""
         self.layers = () if layer is None else (layer,)
         self.chain: Callable[[list[Any], tuple[Any, ...], dict[str, Any]], object]
         self.chain = contextpy3._advice.createchain([(function, kind) for _, function, kind in entries])
@@ -99,10 +102,13 @@ def _taking_arguments(entries: Sequence[Entry], owner: type | None) -> tuple[Cal
     """The implementations up to the variant, as they are when its object is given: what is beyond gets its arguments
     from `proceed`."""
     found: list[Callable[..., Any]] = []
+    function: Any
     for _, function, kind in entries:
-        plain: Any = getattr(function, "__func__", function)
+        plain: Any = unrecorded(function.__func__ if isinstance(function, (staticmethod, classmethod)) else function)
         takes_object = owner is not None and not isinstance(function, staticmethod)
-        found.append(functools.partial(plain, None) if takes_object else plain)
+        # ContextPy3 gives this one argument more to advice that comes after.
+        result = {"__result__": None} if kind is _AFTER else {}
+        found.append(functools.partial(plain, *[None] * takes_object, **result))
         if kind is _AROUND:
             break
     return tuple(found)
@@ -129,6 +135,8 @@ def own_entries(attribute: object) -> list[Entry]:
         return [(None, attribute, _AROUND)]
     entries: list[Entry] = []
     for layer, function, kind, guard, *_ in attribute.get_methods():
+        if function in _SILENCES:
+            continue
         if guard is not _NO_GUARD:
             name = contextpy3.get_method_name(function)
             raise Unbindable(
@@ -137,6 +145,31 @@ def own_entries(attribute: object) -> list[Entry]:
             )
         entries.append((layer, function, kind))
     return entries[::-1]
+
+
+def layered(function: Any) -> Any:
+    """The method whose base is `function`, ready for variants: what `contextpy3.around` makes of it."""
+    return contextpy3.createlayeredmethod(function, [])
+
+
+def silence(attribute: Any, layer: RuleLayer, asynchronous: bool) -> None:
+    """Has a plain call of a layered method do nothing under `layer`, where ContextPy3 would go on to the base.
+
+    A dispatch does not see it: if the clause comes to oblige something, its variant is missing as before.
+    """
+    if not any(entry[0] is layer and entry[1] in _SILENCES for entry in attribute.get_methods()):
+        attribute.register_method(_silent_coroutine if asynchronous else _silent, _AROUND, layer)
+
+
+def _silent(*args: object, **kwargs: object) -> None:
+    return None
+
+
+async def _silent_coroutine(*args: object, **kwargs: object) -> None:
+    return None
+
+
+_SILENCES = (_silent, _silent_coroutine)
 
 
 def inherited_entries(owner: type, name: str) -> list[list[Entry]]:

@@ -9,6 +9,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.dispatch import Done, Plan, run, run_async
+from sleec_runtime.errors import WrongType
 from sleec_runtime.evaluation import Decision, Due, decide
 from sleec_runtime.obligations import Recording, recording, watched
 
@@ -61,10 +62,12 @@ class Monitor:
     def __init__(
         self, sleec: Sleec, on_difference: Callable[[Difference], object], watch: Iterable[object] = ()
     ) -> None:
+        if not callable(on_difference):
+            raise WrongType("on_difference", on_difference, "a callable", "give a function that takes a Difference")
         self._sleec = sleec
         self._on_difference = on_difference
         self._watch = tuple(watch)
-        self._watched: dict[int, object] = {}
+        self._watched: dict[int, tuple[object, set[str]]] = {}
         self._on = ExitStack()
 
     def start(self) -> Monitor:
@@ -77,14 +80,14 @@ class Monitor:
         return self
 
     def watch(self, robots: Iterable[object], obligations: Iterable[str]) -> None:
-        """Sees the executions of `robots` too, which were bound since."""
-        self._watch_with(self._on, robots, obligations)
+        """Sees the executions of `robots` too, which were bound since, and of obligations that came since."""
+        self._watch_with(self._on, (*robots, *self._watch), obligations)
 
     def _watch_with(self, until: ExitStack, robots: Iterable[object], obligations: Iterable[str]) -> None:
         for robot in robots:
-            if id(robot) not in self._watched:
-                until.enter_context(watched(robot, obligations))
-                self._watched[id(robot)] = robot
+            _, seen = self._watched.setdefault(id(robot), (robot, set()))
+            until.enter_context(watched(robot, [name for name in obligations if name not in seen]))
+            seen.update(obligations)
 
     def stop(self) -> None:
         """Dispatches under way are still looked at."""
@@ -100,7 +103,9 @@ class Monitor:
         self.stop()
 
     def run(self, plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Done:
-        """`dispatch.run`, looked at."""
+        """`dispatch.run`, looked at, unless it is refused before anything runs."""
+        plan.refuse_misfits(args, kwargs)
+        plan.refuse_coroutines()
         with recording(apart=True) as seen:
             try:
                 return run(plan, snapshot, args, kwargs)
@@ -108,7 +113,8 @@ class Monitor:
                 self._compare(plan.triggers, snapshot, seen)
 
     async def run_async(self, plan: Plan, snapshot: Snapshot, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Done:
-        """`dispatch.run_async`, looked at."""
+        """`dispatch.run_async`, looked at, unless it is refused before anything runs."""
+        plan.refuse_misfits(args, kwargs)
         with recording(apart=True) as seen:
             try:
                 return await run_async(plan, snapshot, args, kwargs)

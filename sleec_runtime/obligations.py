@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 import inspect
 import re
+import types
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, nullcontext
 from contextvars import ContextVar
@@ -141,6 +142,16 @@ def recorded(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
     return called
 
 
+def unrecorded(function: Callable[..., Any]) -> Callable[..., Any]:
+    """What `recorded` was given: the callable that takes the arguments, and can say which."""
+    if isinstance(function, types.MethodType):
+        plain = unrecorded(function.__func__)
+        return function if plain is function.__func__ else functools.partial(plain, function.__self__)
+    # By its globals, because the marks of a wrapper are copied to whatever wraps it in turn.
+    ours = getattr(function, "__globals__", None) is globals()
+    return unrecorded(function.__wrapped__) if ours and hasattr(function, "__wrapped__") else function
+
+
 def obligation_of(function: object) -> str | None:
     """The obligation that a callable is marked with."""
     name = getattr(function, _MARK, None)
@@ -194,6 +205,8 @@ def watched(robot: object, obligations: Iterable[str]) -> Iterator[None]:
     """Lets recordings see the unmarked implementations of `robot` too, by instance attributes in front of its methods,
     until the end of the block."""
     placed: list[str] = []
+    # Attributes that the object had of its own come back.
+    own = dict(getattr(robot, "__dict__", {}))
     for name, function in implementations(robot, obligations).items():
         if obligation_of(function) is None:
             if not hasattr(robot, "__dict__"):
@@ -208,4 +221,7 @@ def watched(robot: object, obligations: Iterable[str]) -> Iterator[None]:
         yield
     finally:
         for attribute in placed:
-            delattr(robot, attribute)
+            if attribute in own:
+                setattr(robot, attribute, own[attribute])
+            else:
+                delattr(robot, attribute)

@@ -76,6 +76,8 @@ class Scale:
     def check(self, measure: Measure | None) -> None:
         if measure is None or measure.kind != "scale":
             raise SleecError(f"{self.condition} has no scale", f"declare it: MEASURE {self.condition}: low < high")
+        if isinstance(self.cuts, str) or not isinstance(self.cuts, Sequence):
+            raise WrongType(self.condition, self.cuts, "given cuts, a list of numbers", "give a list: [0.3, 0.7]")
         cuts = [_number(self.condition, cut, "a cut") for cut in self.cuts]
         if len(cuts) != len(measure.values) - 1 or cuts != sorted(set(cuts)):
             raise SleecError(
@@ -101,6 +103,10 @@ class Fuzzy:
 
     def check(self, measure: Measure | None) -> None:
         _condition_only(self.condition, measure)
+        if not callable(self.membership):
+            raise WrongType(
+                self.condition, self.membership, "given a membership function", "give a trapezoid(…) or a function"
+            )
         if not 0 < _number(self.condition, self.cut, "a cut") <= 1:
             raise SleecError(f"the cut of {self.condition} is {self.cut}", "give one above 0, and at most 1")
 
@@ -159,6 +165,11 @@ class Sensors:
         self._by_sensor: dict[str, list[Predicate]] = {}
         decided: set[str] = set()
         for predicate in predicates:
+            if not isinstance(predicate, (Threshold, Scale, Fuzzy, Direct)):
+                raise WrongType("what decides", predicate, "a predicate", "give a Threshold, Scale, Fuzzy or Direct")
+            for role, name in (("condition", predicate.condition), ("sensor", predicate.sensor)):
+                if not isinstance(name, str):
+                    raise WrongType(f"the {role} of a predicate", name, "a name, a str", "give its name")
             if predicate.condition not in vocabulary:
                 raise UnknownCondition(predicate.condition, vocabulary)
             if predicate.condition in decided:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from sleec_runtime.dispatch import Done, Plan, due_in, plan, run, run_async
+from sleec_runtime.dispatch import Done, Plan, cell_of, due_in, plan, run, run_async
 from sleec_runtime.errors import NotBound, SleecError, UnknownObligation, UnknownTrigger, WrongType
 from sleec_runtime.evaluation import Due, broken_assumptions
 from sleec_runtime.instance import Instance
@@ -113,11 +113,17 @@ class Sleec:
         """Makes the marked methods of objects, classes, modules or functions those of their rules: all, or none.
 
         A method's variants are read here, so bind when all are there. Raises Unbindable if a target has no marked
-        method, AlreadyBound for a second method of a rule.
+        method, if variants of one are not each on a layer of their own rule, and, under global activation, if a plain
+        call would not dispatch it; AlreadyBound for a second method of a rule.
         """
         with self._lock:
-            self._plan_anew(self._instance.bind(targets))
-            self._watch_bound()
+            labels = self._instance.bind(targets, self.ruleset.rules if self.activated_globally else ())
+            try:
+                self._watch_bound(self._instance, self._snapshot.program)
+            except SleecError:
+                self._instance.unbind(labels)
+                raise
+            self._plan_anew(labels)
 
     def unbind(self, *labels: str) -> None:
         """Takes their methods from rules. Dispatches under way finish with them. Raises UnknownLabel."""
@@ -160,9 +166,11 @@ class Sleec:
         """The assumptions that the context breaks, if `triggers` occur in it.
 
         What was proved of the rules was proved of contexts that break none, so a robot that finds one broken has reason
-        to distrust its sensors. Rules decide in such a context as in any other.
+        to distrust its sensors. Rules decide in such a context as in any other. Raises UnknownTrigger.
         """
         snapshot = self._snapshot
+        for trigger in triggers:
+            cell_of(snapshot, trigger)
         return broken_assumptions(snapshot.program.ruleset, snapshot.context(triggers))
 
     # Triggers -------------------------------------------------------------------------------------------
@@ -346,9 +354,15 @@ class Sleec:
             if self._monitor is monitor:
                 self._monitor = None
 
-    def refuse_calls_without_dispatch(self) -> None:
-        """Raises Unbindable for a bound method that ContextPy3 would not dispatch as this runtime does."""
-        self._instance.refuse_calls_without_dispatch(self.ruleset.rules)
+    @property
+    def activated_globally(self) -> bool:
+        """Whether plain calls of bound methods are dispatched: nothing else has objections to changes."""
+        return bool(self._objections)
+
+    def allow_calls(self) -> None:
+        """Sees to it that ContextPy3 dispatches bound methods as this runtime does. Raises Unbindable for one that it
+        would not."""
+        self._instance.allow_calls(self.ruleset.rules)
 
     def bound_objects(self) -> list[object]:
         """The objects whose methods are bound to rules."""
@@ -404,15 +418,17 @@ class Sleec:
             )
         known = {name: value for name, value in before.conditions.items() if name in program.vocabulary}
         after = Snapshot.first(program, known, before.number + 1)
+        if self.activated_globally:
+            instance.allow_calls(program.ruleset.rules)
         self._object(before, after, program.ruleset.rules)
+        self._watch_bound(instance, program)
         self._keep_times(program)
         self._instance = instance
-        self._watch_bound()
         self._publish(before, after, program.ruleset.rules)
 
-    def _watch_bound(self) -> None:
+    def _watch_bound(self, instance: Instance, program: Program) -> None:
         if self._monitor is not None:
-            self._monitor.watch(self.bound_objects(), self._snapshot.program.whole.obligations)
+            self._monitor.watch(instance.objects(), program.whole.obligations)
 
     def _object(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         for objection in self._objections:

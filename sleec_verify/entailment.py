@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume, Clause, Context, Exclusive, Formula, Never, Obligation, Rule, Ruleset, Span
 from sleec_verify.checks.conflict import conflict_in
@@ -18,6 +19,9 @@ from sleec_verify.cnf import Encoder
 from sleec_verify.cone import Cones, Place, names_in, names_of_rule, obligations_in
 from sleec_verify.finding import Finding, Witness
 from sleec_verify.solver import MiniSat
+
+if TYPE_CHECKING:
+    from sleec_verify.chains import Step
 
 
 @dataclass(frozen=True)
@@ -67,6 +71,7 @@ class Entailment:
 
     Where it is not `consistent`, nothing is listed as due and `conflicts` says why. `timed` are the literals due at
     some later time; whether they can be kept with all else is not decided, and `consistent` says nothing of them.
+    `chain` is what becomes due once that is done, where it was asked for (`sleec_verify.chains`).
     `missing` are measures that were asked about and not given: comparisons with them count as false.
     """
 
@@ -79,6 +84,7 @@ class Entailment:
     broken_assumptions: tuple[Assume, ...]
     missing: tuple[str, ...]
     timed: tuple[Obligation, ...] = ()
+    chain: tuple[Step, ...] = ()
 
 
 class Definition1:

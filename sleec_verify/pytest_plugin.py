@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 _COVERAGE: pytest.StashKey[ClauseCoverage] = pytest.StashKey()
 _SUMMARIES: pytest.StashKey[list[Summary]] = pytest.StashKey()
+_SENT = "sleec_coverage"
+"""The key under which a process of pytest-xdist sends what it covered to the one that started it."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -75,10 +77,22 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
     return None
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any, error: object) -> None:
+    """A process of pytest-xdist has ended. One that crashed has sent nothing."""
+    packed = getattr(node, "workeroutput", {}).get(_SENT)
+    if packed is not None:
+        node.config.stash[_COVERAGE].add(packed)
+
+
 @pytest.hookimpl(trylast=True)
 def pytest_sessionfinish(session: pytest.Session) -> None:
     config = session.config
     if _COVERAGE not in config.stash or config.getoption("collectonly"):
+        return
+    output = getattr(config, "workeroutput", None)
+    if output is not None:  # who started this process adds up, and holds the sum against the threshold
+        output[_SENT] = config.stash[_COVERAGE].packed()
         return
     config.stash[_SUMMARIES] = summaries = _summarised(config)
     least = _fail_under(config)

@@ -91,7 +91,8 @@ def composed_units(origin: Origin, tasks: Iterable[Task]) -> tuple[Unit, ...]:
 def _refuse_misfits_of(task: Task, with_itself: bool) -> None:
     """Raises WrongArguments if what does `task`, or what may come in its place, does not take the arguments."""
     if with_itself and not task.literal.negated:
-        function = task.origin.instance.implementation(task.name)
+        # What records it takes anything.
+        function = task.origin.instance.given(task.name)
         assert function is not None, "refused before"
         _refuse_misfits(task.origin, task.name, (function,))
     for alternative in (*(task.otherwise or ()), *(task.instead or ())):

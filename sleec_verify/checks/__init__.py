@@ -12,12 +12,16 @@ from sleec_verify.checks.assumptions import ASSUMPTIONS
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.claims import CONCERN, PURPOSE
 from sleec_verify.checks.conflict import CONFLICT, Enough
+from sleec_verify.checks.constant import CONSTANT_CONDITION
 from sleec_verify.checks.dead import DEAD_HEDGE, DEAD_RULE
 from sleec_verify.checks.defects import DEFECTS
+from sleec_verify.checks.duplicate import DUPLICATE_RULE
 from sleec_verify.checks.reading import READING
 from sleec_verify.checks.redundant import REDUNDANT_HEDGE, REDUNDANT_RULE
+from sleec_verify.checks.stray import STRAY_EVENT
 from sleec_verify.checks.text import EMPTY_HEDGE, PHRASE_KEYWORD, TRIGGER_OBLIGATION, UNUSED_NAME
 from sleec_verify.checks.vacuous import VACUOUS_CONFLICT
+from sleec_verify.checks.windows import BARE_PROHIBITION, ZERO_WINDOW
 from sleec_verify.cone import Cones
 from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
 from sleec_verify.replay import replays
@@ -42,6 +46,11 @@ CHECKS: Mapping[str, Check] = {
         TRIGGER_OBLIGATION,
         PHRASE_KEYWORD,
         DEFECTS,
+        DUPLICATE_RULE,
+        STRAY_EVENT,
+        CONSTANT_CONDITION,
+        ZERO_WINDOW,
+        BARE_PROHIBITION,
         CONCERN,
         PURPOSE,
     )
@@ -53,13 +62,19 @@ Progress = Callable[[str, int, int], None]
 
 def checks_for(ruleset: Ruleset) -> list[str]:
     """The names of the checks that there are for a ruleset."""
-    # Structured English has no defects: it refuses them.
-    left_out = {DEFECTS.name} if ruleset.syntax != "dsl" else set()
+    left_out: set[str] = set()
+    if ruleset.syntax != "dsl":
+        # Structured English has no defects: it refuses them.
+        left_out.add(DEFECTS.name)
+    if ruleset.dialect != "sleec-tk":
+        left_out.add(BARE_PROHIBITION.name)
     if speaks_of_traces(ruleset):
         # There, what is done happens, and triggers what it triggers.
         left_out.add(TRIGGER_OBLIGATION.name)
     else:
         left_out |= {CONCERN.name, PURPOSE.name}
+    if not ruleset.is_timed:
+        left_out |= {STRAY_EVENT.name, ZERO_WINDOW.name}
     return [name for name in CHECKS if name not in left_out]
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
+from sleec_runtime.model import Clause, Rule, in_text_order
 from sleec_verify.checks.base import Check, FindingKind, clause_name
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
@@ -28,10 +29,14 @@ def _dead_hedges(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the hedge is dead: its guard. A model is a situation in which it decides."""
     for position, rule in enumerate(cones.rules):
         clauses = cones.clauses[position]
-        if len(clauses) == 1:
+        inside = _alternatives_with_hedges(clauses)
+        if len(clauses) == 1 and not inside:
             continue
         with Question(cones) as question:
-            for number, guard in enumerate(question.guards(position)):
+            guards = question.guards(position)
+            # All is grown before the first question.
+            nested = list(_guards_inside(question, guards, clauses)) if inside else []
+            for number, guard in enumerate(guards):
                 if number and not question.ask(guard):
                     yield DEAD_HEDGE.finding(
                         f"{clause_name(rule, number)} decides in no situation",
@@ -41,6 +46,54 @@ def _dead_hedges(cones: Cones) -> Iterator[Finding]:
                         note=_why(cones, position, number),
                         help="mend its condition, or remove it",
                     )
+            for number, hedge, guard in nested:
+                # Where the clause itself decides nowhere, that is said already.
+                if question.ask(guards[number]) and not question.ask(guard):
+                    yield DEAD_HEDGE.finding(
+                        f"a hedge of what is due in place of {_response_name(rule, number)} decides in no situation",
+                        hedge.span,
+                        rules=(rule.label,),
+                        clauses=(ClauseRef(rule.label, number),),
+                        note="hedges inside otherwise and else are decided by what holds when the rule is triggered",
+                        help="mend its condition, or remove it",
+                    )
+
+
+def _response_name(rule: Rule, number: int) -> str:
+    return f"the response of {clause_name(rule, number)}" if number else f"the response of {rule.label}"
+
+
+def _alternatives_with_hedges(clauses: Iterable[Clause]) -> bool:
+    """Whether something that is due in place of a response, or of what is due in place of it, has hedges."""
+    return any(
+        alternative.hedges or _alternatives_with_hedges(in_text_order(alternative))
+        for clause in clauses
+        for obligation in clause.obligations
+        if obligation.timing is not None
+        for alternative in obligation.timing.alternatives()
+    )
+
+
+def _guards_inside(
+    question: Question, guards: Sequence[int], clauses: Sequence[Clause]
+) -> Iterator[tuple[int, Clause, int]]:
+    """The hedges inside what is due in place of the responses of these clauses: the number of the clause, the hedge,
+    and the literal "the clause decides, and so does the hedge"."""
+    for number, (guard, clause) in enumerate(zip(guards, clauses)):
+        for hedge, decides in _hedges_inside(question, guard, clause):
+            yield number, hedge, decides
+
+
+def _hedges_inside(question: Question, guard: int, clause: Clause) -> Iterator[tuple[Clause, int]]:
+    encoder = question.encoder
+    for obligation in clause.obligations:
+        for alternative in obligation.timing.alternatives() if obligation.timing is not None else ():
+            decided = encoder.chain(alternative, question.cones.ruleset.reading)
+            for member, decides in zip(in_text_order(alternative), decided):
+                here = encoder.both(guard, decides)
+                if member is not alternative:
+                    yield member, here
+                yield from _hedges_inside(question, here, member)
 
 
 def _why(cones: Cones, position: int, number: int) -> str:

@@ -18,6 +18,7 @@ from sleec_runtime.model import (
     Number,
     Rule,
     Ruleset,
+    ScaleValue,
     Span,
     formulas_of,
     leaves,
@@ -27,12 +28,23 @@ from sleec_runtime.model import (
 
 
 def _formulas(ruleset: Ruleset) -> Iterator[Formula]:
-    yield from _beside_rules(ruleset)[1]
+    yield from formulas_beside_rules(ruleset)
     for rule in ruleset.rules:
         yield from formulas_of(rule)
     for constraint in ruleset.constraints:
         if isinstance(constraint, (Never, Assume)):
             yield constraint.formula
+
+
+def formulas_beside_rules(ruleset: Ruleset) -> list[Formula]:
+    """The conditions of concerns, purposes and relations."""
+    return _beside_rules(ruleset)[1]
+
+
+def events_of_rules(ruleset: Ruleset) -> set[str]:
+    """The events that trigger rules, or that rules call for or forbid."""
+    triggers = {rule.trigger for rule in ruleset.rules}
+    return triggers | {o.name for rule in ruleset.rules for clause in rule.clauses() for o in literals(clause)}
 
 
 def _beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Number | MeasureRef]]:
@@ -77,6 +89,9 @@ def constants_used(ruleset: Ruleset) -> set[str]:
                 for side in (leaf.left, leaf.right):
                     if isinstance(side, Number) and side.constant is not None:
                         used.add(side.constant)
+                    elif isinstance(side, ScaleValue):
+                        # A constant that a scale is compared with is a defect, and used.
+                        used.add(side.value)
     return used
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import click
@@ -37,7 +38,8 @@ def command(
 ) -> int:
     """What the rules in FILE oblige in one situation (- for standard input).
 
-    Where the rules contradict one another in it, nothing is due, the conflict is shown, and the exit code is 1.
+    Where the rules contradict one another in it, nothing is due, the conflict is shown, and the exit code is 1. What is
+    done may be a trigger, too: what becomes due once it is done is shown as a tree.
     """
     from sleec_verify.report import entailment
     from sleec_verify.report.palette import Palette
@@ -51,6 +53,7 @@ def ask(
     path: str, when: tuple[str, ...], given: tuple[str, ...], domain: str | None, reading: Reading | None
 ) -> tuple[Ruleset, Context, Entailment]:
     """The ruleset (its rules in `domain`), the situation that the options describe, and what is due in it."""
+    from sleec_verify.chains import chain
     from sleec_verify.entailment import entail
     from sleec_verify.situation import parse_situation
 
@@ -60,4 +63,5 @@ def ask(
         note_mixed_domains(ruleset)
     else:
         ruleset = ruleset.in_domain(domain)
-    return ruleset, context, entail(ruleset, context)
+    answer = entail(ruleset, context)
+    return ruleset, context, replace(answer, chain=chain(ruleset, context, answer))

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from sleec_verify.chains import lines
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.words import listed
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
+    from sleec_verify.chains import Step
     from sleec_verify.entailment import Entailment
     from sleec_verify.report.json import Json
     from sleec_verify.report.palette import Palette
@@ -30,6 +32,7 @@ def _full(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[st
         line = source.place(because.span).line
         says = " AND ".join(because.in_words()) or "nothing"
         yield f"  {because.layer or because.rule} ({source.path}:{line}): {says}\n"
+    yield from once_done(answer, palette)
     yield from caveats(ruleset, answer, palette)
     yield f"reading: {ruleset.reading}\n"
 
@@ -66,9 +69,39 @@ def _json(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[st
         said["broken_assumptions"] = [span_json(assume.span, source) for assume in answer.broken_assumptions]
     if answer.timed:
         said["timed"] = [{"obligation": o.name, "negated": o.negated, "when": str(o.timing)} for o in answer.timed]
+    if answer.chain:
+        said["chain"] = _chain_json(answer.chain)
     if answer.missing:
         said["missing"] = list(answer.missing)
     yield dump(said)
+
+
+def once_done(answer: Entailment, palette: Palette) -> Iterator[str]:
+    """What becomes due once what is due is done, where anything does."""
+    if answer.chain:
+        yield f"{palette('strong', 'once that is done')}:\n"
+        yield from (line + "\n" for line in lines(answer.chain))
+
+
+def _chain_json(steps: tuple[Step, ...]) -> Json:
+    return [
+        {
+            "obligation": step.name,
+            "cycle": step.cycle,
+            "seen": step.seen,
+            "forbidden_by": list(step.forbidden),
+            "then": [
+                {
+                    "rule": because.rule,
+                    "clause": because.clause,
+                    "obligations": list(because.obligations),
+                    "chain": _chain_json(done),
+                }
+                for because, done in step.clauses
+            ],
+        }
+        for step in steps
+    ]
 
 
 def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
@@ -81,7 +114,8 @@ def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[
         )
     if answer.timed:
         yield (
-            f"{palette('note', 'note')}: whether what is due at other times can be kept with it is not decided yet\n"
+            f"{palette('note', 'note')}: what is due at other times is not weighed here; `sleec-verify check` tells "
+            "whether it can all be kept\n"
         )
     if answer.missing:
         yield (

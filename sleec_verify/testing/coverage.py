@@ -6,16 +6,15 @@ Every dispatch of every instance is noted while this is on; what calls layered m
 from __future__ import annotations
 
 import os
+import pickle
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from sleec_runtime import dispatch, monitor, runtime
 from sleec_runtime.evaluation import holds
-from sleec_runtime.language import print_formula
-from sleec_runtime.model import Rule, Ruleset
+from sleec_runtime.model import Atom, Comparison, Rule, Ruleset
 from sleec_verify.cases.goals import conditions_of
-from sleec_verify.cases.reach import reachable_clauses
 from sleec_verify.finding import ClauseRef
 
 _paused = 0
@@ -42,15 +41,18 @@ class Covered:
         self.active: set[ClauseRef] = set()
         self.vectors: dict[str, dict[Vector, int | None]] = {}
 
-    def reachable(self) -> frozenset[ClauseRef]:
-        return reachable_clauses(self.ruleset)
+    def add(self, other: Covered) -> None:
+        """Counts also what was seen elsewhere of the same ruleset."""
+        self.active |= other.active
+        for label, seen in other.vectors.items():
+            self.vectors.setdefault(label, {}).update(seen)
 
-    def undecided(self, rule: Rule) -> list[str]:
+    def undecided(self, rule: Rule) -> list[Atom | Comparison]:
         """The conditions of `rule` that no two dispatches show to decide alone: which differ in it only, and in the
         active clause (MC/DC, with the rule as the decision)."""
         seen = self.vectors.get(rule.label, {})
         return [
-            print_formula(condition)
+            condition
             for place, condition in enumerate(conditions_of(rule))
             if not any(
                 seen.get((*v[:place], not v[place], *v[place + 1 :]), outcome) != outcome for v, outcome in seen.items()
@@ -91,6 +93,15 @@ class ClauseCoverage:
     def all(self) -> list[Covered]:
         """Every ruleset that was seen, once, by its path."""
         return sorted({id(c): c for c in self._by_identity.values()}.values(), key=lambda c: c.ruleset.source.path)
+
+    def packed(self) -> bytes:
+        """All that was noted, for `add` in another process of the same run."""
+        return pickle.dumps(self.all())
+
+    def add(self, packed: bytes) -> None:
+        """Counts also what another process of this run noted."""
+        for covered in pickle.loads(packed):
+            self.about(covered.ruleset).add(covered)
 
     def note(self, plan: dispatch.Plan, snapshot: Any) -> None:
         if _paused:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from sleec_runtime.language import print_formula
 from sleec_verify.cases.goals import conditions_of
+from sleec_verify.cases.reach import deciding_conditions, reachable_clauses
 from sleec_verify.finding import ClauseRef
 from sleec_verify.testing.coverage import Covered
 
@@ -15,15 +17,26 @@ class Summary:
     def __init__(self, covered: Covered, mcdc: bool) -> None:
         ruleset = covered.ruleset
         every = [ClauseRef(rule.label, n) for rule in ruleset.rules for n, _ in enumerate(rule.clauses())]
-        reachable = covered.reachable()
+        reachable = reachable_clauses(ruleset)
         self.path = ruleset.source.path
         self.reachable = [ref for ref in every if ref in reachable]
         self.unreachable = [ref for ref in every if ref not in reachable]
         self.never = [ref for ref in self.reachable if ref not in covered.active]
-        self.conditions = sum(len(conditions_of(rule)) for rule in ruleset.rules) if mcdc else 0
-        self.undecided = (
-            [(rule.label, name) for rule in ruleset.rules for name in covered.undecided(rule)] if mcdc else []
-        )
+        self.conditions = 0
+        self.undecided: list[str] = []
+        self.undecidable: list[str] = []
+        if mcdc:
+            deciding = deciding_conditions(ruleset)
+            for rule in ruleset.rules:
+                never = covered.undecided(rule)
+                for condition in conditions_of(rule):
+                    name = f"{print_formula(condition)} in {rule.label}"
+                    if (rule.label, condition) not in deciding:
+                        self.undecidable.append(name)
+                        continue
+                    self.conditions += 1
+                    if condition in never:
+                        self.undecided.append(name)
 
     @property
     def goals(self) -> int:
@@ -41,7 +54,8 @@ class Summary:
         if self.conditions:
             shown = self.conditions - len(self.undecided)
             yield f"  MC/DC: {shown} of {self.conditions} conditions decided ({percent(shown, self.conditions)})"
-            yield from (f"  never decides: {name} in {label}" for label, name in self.undecided)
+        yield from (f"  never decides: {name}" for name in self.undecided)
+        yield from (f"  cannot decide: {name}" for name in self.undecidable)
 
 
 def percent(part: int, whole: int) -> str:

@@ -251,6 +251,63 @@ def test_an_unreachable_clause_is_no_goal(run, pytester: pytest.Pytester) -> Non
     assert result.ret == pytest.ExitCode.OK
 
 
+def test_a_condition_that_can_never_decide_is_no_goal(run, pytester: pytest.Pytester) -> None:
+    pytester.makepyfile(
+        test_ages="""
+        def test(sleec):
+            for age in (2, 3):
+                sleec.update({"Age": age})
+                sleec.trigger("T")
+        """
+    )
+    ages = "MEASURE Age: number\nRULE r WHEN T THEN o UNLESS Age < 3 IN WHICH CASE p UNLESS Age < 5 IN WHICH CASE q\n"
+    options = ("--sleec-ruleset", "ages.sleec", "--sleec-cov-mcdc", "--sleec-cov-fail-under", "100")
+    result = run("test_ages.py", *options, ages_sleec=ages)
+    result.stdout.fnmatch_lines(["  MC/DC: 1 of 1 conditions decided (100.0 %)", "  cannot decide: Age < 5 in r"])
+    assert result.ret == pytest.ExitCode.OK
+
+
+WORKER = """
+def pytest_configure(config):
+    config.workeroutput = {}
+
+def pytest_unconfigure(config):
+    with open("sent.txt", "a") as file:
+        print(repr(config.workeroutput), file=file)
+"""
+STARTER = """
+from types import SimpleNamespace
+
+def pytest_sessionstart(session):
+    config = session.config
+    for line in open("sent.txt"):
+        config.hook.pytest_testnodedown(node=SimpleNamespace(config=config, workeroutput=eval(line)), error=None)
+    config.hook.pytest_testnodedown(node=SimpleNamespace(config=config), error="crashed")
+"""
+
+
+def test_coverage_is_of_all_processes_together(run, pytester: pytest.Pytester) -> None:
+    """As pytest-xdist does it, with its processes one after the other."""
+    pytester.makepyfile(test_house=TESTS)
+    options = ("test_house.py", "--sleec-ruleset", "house.sleec", "--sleec-cov-mcdc", "--sleec-cov-fail-under", "40")
+    for part in ("open", "refuse"):
+        result = run(*options, "-k", part, conftest_py=WORKER)
+        assert "clause coverage" not in result.stdout.str()  # nor is it measured against the bound
+        assert result.ret == pytest.ExitCode.OK
+    result = run(*options, "-k", "none of them", conftest_py=STARTER)
+    result.stdout.fnmatch_lines(["*house.sleec: 2 of 4 clauses active (50.0 %)", "  MC/DC: 1 of 4 conditions*"])
+    assert "FAIL" in result.stdout.str()  # 3 of 8 goals
+
+
+def test_coverage_with_xdist(run, pytester: pytest.Pytester) -> None:
+    pytest.importorskip("xdist")
+    pytester.makepyfile(test_house=TESTS)
+    options = ("--sleec-ruleset", "house.sleec", "--sleec-cov-fail-under", "50")
+    result = run("-n", "2", "-p", "xdist", "test_house.py", *options)
+    result.stdout.fnmatch_lines(["*house.sleec: 2 of 4 clauses active (50.0 %)"])
+    assert result.ret == pytest.ExitCode.OK
+
+
 def test_fixtures_say_what_is_missing(run, pytester: pytest.Pytester) -> None:
     pytester.makepyfile(test_house=TESTS)
     result = run("test_house.py")
@@ -265,7 +322,7 @@ def test_cases_of_other_tools_are_left_alone(run) -> None:
         result.assert_outcomes(passed=ITEMS)
         assert "other.cases.toml" not in result.stdout.str()
     elsewhere = 'ruleset = "house.sleec"\n' + CASES
-    run(".", other_cases_toml=elsewhere).assert_outcomes(passed=16)
+    run(".", other_cases_toml=elsewhere).assert_outcomes(passed=ITEMS + 2)
 
 
 def test_a_ruleset_that_is_not_there_is_a_usage_error(run, pytester: pytest.Pytester) -> None:

@@ -6,10 +6,16 @@
 from __future__ import annotations
 
 import asyncio
+import functools
+import inspect
+import types
+from collections.abc import Callable
+from typing import Any
 
 import contextpy3 as cop
 import pytest
 
+from sleec_runtime import Monitor, obligation
 from sleec_runtime.errors import Unbindable, WrongArguments
 from tests.runtime.robots import running
 
@@ -121,3 +127,156 @@ def test_two_variants_on_one_layer_are_refused() -> None:
     with pytest.raises(Unbindable, match=r"on layer r2\.hc1, and method is the method of r1"):
         sleec.bind(Astray())
     assert set(sleec.missing()) == {"r1", "r2"}
+
+    class Advised:
+        @sleec.rule("r1")
+        @cop.base
+        def method(self) -> None: ...
+
+        @cop.before(sleec.layers["r2.hc1"])
+        def method(self) -> None: ...
+
+    with pytest.raises(Unbindable, match=r"on layer r2\.hc1, and method is the method of r1"):
+        sleec.bind(Advised())
+
+    elsewhere = cop.Layer("elsewhere")
+
+    class TwiceElsewhere:
+        @sleec.rule("r1")
+        @cop.base
+        def method(self) -> None: ...
+
+        @cop.around(elsewhere)
+        def method(self) -> None: ...
+
+        @cop.around(elsewhere)
+        def method(self) -> None: ...
+
+    with pytest.raises(Unbindable, match="two variants on layer <layer elsewhere>"):
+        sleec.bind(TwiceElsewhere())
+
+
+def test_functions_of_one_name_are_looked_at_each_for_itself() -> None:
+    sleec = running("RULE r1 WHEN a THEN o1\nRULE r2 WHEN b THEN o1 UNLESS c IN WHICH CASE o2")
+
+    def made(label: str) -> object:
+        @sleec.rule(label)
+        @cop.base
+        def method() -> None: ...
+
+        @cop.around(sleec.layers["r2.hc1"])
+        def method() -> None: ...
+
+        return method
+
+    module = types.ModuleType("module")
+    vars(module).update(first=made("r1"), second=made("r2"))
+    with pytest.raises(Unbindable, match=r"on layer r2\.hc1, and method is the method of r1"):
+        sleec.bind(module)
+
+
+def test_a_class_may_serve_two_instances() -> None:
+    one = running("RULE r1 WHEN a THEN o1 UNLESS c IN WHICH CASE o2")
+    two = running("RULE r2 WHEN a THEN o1 UNLESS c IN WHICH CASE o2")
+
+    class Shared:
+        @one.rule("r1")
+        @two.rule("r2")
+        @cop.base
+        def method(self) -> None: ...
+
+        @cop.around(one.layers["r1.hc1"])
+        def method(self) -> None: ...
+
+        @cop.around(two.layers["r2.hc1"])
+        def method(self) -> None: ...
+
+    for sleec in (one, two):
+        sleec.bind(Shared())
+        assert not sleec.missing()
+
+
+def test_what_a_decorator_wraps_does_not_say_what_it_takes() -> None:
+    sleec = running(TWO)
+    done: list[object] = []
+
+    def with_a_reason(function: Callable[[str, str], None]) -> Callable[[str], None]:
+        @functools.wraps(function)
+        def wrapper(message: str) -> None:
+            function("a reason", message)
+
+        return wrapper
+
+    @obligation("o2")
+    @with_a_reason
+    def second(reason: str, message: str) -> None:
+        done.append((reason, message))
+
+    @with_a_reason
+    @obligation("o1")
+    def first(reason: str, message: str) -> None:
+        done.append((reason, message))
+
+    sleec.implement({"o1": first, "o2": second})
+    sleec.trigger("a", "please")
+    assert done == [("a reason", "please")] * 2
+    with pytest.raises(WrongArguments, match="r1"):
+        sleec.trigger("a", "a reason", "please")
+
+
+def test_marked_implementations_are_asked_whatever_sees_them() -> None:
+    sleec = running(TWO)
+    done: list[str] = []
+
+    class Robot:
+        def o1(self, *args: object) -> None:
+            done.append("o1")
+
+        @obligation("o2")
+        def second(self) -> None:
+            done.append("o2")
+
+    robot = Robot()
+    with Monitor(sleec, print, watch=[robot]):
+        sleec.implement(robot)
+        with pytest.raises(WrongArguments, match="second, the code of rule r2"):
+            sleec.trigger("a", "please")
+        assert done == []
+        sleec.trigger("a")
+    assert done == ["o1", "o2"]
+
+
+def test_advice_after_a_variant_is_given_its_result() -> None:
+    sleec = running("RULE r1 WHEN a THEN o1")
+
+    class Robot:
+        @sleec.rule("r1")
+        @cop.base
+        def method(self, message: str) -> str:
+            return message
+
+        @cop.after()
+        def method(self, message: str, __result__: str) -> str:
+            return __result__ + "!"
+
+    sleec.bind(Robot())
+    assert sleec.trigger("a", "please").results == {"r1": "please!"}
+    with pytest.raises(WrongArguments):
+        sleec.trigger("a", "please", "now")
+
+
+def test_a_signature_is_read_once_and_not_once_a_context(monkeypatch: pytest.MonkeyPatch) -> None:
+    sleec = running("RULE r1 WHEN a THEN o1 UNLESS c IN WHICH CASE o2")
+    sleec.implement({"o1": lambda message: None, "o2": lambda message: None})
+    read: list[object] = []
+    signature = inspect.signature
+
+    def reading(function: Callable[..., object], **options: Any) -> inspect.Signature:
+        read.append(function)
+        return signature(function, **options)
+
+    monkeypatch.setattr(inspect, "signature", reading)
+    for turn in range(10):
+        sleec.update({"c": turn % 2 == 0})
+        sleec.trigger("a", "please")
+    assert len(read) == 2

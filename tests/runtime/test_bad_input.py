@@ -9,9 +9,9 @@ from collections.abc import Callable
 import pytest
 
 import sleec_runtime
-from sleec_runtime import Sensors, Sleec, errors
+from sleec_runtime import Monitor, Sensors, Sleec, errors
 from sleec_runtime.model import Clause, Obligation, Rule, Ruleset
-from sleec_runtime.predicates import Fuzzy, Threshold
+from sleec_runtime.predicates import Fuzzy, Scale, Threshold
 from tests.runtime.robots import CURTAINS, Log, listing_2, running
 
 TEXT = f"""
@@ -121,6 +121,27 @@ CASES: dict[str, Case] = {
         errors.SleecError,
         "Sensors(…) has radar",
     ),
+    "no predicate": (lambda s: Sensors(s, "UserUndressed"), errors.WrongType, "give a Threshold"),
+    "no name for the sensor": (
+        lambda s: Sensors(s, Threshold("UserUndressed", ["radar"], at_least=3)),
+        errors.WrongType,
+        "the sensor of a predicate is a name",
+    ),
+    "no membership function": (
+        lambda s: Sensors(s, Fuzzy("UserUndressed", "radar", 0.5)),
+        errors.WrongType,
+        "give a trapezoid(…)",
+    ),
+    "no list of cuts": (lambda s: Sensors(s, Scale("Risk", "radar", 3)), errors.WrongType, "give a list"),
+    "no callback": (lambda s: Monitor(s, 5), errors.WrongType, "takes a Difference"),
+    "list for label": (lambda s: s.rule(["dress_assist"]), errors.UnknownLabel, "give the name of a rule"),
+    "list to unbind": (lambda s: s.unbind(["dress_assist"]), errors.UnknownLabel, "give the name of a rule"),
+    "assumptions of an unknown trigger": (
+        lambda s: s.broken_assumptions("Visits"),
+        errors.UnknownTrigger,
+        "did you mean Visit",
+    ),
+    "number for obligation": (lambda s: s.implement({5: print}), errors.UnknownObligation, "name of an obligation"),
     "no readings": (lambda s: Sensors(s).update(None), errors.WrongType, "give a dict"),
     "no method": (lambda s: s.trigger("Visit"), errors.NotBound, "implement() the obligations"),
 }

@@ -5,10 +5,12 @@
 
 from __future__ import annotations
 
+import asyncio
+
 import contextpy3 as cop
 import pytest
 
-from sleec_runtime.errors import ConflictInContext, SleecError, Unbindable
+from sleec_runtime.errors import ConflictInContext, NotBound, SleecError, Unbindable
 from sleec_runtime.language import parse
 from tests.runtime.robots import CURTAINS, Log, listing_2, running
 
@@ -133,8 +135,9 @@ def test_a_change_into_a_conflicting_context_is_refused_whole() -> None:
     sleec.update({"d": True})
 
 
-def test_a_hedge_that_obliges_nothing_needs_a_variant_that_does_nothing() -> None:
-    sleec = running("RULE r WHEN a THEN o1 UNLESS c")
+@pytest.mark.parametrize("hedge", ["UNLESS c", "UNLESS c IN WHICH CASE NOT o1"])
+def test_a_hedge_that_obliges_nothing_runs_nothing_without_a_variant(hedge: str) -> None:
+    sleec = running(f"RULE r WHEN a THEN o1 {hedge}")
 
     class Robot(Log):
         @sleec.rule("r")
@@ -143,13 +146,25 @@ def test_a_hedge_that_obliges_nothing_needs_a_variant_that_does_nothing() -> Non
             self.do("o1")
 
     robot = Robot()
+    taken_early = robot.method
     sleec.bind(robot)
-    with pytest.raises(Unbindable, match=r"runs the base where r\.hc1 decides"):
-        sleec.activate_globally()
-    assert cop._BASELAYERS == (None,)
-    sleec.unbind("r")
+    for _ in range(2):
+        with sleec.activate_globally():
+            sleec.update({"c": True})
+            assert called(robot, "method") == []
+            taken_early()
+            assert robot.taken() == []
+            sleec.trigger("a")
+            assert robot.taken() == []
+            sleec.update({"c": False})
+            assert called(robot, "method") == ["o1"]
+    assert len(vars(Robot)["method"].get_methods()) == 2
 
-    class Silent(Log):
+
+def test_it_runs_nothing_beside_other_variants_on_coroutines_and_in_subclasses() -> None:
+    sleec = running("RULE r WHEN a THEN o1 UNLESS c IN WHICH CASE o2 UNLESS d\nRULE s WHEN b THEN o3 UNLESS d")
+
+    class Robot(Log):
         @sleec.rule("r")
         @cop.base
         def method(self) -> None:
@@ -157,15 +172,61 @@ def test_a_hedge_that_obliges_nothing_needs_a_variant_that_does_nothing() -> Non
 
         @cop.around(sleec.layers["r.hc1"])
         def method(self) -> None:
-            pass
+            self.do("o2")
 
-    silent = Silent()
-    sleec.bind(silent)
+        @sleec.rule("s")
+        async def other(self) -> None:
+            self.do("o3")
+
+    class Heir(Robot):
+        pass
+
+    robot = Heir()
+    with sleec.activate_globally():
+        sleec.bind(robot)
+        sleec.update({"c": True})
+        assert called(robot, "method") == ["o2"]
+        asyncio.run(robot.other())
+        assert robot.taken() == ["o3"]
+        sleec.update({"d": True})
+        assert called(robot, "method") == []
+        asyncio.run(robot.other())
+        assert robot.taken() == []
+
+
+def test_what_is_silenced_still_lacks_its_variant_when_the_hedge_comes_to_oblige_something() -> None:
+    sleec = running("RULE r WHEN a THEN o1 UNLESS c")
+
+    @sleec.rule("r")
+    def method() -> None: ...
+
+    sleec.bind(method)
     with sleec.activate_globally():
         sleec.update({"c": True})
-        assert called(silent, "method") == []
-        sleec.update({"c": False})
-        assert called(silent, "method") == ["o1"]
+        with pytest.raises(NotBound, match=r"no variant for r\.hc1"):
+            sleec.replace(parse("RULE r WHEN a THEN o1 UNLESS c IN WHICH CASE o2"))
+
+
+def test_a_function_without_layers_is_refused_where_a_hedge_comes_to_oblige_nothing() -> None:
+    sleec = running("RULE r WHEN a THEN o1")
+
+    @sleec.rule("r")
+    def method() -> None: ...
+
+    sleec.bind(method)
+    with sleec.activate_globally():
+        with pytest.raises(Unbindable, match=r"runs it where r\.hc1 decides"):
+            sleec.replace(parse("RULE r WHEN a THEN o1 UNLESS c"))
+        assert not sleec.ruleset.by_label["r"].hedges
+
+
+def test_a_never_about_the_context_is_at_odds_with_rules_that_do_not_mention_what_changed() -> None:
+    sleec = running("NEVER o1 AND c\nRULE r WHEN a THEN o1\nRULE q WHEN b THEN o2 UNLESS c IN WHICH CASE o3")
+    with sleec.activate_globally():
+        with pytest.raises(ConflictInContext):
+            sleec.update({"c": True})
+        assert dict(sleec.conditions) == {}
+        assert cop._BASELAYERS == (None,)
 
 
 def test_an_override_that_hides_the_variants_is_refused() -> None:
@@ -180,3 +241,27 @@ def test_an_override_that_hides_the_variants_is_refused() -> None:
     sleec.bind(Hiding())
     with pytest.raises(Unbindable, match="a definition in a subclass hides it"):
         sleec.activate_globally()
+    sleec.unbind("dress_assist")
+    with sleec.activate_globally():
+        with pytest.raises(Unbindable, match="a definition in a subclass hides it"):
+            sleec.bind(Hiding())
+        assert "dress_assist" in sleec.missing()
+        sleec.bind(robot)
+
+
+def test_it_is_on_once_and_gives_way_to_no_one() -> None:
+    sleec = running("RULE r WHEN a THEN o1 UNLESS c IN WHICH CASE o2")
+    layer = sleec.layers["r.hc1"]
+    with sleec.activate_globally():
+        with pytest.raises(SleecError, match="on already"):
+            sleec.activate_globally()
+        cop.global_activate_layer(layer)
+        with pytest.raises(SleecError, match=r"layer r\.hc1 is globally active already"):
+            sleec.update({"c": True})
+        assert dict(sleec.conditions) == {}
+        cop.global_deactivate_layer(layer)
+        sleec.update({"c": True})
+        assert layer in cop._BASELAYERS
+        cop.global_deactivate_layer(layer)
+        sleec.update({"c": False})
+    assert cop._BASELAYERS == (None,)

@@ -12,7 +12,8 @@ import pytest
 
 import sleec_runtime
 from sleec_runtime import Monitor, Sleec, recording
-from sleec_runtime.errors import SleecError, Unbindable
+from sleec_runtime.errors import NeedsAwait, SleecError, Unbindable, WrongArguments
+from sleec_runtime.language import parse
 from sleec_runtime.monitor import Difference
 from tests.runtime.robots import CURTAINS, listing_2, running
 
@@ -29,6 +30,10 @@ class Hand:
     def ask(self) -> None: ...
 
     def wait(self) -> None: ...
+
+    def nod(self) -> None: ...
+
+    def bow(self) -> None: ...
 
 
 def hand_that_does(sleec: Sleec, *names: str) -> Hand:
@@ -172,6 +177,66 @@ def test_it_sees_what_is_bound_while_it_is_on(sleec: Sleec) -> None:
         sleec.trigger("a")
     assert [difference.missing for difference in found] == [("Say",)]
     assert vars(robot) == {}
+
+
+def test_it_sees_obligations_that_come_with_a_replaced_ruleset(sleec: Sleec) -> None:
+    robot = hand_that_does(sleec, "open", "say")
+    helper = Hand()
+    grown = parse(RULES + "\nRULE r3 WHEN d THEN Nod AND Bow")
+    found: list[Difference] = []
+    with Monitor(sleec, found.append, watch=[helper]):
+        sleec.prepare(grown)
+
+        @sleec.rule("r3")
+        def request() -> None:
+            robot.nod()
+            helper.bow()
+
+        sleec.replace(grown, bind=[request])
+        sleec.trigger("a")
+        sleec.trigger("d")
+    assert found == []
+
+
+def test_a_trigger_that_is_refused_before_anything_runs_is_no_difference(sleec: Sleec) -> None:
+    async def wait(*args: object) -> None: ...
+
+    hand_that_does(sleec, "open", "say")
+    sleec.implement({"Wait": wait})
+    found: list[Difference] = []
+    with Monitor(sleec, found.append):
+        with pytest.raises(WrongArguments):
+            sleec.trigger("a", "please")
+        with pytest.raises(WrongArguments):
+            asyncio.run(sleec.trigger_async("a", "please"))
+        with pytest.raises(NeedsAwait):
+            sleec.trigger("b")
+    assert found == []
+
+
+def test_it_gives_back_the_attributes_that_it_stood_in_for(sleec: Sleec) -> None:
+    robot = hand_that_does(sleec, "open", "say")
+    done: list[str] = []
+    robot.say = mine = lambda: done.append("mine")  # type: ignore[method-assign]
+    with Monitor(sleec, print):
+        sleec.trigger("a")
+    assert vars(robot) == {"say": mine}
+    assert done == ["mine"]
+
+
+def test_what_cannot_be_watched_is_not_bound(sleec: Sleec) -> None:
+    class Slots:
+        __slots__ = ()
+
+        @sleec.rule("r1")
+        def request(self) -> None: ...
+
+        def open(self) -> None: ...
+
+    with Monitor(sleec, print):
+        with pytest.raises(Unbindable, match="takes no attributes"):
+            sleec.bind(Slots())
+        assert "r1" in sleec.missing()
 
 
 def test_it_leaves_no_trace(sleec: Sleec) -> None:

@@ -59,7 +59,9 @@ def unknown(found):
 def test_all_is_decided(response):
     found = verdicts(text(response))
     # What is done happens there, so a name that is both is nothing to note.
-    assert set(found) == set(CHECKS) - {"trigger-obligation"}
+    assert "trigger-obligation" not in found
+    # And some are for windows, or for SLEEC-TK's dialect, only.
+    assert set(CHECKS) - set(found) <= {"trigger-obligation", "bare-prohibition", "stray-event", "zero-window"}
     assert unknown(found) == []
     assert [f.rules for f in found["dead-rule"].findings] == [("R4",)]
     assert [f.rules for f in found["dead-hedge"].findings] == [("R3",)]

@@ -138,6 +138,8 @@ class Flow(ABC):
         # A handler that raises again lets no exception pass: what follows runs only if the whole body did.
         catching = [handler for handler in node.handlers if not always_raises(handler.body)]
         caught = "under `try`" if catching else None
+        if any(isinstance(inner, ast.Return) for part in node.finalbody for inner in (part, *own_nodes(part))):
+            caught = "under a `try` whose `finally` returns, whatever was raised"
         body = self.statements(node.body, why or caught)
         ways = []
         for handler in node.handlers:

@@ -34,6 +34,9 @@ from sleec_verify.conformance.structure.values import (
 _MOST_CALLS = 2_000
 _CHANGES = {"update", "replace"}
 """What a runtime, or what reads its sensors, is told to change the context or the rules by."""
+_TRIGGERS = {"trigger", "trigger_all"}
+_TRIGGERS_ASYNC = {"trigger_async", "trigger_all_async"}
+"""What a runtime is told to trigger by: the names come first."""
 REPLACERS = {f"builtins.{name}" for name in ("exec", "eval", "compile", "__import__", "globals", "locals", "vars")}
 
 
@@ -259,12 +262,16 @@ class _Body(Flow):
         method, trace = node.func.attr, self.run.trace
         if method in _CHANGES:
             trace.changed = True
-        elif method == "trigger" or (method == "trigger_async" and awaited):
+        elif node.args and (method in _TRIGGERS or (method in _TRIGGERS_ASYNC and awaited)):
             owner = self.value(node.func.value)
-            name = self.value(node.args[0]) if node.args else None
             runtime = isinstance(owner, Runtime) or maybe_runtime(owner)
-            if runtime and isinstance(name, Text) and why is None and not trace.changed:
-                trace.triggers.append((name.value, node, self.file))
+            if not runtime or why is not None or trace.changed:
+                return
+            first = node.args[0]
+            for part in first.elts if isinstance(first, (ast.List, ast.Tuple, ast.Set)) else (first,):
+                name = self.value(part)
+                if isinstance(name, Text):
+                    trace.triggers.append((name.value, node, self.file))
 
     def _own_attribute(self, node: ast.expr) -> str | None:
         """The obligation that an attribute implements which the robot's methods assign: whatever it is, by its name."""
@@ -343,7 +350,7 @@ class _Body(Flow):
             self.run.doubt(node, self.file, f"which definition of {function.name} this calls is known only at run time")
             return
         if isinstance(function.node, ast.AsyncFunctionDef) and not awaited:
-            why = why or "not awaited, so that nothing of it is run"
+            why = why or "not awaited here, so that it may never be run"
         name = self._implemented(function, value.receiver)
         if name is not None:
             self.run.tracer.implementations[function] = name

@@ -1,0 +1,53 @@
+"""Rules that say word for word what an earlier one says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sleec_runtime.model import Rule
+from sleec_verify.checks.base import Check, FindingKind
+from sleec_verify.cone import Cones
+from sleec_verify.finding import Finding
+
+
+def _duplicates(cones: Cones) -> Iterator[Finding]:
+    seen: dict[object, list[Rule]] = {}
+    for rule in cones.rules:
+        alike = seen.setdefault((rule.trigger, rule.guard, rule.default, rule.hedges), [])
+        first = next((other for other in alike if _share_a_domain(rule, other)), None)
+        alike.append(rule)
+        if first is None:
+            continue
+        where = first.label_span if first.labelled else first.span
+        yield DUPLICATE_RULE.finding(
+            f"{rule.label} says the same as {first.label}",
+            rule.label_span if rule.labelled else rule.span,
+            rules=(rule.label, first.label),
+            help="remove one of them, or mend the one that was meant to say something else",
+            related=((where, "the same rule"),),
+        )
+
+
+def _share_a_domain(one: Rule, other: Rule) -> bool:
+    if one.domains is None or other.domains is None:
+        return True
+    return not set(one.domains).isdisjoint(other.domains)
+
+
+DUPLICATE_RULE = Check(
+    "duplicate-rule",
+    "Does every rule say something of its own?",
+    (
+        FindingKind(
+            "SLEEC509",
+            "warning",
+            "a rule that says the same as another one",
+            "Two rules have the same trigger, guard and clauses under two labels. One of them is left over, or is a "
+            "copy that was never changed to what it should say.",
+            "RULE greet\nWHEN UserEnters THEN Greet\nRULE welcome\nWHEN UserEnters THEN Greet\n",
+            "RULE greet\nWHEN UserEnters THEN Greet\nRULE welcome\nWHEN UserEnters THEN OfferSeat\n",
+        ),
+    ),
+    _duplicates,
+    scope="text",
+)
