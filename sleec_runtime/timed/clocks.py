@@ -44,9 +44,6 @@ class _Alarms:
     def __init__(self) -> None:
         self._calls: dict[object, tuple[Time, Callable[[], object]]] = {}
 
-    def __len__(self) -> int:
-        return len(self._calls)
-
     def add(self, at: Time, call: Callable[[], object]) -> object:
         key = object()
         self._calls[key] = at, call

@@ -143,6 +143,7 @@ def test_in_an_event_loop_what_the_clock_starts_may_be_a_coroutine():
     log: list[str] = []
 
     async def robot() -> None:
+        assert AsyncioClock().now() <= AsyncioClock(asyncio.get_running_loop()).now()
         sleec = running(wait=1, clock=AsyncioClock())
         done = asyncio.Event()
 

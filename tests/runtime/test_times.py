@@ -261,6 +261,19 @@ def test_else_is_begun_when_the_window_closes_if_there_is_time_for_it():
     assert [type(failure.error) for failure in home.told] == [errors.DeadlineMissed]
 
 
+def test_what_is_reported_and_then_raises_is_done():
+    home = Home("RULE a WHEN A THEN X WITHIN 5 seconds ELSE Y", slow=("X",))
+
+    def reports() -> None:
+        home.sleec.completed("X")
+        raise OSError("X")
+
+    home.sleec.implement({"X": reports})
+    with pytest.raises(OSError, match="X"):
+        home.sleec.trigger("A")
+    assert home.log == []
+
+
 def test_an_alternative_that_is_refused_is_raised_with_the_rest():
     home = Home("RULE a WHEN A THEN X ELSE Y\nRULE b WHEN B THEN NOT Y WITHIN 5 seconds")
     home.broken.add("X")
@@ -404,6 +417,20 @@ def test_constraints_bind_what_the_clock_starts():
     assert (failure.obligations, type(failure.error)) == (("X", "Y"), errors.ConflictInContext)
 
 
+def test_what_the_clock_may_not_start_is_due_until_its_window_closes():
+    home = Home(
+        "EXCLUSIVE X, Y\nRULE a WHEN A THEN (X WITHIN 3 TO 5 seconds OTHERWISE Z) AND Y WITHIN 3 TO 5 seconds",
+    )
+    home.sleec.trigger("A")
+    home.clock.advance(3)
+    assert [type(failure.error) for failure in home.told] == [errors.ConflictInContext]
+    assert len(home.sleec.pending()) == 2
+    home.sleec.completed("Y")
+    home.clock.advance(3)
+    assert home.log == [(5, "Z")]
+    assert len(home.told) == 1
+
+
 # Chains ---------------------------------------------------------------------------------------------------
 
 CHAIN = "RULE a WHEN A THEN B\nRULE b WHEN B THEN C WITHIN 5 seconds\nRULE c WHEN C THEN D UNLESS quiet"
@@ -432,8 +459,17 @@ def test_a_chain_goes_on_when_what_takes_time_is_done():
     assert home.arguments == ["why"] * 3
 
 
+def test_what_the_chain_raises_is_raised_when_something_is_completed():
+    home = Home(CHAIN, slow=("C",), chains=True)
+    (due,) = home.sleec.trigger("A").due
+    home.broken.add("D")
+    with pytest.raises(OSError, match="D"):
+        due.completed()
+    assert due.state == "done"
+
+
 def test_a_chain_ends_with_what_raises():
-    home = Home(CHAIN, chains=True)
+    home = Home(CHAIN + "\nRULE n WHEN B THEN NOT E AND NOT F WITHIN 5 seconds", chains=True)
     home.broken.add("B")
     with pytest.raises(OSError, match="B"):
         home.sleec.trigger("A")
@@ -809,7 +845,7 @@ def test_much_that_is_done_leaves_little_behind():
         home.sleec.trigger("A")
     times = home.sleec._times
     assert times is not None
-    assert len(times._agenda._heap) < 200
+    assert len(times._ledger.agenda._heap) < 200
 
 
 def test_threads_may_trigger_while_the_clock_runs():

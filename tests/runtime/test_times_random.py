@@ -21,9 +21,9 @@ LONG = 60 * 60
 
 
 def in_minutes(seed: int):
-    """Windows in whole minutes. Step i comes i seconds after a full minute, so that nothing that it leads to coincides
-    with another step: two triggers at one reading of the clock come one after the other, and a trace knows no order
-    within an instant."""
+    """Windows in whole minutes. Step i comes 7·i seconds after a full minute, so that nothing that it leads to coincides
+    with another step, even if it is held back for a second or two: what comes from two sides at one reading of the
+    clock comes one after the other, and a trace knows no order within an instant."""
     text = timed_ruleset(seed, relations=0).source.text
     return parse(text.replace(" seconds", " minutes"))
 
@@ -85,7 +85,7 @@ class World:
 
     def step(self, number: int) -> None:
         now = self.now()
-        self.clock.advance((now // 60 + self.random.randint(1, 2)) * 60 + number - now)
+        self.clock.advance((now // 60 + self.random.randint(1, 2)) * 60 + 7 * number - now)
         values = {name: self.random.random() < 0.5 for name in BOOLEANS}
         self.sleec.update({name: value for name, value in values.items() if name in self.sleec.vocabulary})
         if "risk" in self.sleec.vocabulary:
