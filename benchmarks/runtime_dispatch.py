@@ -24,7 +24,8 @@ from typing import Any, NamedTuple
 
 import contextpy3 as cop
 
-from sleec_runtime import Monitor, Sleec
+from sleec_runtime import Monitor, Sleec, VirtualClock
+from sleec_runtime.language import parse
 from sleec_runtime.model import Atom, Clause, Obligation, Rule, Ruleset
 
 SIZES = (1, 10, 100, 1_000, 10_000)
@@ -207,6 +208,16 @@ def monitored(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
     return timings, []
 
 
+def with_times(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
+    """What a window costs: an obligation that is watched, and done at once."""
+    calls: dict[str, Callable[[], object]] = {}
+    for what, window in (("no window in the ruleset", ""), ("done at once in a window", " WITHIN 5 minutes")):
+        sleec = Sleec(parse(f"RULE r WHEN A THEN X{window}"), clock=VirtualClock())
+        sleec.implement({"X": lambda message: None})
+        calls[f"dispatch, {what}"] = partial(sleec.trigger, "A", None)
+    return measured(calls, rounds), []
+
+
 def main(arguments: Sequence[str] = ()) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="a tenth of the calls")
@@ -215,7 +226,7 @@ def main(arguments: Sequence[str] = ()) -> int:
     rounds = 100 if options.quick else 1_000
     timings: dict[str, Timing] = {}
     bounds: list[Bound] = []
-    for part in (by_size, against_global_activation, changes, monitored):
+    for part in (by_size, against_global_activation, changes, monitored, with_times):
         more, of_these = part(rounds)
         timings.update(more)
         bounds += of_these
