@@ -21,8 +21,8 @@ LONG = 60 * 60
 
 
 def in_minutes(seed: int):
-    """Windows in whole minutes. Step i comes 7·i seconds after a full minute, so that nothing that it leads to comes with
-    another step, even if it is held back for a second or two: what comes from two sides at one reading of the
+    """Windows in whole minutes. Step i comes 7·i seconds after a full minute, so that nothing that it leads to comes
+    with another step, even if it is held back for a second or two: what comes from two sides at one reading of the
     clock comes one after the other, and a trace knows no order within an instant."""
     text = timed_ruleset(seed, relations=0).source.text
     return parse(text.replace(" seconds", " minutes"))
