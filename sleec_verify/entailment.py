@@ -22,6 +22,7 @@ from sleec_verify.solver import MiniSat
 
 if TYPE_CHECKING:
     from sleec_verify.chains import Step
+    from sleec_verify.schedule import Entry
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,8 @@ class Entailment:
 
     Where it is not `consistent`, nothing is listed as due and `conflicts` says why. `timed` are the literals due at
     some later time; whether they can be kept with all else is not decided, and `consistent` says nothing of them.
-    `chain` is what becomes due once that is done, where it was asked for (`sleec_verify.chains`).
+    `chain` is what becomes due once that is done, and `schedule` what is due until when, where they were asked for
+    (`sleec_verify.chains`, `sleec_verify.schedule`).
     `missing` are measures that were asked about and not given: comparisons with them count as false.
     """
 
@@ -85,6 +87,7 @@ class Entailment:
     missing: tuple[str, ...]
     timed: tuple[Obligation, ...] = ()
     chain: tuple[Step, ...] = ()
+    schedule: tuple[Entry, ...] = ()
 
 
 class Definition1:

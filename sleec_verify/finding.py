@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, Union
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Source, Span, Value
+    from sleec_verify.games.realizability import Strategy
     from sleec_verify.timed.timeline import Timeline
 
 Severity = Literal["error", "warning", "note"]
@@ -45,9 +46,9 @@ class Finding:
     """One thing that a check found.
 
     `span` is the place to look at first; `related` are further places with a word on each. They are places of `source`,
-    or of the text of the rules where that is None. `timeline` is the witness of what takes time; `witness` is then one
-    moment of it. `obligations` are those at odds or concerned. `domains` are the domains in which it holds, if the
-    ruleset has any.
+    or of the text of the rules where that is None. `timeline` is the witness of what takes time, `strategy` that of an
+    environment that wins; `witness` is then one moment of it. `obligations` are those at odds or concerned. `domains`
+    are the domains in which it holds, if the ruleset has any.
     """
 
     check: str
@@ -65,6 +66,7 @@ class Finding:
     domains: tuple[str, ...] = ()
     source: Source | None = None
     timeline: Timeline | None = None
+    strategy: Strategy | None = None
 
 
 @dataclass(frozen=True)

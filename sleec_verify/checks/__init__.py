@@ -17,6 +17,7 @@ from sleec_verify.checks.dead import DEAD_HEDGE, DEAD_RULE
 from sleec_verify.checks.defects import DEFECTS
 from sleec_verify.checks.duplicate import DUPLICATE_RULE
 from sleec_verify.checks.reading import READING
+from sleec_verify.checks.realizability import REALIZABILITY, realizability
 from sleec_verify.checks.redundant import REDUNDANT_HEDGE, REDUNDANT_RULE
 from sleec_verify.checks.stray import STRAY_EVENT
 from sleec_verify.checks.text import EMPTY_HEDGE, PHRASE_KEYWORD, TRIGGER_OBLIGATION, UNUSED_NAME
@@ -53,6 +54,7 @@ CHECKS: Mapping[str, Check] = {
         BARE_PROHIBITION,
         CONCERN,
         PURPOSE,
+        REALIZABILITY,
     )
 }
 
@@ -61,8 +63,8 @@ Progress = Callable[[str, int, int], None]
 
 
 def checks_for(ruleset: Ruleset) -> list[str]:
-    """The names of the checks that there are for a ruleset."""
-    left_out: set[str] = set()
+    """The names of the checks that are made of a ruleset unless told."""
+    left_out = {REALIZABILITY.name}
     if ruleset.syntax != "dsl":
         # Structured English has no defects: it refuses them.
         left_out.add(DEFECTS.name)
@@ -84,22 +86,26 @@ def run_checks(
     domain: str | None = None,
     progress: Progress | None = None,
     untimed: Untimed = "at",
+    realizable: int | None = None,
 ) -> tuple[CheckResult, ...]:
     """The verdicts of the checks (all, or those of `names`), in their own order.
 
     A ruleset is checked in each of its domains, with the rules that apply everywhere; `domain` picks one. A finding
     says in which domains it holds. `untimed` is what a response without a window means, in rules that speak of time.
-    Raises KeyError for an unknown check.
+    `realizable` adds that check, for an environment that acts up to so many times. Raises KeyError for an unknown one.
     """
     if names is None:
         names = checks_for(ruleset)
     checks: Mapping[str, Check] = CHECKS
+    if realizable is not None:
+        names = [*names, REALIZABILITY.name]
+        checks = {**checks, REALIZABILITY.name: realizability(realizable)}
     known: Callable[[Ruleset], Cones] = Cones
     if speaks_of_traces(ruleset):
         from sleec_verify.checks.timed import TIMED
         from sleec_verify.timed.traces import Traces
 
-        checks = {**CHECKS, **TIMED}
+        checks = {**checks, **TIMED}
         known = partial(Traces, untimed=untimed)
     chosen = [checks[name] for name in dict.fromkeys(names)]
     domains = ruleset.domains if domain is None else (domain,)

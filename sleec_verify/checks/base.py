@@ -12,6 +12,7 @@ from sleec_verify.equation import implications
 from sleec_verify.finding import ClauseRef, Finding, Severity, Witness
 
 if TYPE_CHECKING:
+    from sleec_verify.games.realizability import Strategy
     from sleec_verify.timed.timeline import Timeline
 
 Scope = Literal["some domain", "every domain", "text"]
@@ -59,6 +60,7 @@ class Check:
         help: str | None = None,
         related: tuple[tuple[Span, str], ...] = (),
         timeline: Timeline | None = None,
+        strategy: Strategy | None = None,
     ) -> Finding:
         """A finding of this check, of its first kind unless told."""
         code, severity = self.kinds[kind].code, self.kinds[kind].severity
@@ -76,6 +78,7 @@ class Check:
             help,
             related,
             timeline=timeline,
+            strategy=strategy,
         )
 
 

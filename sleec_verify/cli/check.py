@@ -30,6 +30,12 @@ if TYPE_CHECKING:
 @options.domain
 @options.untimed
 @click.option(
+    "--realizable",
+    metavar="N",
+    type=click.IntRange(1, 100),
+    help="Ask besides: can the robot always keep the rules, if the environment acts up to N times?",
+)
+@click.option(
     "--fail-level",
     type=click.Choice(SEVERITIES),
     default="error",
@@ -42,6 +48,7 @@ def command(
     reading: Reading | None,
     domain: str | None,
     untimed: Untimed,
+    realizable: int | None,
     fail_level: Severity,
     form: str,
 ) -> int:
@@ -64,7 +71,7 @@ def command(
                 outcomes.append(ruleset)
             else:
                 told = progress.on(ruleset.source.path)
-                results = run_checks(ruleset, None, domain, told, untimed)
+                results = run_checks(ruleset, None, domain, told, untimed, realizable)
                 outcomes.append(Checked(ruleset, results, untimed if speaks_of_traces(ruleset) else None))
     write(renderer(form)(outcomes, Palette.of(sys.stdout)))
     return _exit_code(outcomes, fail_level)

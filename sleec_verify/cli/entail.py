@@ -15,6 +15,7 @@ from sleec_verify.cli.output import write
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Reading, Ruleset
     from sleec_verify.entailment import Entailment
+    from sleec_verify.timed.scope import Untimed
 
 
 @click.command(
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 @options.given
 @options.domain
 @options.reading
+@options.untimed
 @options.output_format("full", "concise", "json")
 def command(
     path: str,
@@ -34,6 +36,7 @@ def command(
     given: tuple[str, ...],
     domain: str | None,
     reading: Reading | None,
+    untimed: Untimed,
     form: str,
 ) -> int:
     """What the rules in FILE oblige in one situation (- for standard input).
@@ -44,17 +47,23 @@ def command(
     from sleec_verify.report import entailment
     from sleec_verify.report.palette import Palette
 
-    ruleset, _, answer = ask(path, when, given, domain, reading)
-    write(entailment.RENDERERS[form](ruleset, answer, Palette.of(sys.stdout)))
+    ruleset, context, answer = ask(path, when, given, domain, reading, untimed)
+    write(entailment.RENDERERS[form](ruleset, context, answer, Palette.of(sys.stdout)))
     return exits.HOLDS if answer.consistent else exits.FINDINGS
 
 
 def ask(
-    path: str, when: tuple[str, ...], given: tuple[str, ...], domain: str | None, reading: Reading | None
+    path: str,
+    when: tuple[str, ...],
+    given: tuple[str, ...],
+    domain: str | None,
+    reading: Reading | None,
+    untimed: Untimed,
 ) -> tuple[Ruleset, Context, Entailment]:
     """The ruleset (its rules in `domain`), the situation that the options describe, and what is due in it."""
     from sleec_verify.chains import chain
     from sleec_verify.entailment import entail
+    from sleec_verify.schedule import schedule
     from sleec_verify.situation import parse_situation
 
     ruleset = one_ruleset(path, reading, domain)
@@ -64,4 +73,5 @@ def ask(
     else:
         ruleset = ruleset.in_domain(domain)
     answer = entail(ruleset, context)
-    return ruleset, context, replace(answer, chain=chain(ruleset, context, answer))
+    answer = replace(answer, chain=chain(ruleset, context, answer))
+    return ruleset, context, replace(answer, schedule=schedule(ruleset, context, answer, untimed))

@@ -13,6 +13,7 @@ from sleec_verify.cli.output import write
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading
+    from sleec_verify.timed.scope import Untimed
 
 
 @click.command(
@@ -25,8 +26,14 @@ if TYPE_CHECKING:
 @options.given
 @options.domain
 @options.reading
+@options.untimed
 def command(
-    path: str, when: tuple[str, ...], given: tuple[str, ...], domain: str | None, reading: Reading | None
+    path: str,
+    when: tuple[str, ...],
+    given: tuple[str, ...],
+    domain: str | None,
+    reading: Reading | None,
+    untimed: Untimed,
 ) -> int:
     """Why the rules in FILE oblige what they do in one situation (- for standard input).
 
@@ -36,6 +43,6 @@ def command(
     from sleec_verify.report.explanation import render
     from sleec_verify.report.palette import Palette
 
-    ruleset, context, answer = ask(path, when, given, domain, reading)
+    ruleset, context, answer = ask(path, when, given, domain, reading, untimed)
     write(render(ruleset, context, answer, Palette.of(sys.stdout)))
     return exits.HOLDS if answer.consistent else exits.FINDINGS

@@ -10,14 +10,14 @@ from sleec_verify.report.full import finding_lines
 from sleec_verify.report.words import listed
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Ruleset
+    from sleec_runtime.model import Context, Ruleset
     from sleec_verify.chains import Step
     from sleec_verify.entailment import Entailment
     from sleec_verify.report.json import Json
     from sleec_verify.report.palette import Palette
 
 
-def _full(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
+def _full(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
     source = ruleset.source
     for finding in answer.conflicts:
         yield from (line + "\n" for line in finding_lines(finding, source, palette))
@@ -33,11 +33,13 @@ def _full(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[st
         says = " AND ".join(because.in_words()) or "nothing"
         yield f"  {because.layer or because.rule} ({source.path}:{line}): {says}\n"
     yield from once_done(answer, palette)
+    yield from scheduled(answer, context, palette)
     yield from caveats(ruleset, answer, palette)
     yield f"reading: {ruleset.reading}\n"
 
 
-def _concise(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
+def _concise(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
+    del context  # asked about by who reads this
     yield from (f"{name}\n" for name in answer.obligations)
     yield from (f"NOT {name}\n" for name in answer.prohibitions)
     for finding in answer.conflicts:
@@ -46,10 +48,10 @@ def _concise(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator
         yield f"{ruleset.source.path}:{place.line}:{place.column}: {label} {finding.message}\n"
 
 
-def _json(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
+def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
     from sleec_verify.report.json import dump, finding_json, span_json
 
-    del palette  # a program reads this
+    del context, palette  # a program reads this, and knows what it asked
     source = ruleset.source
     due: list[Json] = [*answer.obligations]
     forbidden: list[Json] = [*answer.prohibitions]
@@ -71,6 +73,10 @@ def _json(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[st
         said["timed"] = [{"obligation": o.name, "negated": o.negated, "when": str(o.timing)} for o in answer.timed]
     if answer.chain:
         said["chain"] = _chain_json(answer.chain)
+    if _has_times(answer):
+        from sleec_verify.report.schedule import as_json
+
+        said["schedule"] = as_json(answer.schedule)
     if answer.missing:
         said["missing"] = list(answer.missing)
     yield dump(said)
@@ -81,6 +87,21 @@ def once_done(answer: Entailment, palette: Palette) -> Iterator[str]:
     if answer.chain:
         yield f"{palette('strong', 'once that is done')}:\n"
         yield from (line + "\n" for line in lines(answer.chain))
+
+
+def scheduled(answer: Entailment, context: Context, palette: Palette) -> Iterator[str]:
+    """What is due until when, where anything is due at another time than at once."""
+    if not _has_times(answer):
+        return
+    from sleec_verify.report.schedule import chart, in_words
+
+    yield f"{palette('strong', 'schedule')}:\n"
+    yield from (f"  {line}\n" for line in in_words(answer.schedule))
+    yield from (f"    {line}\n" for line in chart(answer.schedule, context))
+
+
+def _has_times(answer: Entailment) -> bool:
+    return any(not entry.start == entry.end == 0 for entry in answer.schedule)
 
 
 def _chain_json(steps: tuple[Step, ...]) -> Json:
@@ -124,7 +145,7 @@ def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[
         )
 
 
-RENDERERS: Mapping[str, Callable[[Ruleset, Entailment, Palette], Iterator[str]]] = {
+RENDERERS: Mapping[str, Callable[[Ruleset, Context, Entailment, Palette], Iterator[str]]] = {
     "full": _full,
     "concise": _concise,
     "json": _json,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from sleec_verify.report.entailment import caveats, once_done
+from sleec_verify.report.entailment import caveats, once_done, scheduled
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.outcome import counted
 from sleec_verify.report.words import context_text, listed, quoted, value_text
@@ -39,6 +39,7 @@ def render(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pale
         yield from (_consequence(ruleset, consequence) for consequence in answer.consequences)
         yield "\n"
     yield from once_done(answer, palette)
+    yield from scheduled(answer, context, palette)
     yield from caveats(ruleset, answer, palette)
     yield _in_all(answer, palette) + "\n"
 

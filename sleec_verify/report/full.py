@@ -46,11 +46,16 @@ def finding_lines(finding: Finding, source: Source, palette: Palette) -> Iterato
     yield from excerpt(source, marks, palette)
     margin = " " * len(str(max(source.place(mark.span).end_line for mark in marks)))
     if finding.timeline is not None:
-        from sleec_verify.report.timeline import chart, in_words
+        from sleec_verify.report.timeline import chart_of, in_words
 
-        for lines, title in ((in_words(finding.timeline), "timeline"), (chart(finding), "chart")):
+        for lines, title in ((in_words(finding.timeline), "timeline"), (chart_of(finding.timeline), "chart")):
             yield f"{margin} = {palette('strong', title)}:"
             yield from (f"{margin}     {line}" for line in lines)
+    elif finding.strategy is not None:
+        from sleec_verify.report.strategy import in_words as strategy_in_words
+
+        yield f"{margin} = {palette('strong', 'strategy of the environment')}:"
+        yield from (f"{margin}     {line}" for line in strategy_in_words(finding.strategy))
     elif finding.witness is not None:
         yield f"{margin} = {palette('strong', 'situation')}: {witness_text(finding.witness)}"
     if finding.domains:

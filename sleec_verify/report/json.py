@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Source, Span, Value
     from sleec_verify.finding import CheckResult, Finding, Witness
+    from sleec_verify.games.realizability import Strategy
     from sleec_verify.report.palette import Palette
     from sleec_verify.timed.timeline import Timeline
 
@@ -81,6 +82,7 @@ def finding_json(finding: Finding, source: Source) -> dict[str, Json]:
         "span": span_json(finding.span, source),
         "witness": None if finding.witness is None else _witness(finding.witness),
         **({} if finding.timeline is None else {"timeline": _timeline(finding.timeline)}),
+        **({} if finding.strategy is None else {"strategy": _strategy(finding.strategy)}),
         "domains": list(finding.domains),
         "related": [{"span": span_json(span, source), "message": word} for span, word in finding.related],
         "note": finding.note,
@@ -134,6 +136,27 @@ def _timeline(timeline: Timeline) -> Json:
         for moment in timeline.moments
     ]
     return {"moments": moments, "now": timeline.now}
+
+
+def _strategy(strategy: Strategy) -> Json:
+    """An act of the environment, and then its next one by what the robot does (null: whatever it does). No branches:
+    the robot has no way left. Times are seconds from the first act."""
+    act = strategy.act
+    branches: list[Json] = [
+        {
+            "robot": None if branch.done is None else list(branch.done),
+            "planned": [{"time": plan.time, "events": list(plan.events)} for plan in branch.planned],
+            "then": _strategy(branch.then),
+        }
+        for branch in strategy.branches
+    ]
+    return {
+        "time": act.time,
+        "events": list(act.events),
+        "conditions": values_json(act.conditions),
+        "branches": branches,
+        "more": strategy.more,
+    }
 
 
 def values_json(values: Mapping[str, Value]) -> dict[str, Json]:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from sleec_verify.report.words import listed, quoted, value_text
 
 if TYPE_CHECKING:
-    from sleec_verify.finding import Finding
     from sleec_verify.timed.timeline import Due, Moment, Timeline
 
 _UNITS = ((86400, "day"), (3600, "hour"), (60, "minute"), (1, "second"))
@@ -58,10 +57,8 @@ def _happens(moment: Moment) -> str:
     return f"{events}, with {listed(facts)}" if facts else events
 
 
-def chart(finding: Finding) -> list[str]:
+def chart_of(timeline: Timeline) -> list[str]:
     """The moments as columns, the events that occur or are due as rows."""
-    timeline = finding.timeline
-    assert timeline is not None, "only timelines have a chart"
     times = [moment.time for moment in timeline.moments]
     heads = [_short(time) for time in times]
     if timeline.now is not None:

@@ -125,16 +125,21 @@ class Program:
             for rule in self.rules
         }
 
+    def windows(self, rule: Rule) -> list[Occurs]:
+        """Every occurrence that a rule may come to call for or forbid. Raises Undecided for a window whose length a
+        measure says."""
+        return self._occurrences[rule.label]
+
     def is_timed(self, rule: Rule) -> bool:
         """Whether a rule demands anything of other instants than that of its trigger."""
-        return any(o.start != 0 or o.end != 0 for o in self._occurrences[rule.label])
+        return any(o.start != 0 or o.end != 0 for o in self.windows(rule))
 
     def may_press(self, rule: Rule) -> bool:
         """Whether what a rule demanded in the past may press now: it has a deadline, or forbids for some time. What is
         due at some time without end presses no more than if it had been triggered now."""
         return any(
             o.start != 0 or (o.end is None and o.negated) or (o.end is not None and o.end != 0)
-            for o in self._occurrences[rule.label]
+            for o in self.windows(rule)
         )
 
     @cached_property

@@ -235,3 +235,23 @@ def test_rules_as_json(cli: Cli) -> None:
     assert all(kind[key] for kind in listed for key in ("severity", "title", "explanation", "bad", "good"))
     (one,) = json.loads(cli("rules", "dead-hedge", "--format", "json").out)
     assert one["code"] == "SLEEC202"
+
+
+def test_a_schedule_says_what_is_due_until_when(cli: Cli) -> None:
+    rules = (
+        "WHEN Smoke THEN CallHelp WITHIN 5 minutes OTHERWISE SoundAlarm\nWHEN CallHelp THEN OpenDoor WITHIN 1 minute\n"
+    )
+    ran = cli("entail", "a.sleec", "--when", "Smoke", "--format", "json", files={"a.sleec": rules})
+    entries = json.loads(ran.out)["schedule"]
+    assert [(e["obligation"], e["from"], e["until"], e["after"]) for e in entries] == [
+        ("CallHelp", 0, 300, None),
+        ("SoundAlarm", 300, 300, None),
+        ("OpenDoor", 0, 60, "CallHelp"),
+    ]
+    assert "schedule:\n  CallHelp " in cli("explain", "a.sleec", "--when", "Smoke").out
+    plain = cli("entail", "b.sleec", "--when", "A", "--format", "json", files={"b.sleec": "WHEN A THEN B\n"})
+    assert "schedule" not in json.loads(plain.out)
+    later = cli(
+        "entail", "c.sleec", "--when", "A", "--untimed", "eventually", files={"c.sleec": "WHEN A THEN B ELSE C\n"}
+    )
+    assert "at some time" in later.out

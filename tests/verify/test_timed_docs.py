@@ -7,6 +7,7 @@ from pathlib import Path
 
 from sleec_runtime.language import parse
 from sleec_verify.checks import run_checks
+from sleec_verify.finding import Proved
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.palette import PLAIN
 
@@ -23,12 +24,27 @@ def conflicts(text):
     return ruleset, result.findings
 
 
-def test_the_timeline_of_the_page_is_the_one_that_is_shown():
-    (text,) = blocks("times.md", "dsl")
-    (shown,) = blocks("times.md", "text")
-    ruleset, (finding,) = conflicts(text)
+def is_in(shown, ruleset, finding):
     lines = "\n".join(finding_lines(finding, ruleset.source, PLAIN))
-    assert re.sub(r"(?m)^ +", "", shown) in re.sub(r"(?m)^ +", "", lines)
+    return re.sub(r"(?m)^ +", "", shown) in re.sub(r"(?m)^ +", "", lines)
+
+
+def test_the_timeline_of_the_page_is_the_one_that_is_shown():
+    text, _ = blocks("times.md", "dsl")
+    shown, _ = blocks("times.md", "text")
+    ruleset, (finding,) = conflicts(text)
+    assert is_in(shown, ruleset, finding)
+
+
+def test_the_strategy_of_the_page_is_the_one_that_is_shown():
+    _, text = blocks("times.md", "dsl")
+    _, shown = blocks("times.md", "text")
+    ruleset = parse(text)
+    (one,) = run_checks(ruleset, (), realizable=1)
+    assert isinstance(one.verdict, Proved)
+    (two,) = run_checks(ruleset, (), realizable=2)
+    (finding,) = two.findings
+    assert is_in(shown, ruleset, finding)
 
 
 def test_the_files_to_try_differ_as_the_page_says():

@@ -1,0 +1,38 @@
+"""Whose an event is: the robot's or the environment's."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from sleec_runtime.model import Agent, Declaration, Ruleset
+from sleec_runtime.model_time import EventRelation, Lasting
+from sleec_verify.timed.program import Law, events_of, responses_of
+
+
+def agents(ruleset: Ruleset) -> dict[str, Agent]:
+    """The agent of every event that the rules and relations speak of: as it is declared; else a response is the
+    robot's, and any other event the environment's."""
+    found: dict[str, Agent] = {}
+    for statement in ruleset.statements:
+        if isinstance(statement, Declaration) and statement.agent is not None:
+            found.update(dict.fromkeys(statement.names, statement.agent))
+    for rule in ruleset.rules:
+        for response in responses_of(rule):
+            found.setdefault(response.name, "system")
+    for rule in ruleset.rules:
+        found.setdefault(rule.trigger, "environment")
+    return found
+
+
+def is_environments(law: Law, whose: Mapping[str, Agent]) -> bool:
+    """Whether it is the environment that keeps a relation or constraint, so that it may be relied on.
+
+    That is where no event of the robot has a part in it, and where the robot cannot help it: what is so for some time
+    after an event, and that an event of the environment comes after another.
+    """
+    if isinstance(law, Lasting):
+        return True
+    names: Iterable[str] = events_of(law)
+    if isinstance(law, EventRelation) and law.relation == "happenBefore":
+        names = (law.right,)
+    return all(whose.get(name, "environment") == "environment" for name in names)

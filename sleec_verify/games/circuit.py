@@ -1,0 +1,121 @@
+"""Formulas as circuits of conjunctions and negations, of which equal parts are one part.
+
+A literal is a non-zero integer: the number of a node, or its negation. Values that are put in for variables fold, so a
+formula shrinks with every move that is settled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from sleec_verify.solver import Undecided
+
+TRUE = 1
+FALSE = -1
+
+MOST_NODES = 4_000_000
+"""Nodes after which a question is given up; so many take about a gigabyte."""
+
+
+class Circuit:
+    """Nodes numbered from 1, which is the constant true. The parts of a node have smaller numbers than it."""
+
+    def __init__(self) -> None:
+        self._parts: list[tuple[int, int] | None] = [None, None]
+        self._known: dict[tuple[int, int], int] = {}
+
+    def __len__(self) -> int:
+        return len(self._parts)
+
+    def variable(self) -> int:
+        """A new variable."""
+        self._parts.append(None)
+        return len(self._parts) - 1
+
+    def variables(self, number: int) -> list[int]:
+        return [self.variable() for _ in range(number)]
+
+    def both(self, a: int, b: int) -> int:
+        """The conjunction of two literals. Raises Undecided past `MOST_NODES`."""
+        if a == b or b == TRUE:
+            return a
+        if a == TRUE:
+            return b
+        if FALSE in (a, b) or a == -b:
+            return FALSE
+        if a > b:
+            a, b = b, a
+        node = self._known.get((a, b))
+        if node is None:
+            if len(self._parts) > MOST_NODES:
+                raise Undecided(f"no answer with {MOST_NODES:,} parts of a formula")
+            self._parts.append((a, b))
+            node = self._known[a, b] = len(self._parts) - 1
+        return node
+
+    def either(self, a: int, b: int) -> int:
+        return -self.both(-a, -b)
+
+    def every(self, literals: Iterable[int]) -> int:
+        """The conjunction of any number of literals."""
+        found = sorted(set(literals), key=abs)
+        while len(found) > 1:
+            # Halved, so that no chain of nodes is longer than it need be.
+            found = [self.both(*found[i : i + 2]) if i + 1 < len(found) else found[i] for i in range(0, len(found), 2)]
+        return found[0] if found else TRUE
+
+    def some(self, literals: Iterable[int]) -> int:
+        """The disjunction of any number of literals."""
+        return -self.every(-literal for literal in literals)
+
+    def implies(self, a: int, b: int) -> int:
+        return -self.both(a, -b)
+
+    def same(self, a: int, b: int) -> int:
+        return self.both(self.implies(a, b), self.implies(b, a))
+
+    def choice(self, condition: int, then: int, otherwise: int) -> int:
+        """`then` where `condition` holds, else `otherwise`."""
+        return self.both(self.implies(condition, then), self.implies(-condition, otherwise))
+
+    def below(self, roots: Iterable[int]) -> list[int]:
+        """The nodes that some literals rest on, parts before what they are parts of."""
+        seen: set[int] = set()
+        ahead = [abs(root) for root in roots]
+        all_parts = self._parts
+        while ahead:
+            node = ahead.pop()
+            if node not in seen:
+                seen.add(node)
+                parts = all_parts[node]
+                if parts is not None:
+                    a, b = parts
+                    ahead.append(a if a > 0 else -a)
+                    ahead.append(b if b > 0 else -b)
+        return sorted(seen)
+
+    def replaced(self, root: int, values: Mapping[int, int]) -> int:
+        """`root` with literals put in for some variables. O(size of what `root` rests on)."""
+        image = {1: 1}
+        for node in self.below((root,)):
+            parts = self._parts[node]
+            if parts is None:
+                image[node] = values.get(node, node)
+            else:
+                a, b = parts
+                left, right = image[abs(a)], image[abs(b)]
+                image[node] = self.both(left if a > 0 else -left, right if b > 0 else -right)
+        found = image[abs(root)] if abs(root) != 1 else 1
+        return found if root > 0 else -found
+
+    def clauses(self, nodes: Iterable[int]) -> Iterator[Sequence[int]]:
+        """Clauses that make each of these nodes equal to what it stands for; a variable has none."""
+        for node in nodes:
+            parts = self._parts[node]
+            if node == TRUE:
+                yield (TRUE,)
+            elif parts is not None:
+                a, b = parts
+                yield (-node, a)
+                yield (-node, b)
+                yield (node, -a, -b)

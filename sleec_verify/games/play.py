@@ -1,0 +1,374 @@
+"""What a play of a ruleset is, as a circuit.
+
+The environment acts at up to so many instants. Each time it says when that is and what happens, events and measures;
+the robot then says what it does at once, and what it means to do later, if nothing comes between: a plan. With the
+plan, every rule must be kept, else the robot has lost. The next act of the environment may come at any time. What the
+plan had for the time before it has been done, and the rest is planned anew.
+
+In a plan only the robot acts, and the measures are what it hopes. An environment that wants them otherwise acts then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+from sleec_runtime.model import Agent, Assume, Exclusive, Rule, Value, formulas_of
+from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
+from sleec_verify.games.agents import is_environments
+from sleec_verify.games.circuit import FALSE, TRUE, Circuit
+from sleec_verify.games.grid import Grid
+from sleec_verify.games.parts import Part, formulas_of_law
+from sleec_verify.games.values import Scales, Values
+from sleec_verify.timed.program import Law, Program, events_of
+from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
+
+
+class Act(NamedTuple):
+    """What a move says of one instant."""
+
+    time: int
+    events: frozenset[str]
+    values: Mapping[str, Value]
+
+
+class _Instant:
+    """One instant: its time among the slots of the grid, its events, its measures."""
+
+    def __init__(
+        self, circuit: Circuit, grid: Grid, scales: Scales, events: Iterable[str], always: Iterable[str], earlier: int
+    ) -> None:
+        """`events` are those that may occur, `always` those that do; `earlier` is how many instants there are before
+        this one, at most."""
+        self.events = {**{name: circuit.variable() for name in events}, **dict.fromkeys(always, TRUE)}
+        self._grid = grid
+        # The first true variable is the slot; none of them, the last one. So every assignment is a time.
+        self._raw = circuit.variables(grid.reach(earlier))
+        so_far, self.at_most = FALSE, []
+        for variable in self._raw:
+            so_far = circuit.either(so_far, variable)
+            self.at_most.append(so_far)
+        self.at_most += [TRUE] * (len(grid) - len(self._raw))
+        self.values = Values(circuit, scales, lambda name: self.events.get(name, FALSE))
+
+    def up_to(self, count: int) -> int:
+        """The literal "it is one of the first `count` slots"."""
+        return self.at_most[count - 1] if count > 0 else FALSE
+
+    @property
+    def variables(self) -> list[int]:
+        return [*self._raw, *(event for event in self.events.values() if event != TRUE), *self.values.variables]
+
+    def times(self) -> Iterator[dict[int, int]]:
+        """The slots as values of variables, those of sums of lengths only."""
+        for time in self._grid.wholes:
+            slot = self._grid.up_to(time) - 1
+            if slot >= len(self._raw):
+                return
+            yield {variable: 1 if number == slot else -1 for number, variable in enumerate(self._raw)}
+
+    def act(self, move: Mapping[int, int]) -> Act:
+        slot = next((i for i, variable in enumerate(self._raw) if move[variable] > 0), len(self._raw))
+        events = frozenset(name for name, event in self.events.items() if event == TRUE or move[event] > 0)
+        return Act(self._grid.times[slot], events, self.values.decoded(move))
+
+
+_Course = Sequence[tuple[_Instant, int]]
+"""Instants, each with the literal "the course of events has it"."""
+
+
+class Play:
+    """The plays of a part of a ruleset in which the environment acts `steps` times and plans have up to `spare`
+    instants. `turns` are the variables of the environment and the robot, in turn; the environment wins a play in which
+    `lost` is true."""
+
+    def __init__(
+        self,
+        program: Program,
+        part: Part,
+        whose: Mapping[str, Agent],
+        steps: int,
+        spare: int,
+        never: frozenset[str] = frozenset(),
+        eager: bool = True,
+        pressed: Iterable[str] = (),
+    ) -> None:
+        """What is in `never`, the robot does not do. In an `eager` play, the environment lets everything occur
+        that only asks more of the robot; who wins is the same. It says with its first act which events of `pressed`
+        the robot must not do then, as if by what was before. Raises Undecided for what games do not know."""
+        self.circuit = circuit = Circuit()
+        self._program = program
+        self._laws = part.laws
+        self._events = frozenset(part.events)
+        self._whose = whose
+        self._rules = part.rules
+        self._reading = program.ruleset.reading
+        formulas = [formula for rule in part.rules for formula in formulas_of(rule)]
+        formulas += [formula for law in part.laws for formula in formulas_of_law(law)]
+        scales = Scales(program.ruleset.measures, formulas)
+        self.grid = Grid(lengths(part), steps * (1 + spare), (1 + spare) * 2 ** (steps - 1))
+        tied = {name for law in part.laws for name in events_of(law)}
+        answers = {w.event for rule in part.rules for w in part.windows[rule.label]}
+        called_for = {w.event for rule in part.rules for w in part.windows[rule.label] if not w.negated}
+        # What nothing calls for, the robot does not do.
+        robots = [name for name in part.events if whose.get(name) == "system" and name in (called_for | tied) - never]
+        others = [name for name in part.events if whose.get(name) != "system"]
+        always = [name for name in others if eager and name not in tied | answers]
+        self._robots = frozenset(robots)
+        mine = sorted({*robots, *others} - {*always})
+        self._steps: list[_Instant] = []
+        self._plans: list[list[_Instant]] = []
+        for step in range(steps):
+            earlier = step * (1 + spare)
+            self._steps.append(_Instant(circuit, self.grid, scales, mine, always, earlier))
+            plan = [_Instant(circuit, self.grid, scales, robots, (), earlier + n + 1) for n in range(spare)]
+            self._plans.append(plan)
+        self._pressed = {name: circuit.variable() for name in pressed}
+        self._planned = [[circuit.variable() for _ in plan] for plan in self._plans]
+        self._gaps: dict[tuple[int, int, int], int] = {}
+        self._instants = [*self._steps, *(instant for plan in self._plans for instant in plan)]
+        self._number = {id(instant): number for number, instant in enumerate(self._instants)}
+        self.turns = [turn for step in range(steps) for turn in (self._environments(step), self._robot(step))]
+        self.kept = self._kept()
+        """For each act of the environment, that the robot's answer keeps all, or the environment has not."""
+        self.lost = -circuit.every(self.kept)
+
+    # Turns ----------------------------------------------------------------------------------------------------
+
+    def _environments(self, step: int) -> list[int]:
+        instant = self._steps[step]
+        own = set(self.doing(step).values())
+        pressed = self._pressed.values() if step == 0 else ()
+        return [*pressed, *(variable for variable in instant.variables if variable not in own)]
+
+    def _robot(self, step: int) -> list[int]:
+        return [
+            *self.doing(step).values(),
+            *self._planned[step],
+            *(v for instant in self._plans[step] for v in instant.variables),
+        ]
+
+    def act(self, step: int, move: Mapping[int, int]) -> Act:
+        """An act of the environment, with what the robot does at once if the move has that too."""
+        known = {variable: move.get(variable, -1) for variable in self._steps[step].variables}
+        return self._steps[step].act(known)
+
+    def plan(self, step: int, move: Mapping[int, int]) -> list[Act]:
+        """What a turn of the robot means to do later."""
+        return [
+            instant.act(move) for instant, planned in zip(self._plans[step], self._planned[step]) if move[planned] > 0
+        ]
+
+    def wishes(self, step: int) -> Iterator[dict[int, int]]:
+        """What makes an act of the environment simple, each as values of variables: that it comes early, that an event
+        does not occur, that a condition does not hold."""
+        instant = self._steps[step]
+        yield from instant.times()
+        events = ((name, event) for name, event in instant.events.items() if event != TRUE)
+        yield from ({event: -1} for name, event in events if name not in self._robots)
+        yield from ({variable: -1} for variable in instant.values.conditions.values())
+
+    def doing(self, step: int) -> dict[str, int]:
+        """The variables of what the robot may do at once when the environment has acted."""
+        return {name: self._steps[step].events[name] for name in sorted(self._robots)}
+
+    # Winning --------------------------------------------------------------------------------------------------
+
+    def _kept(self) -> list[int]:
+        behind: list[tuple[_Instant, int]] = []
+        lawful = TRUE
+        goals = []
+        for number, step in enumerate(self._steps):
+            if number > 0:
+                later = self._later(self._steps[number - 1], step)
+                before = [
+                    (instant, self.circuit.both(planned, self._later(instant, step)))
+                    for instant, planned in zip(self._plans[number - 1], self._planned[number - 1])
+                ]
+                behind = [*behind, *before]
+                lawful = self.circuit.both(lawful, later)
+            behind = [*behind, (step, TRUE)]
+            lawful = self.circuit.both(lawful, self._lawful(behind))
+            ahead = list(zip(self._plans[number], self._planned[number]))
+            order = []
+            last, there = step, TRUE
+            for instant, planned in ahead:
+                order.append(self.circuit.implies(planned, self.circuit.both(there, self._later(last, instant))))
+                last, there = instant, planned
+            goals.append(self.circuit.implies(lawful, self.circuit.every([*order, self._holds([*behind, *ahead])])))
+        return goals
+
+    def _lawful(self, course: _Course) -> int:
+        """That the environment has kept what it has to."""
+        laws = [law for law in self._laws if is_environments(law, self._whose)]
+        return self.circuit.every(
+            self._lasting(law, *course[number], course, later=law.event in self._robots)
+            if isinstance(law, Lasting)
+            else self._law(law, number, course)
+            for law in laws
+            for number in range(len(course))
+        )
+
+    def _holds(self, course: _Course) -> int:
+        """That a whole course of events keeps all."""
+        rules = (self._rule(rule, number, course) for rule in self._rules for number in range(len(course)))
+        laws = (self._law(law, number, course) for law in self._laws for number in range(len(course)))
+        now = self._steps[0].events
+        pressed = (-self.circuit.both(must_not, now.get(name, FALSE)) for name, must_not in self._pressed.items())
+        return self.circuit.every([*rules, *laws, *pressed])
+
+    # Times ----------------------------------------------------------------------------------------------------
+
+    def _at_most(self, a: _Instant, b: _Instant, length: int) -> int:
+        """The literal "the time of `b` minus that of `a` is at most `length`". O(slots)."""
+        key = (self._number[id(a)], self._number[id(b)], length)
+        found = self._gaps.get(key)
+        if found is None:
+            grid = self.grid
+            found = self._gaps[key] = self.circuit.every(
+                self.circuit.either(-a.up_to(slot + 1), b.up_to(grid.up_to(time + length)))
+                for slot, time in enumerate(grid.times)
+            )
+        return found
+
+    def _later(self, a: _Instant, b: _Instant) -> int:
+        return -self._at_most(a, b, 0)
+
+    def _between(self, a: _Instant, b: _Instant, start: int | None, end: int | None) -> int:
+        """That `b` is from `start` to `end` seconds after `a`, both included."""
+        if a is b:
+            inside = (start is None or start <= 0) and (end is None or end >= 0)
+            return TRUE if inside else FALSE
+        bounds = [] if end is None else [self._at_most(a, b, end)]
+        if start is not None:
+            bounds.append(-self._at_most(a, b, start - 1))
+        return self.circuit.every(bounds)
+
+    # What is kept ---------------------------------------------------------------------------------------------
+
+    def _rule(self, rule: Rule, number: int, course: _Course) -> int:
+        instant, there = course[number]
+        trigger = self.circuit.both(there, instant.events.get(rule.trigger, FALSE))
+        if trigger == FALSE:
+            return TRUE
+        kept = []
+        for clause, decides in zip(rule.clauses(), instant.values.guards(rule, trigger, self._reading)):
+            if clause.obligations:
+                demand = self._program.responses.of(
+                    clause.obligations, lambda chain: instant.values.chain(chain, self._reading)
+                )
+                kept.append(self.circuit.implies(decides, self._demand(demand, instant, course)))
+        return self.circuit.every(kept)
+
+    def _demand(self, demand: Demand, instant: _Instant, course: _Course) -> int:
+        if isinstance(demand, int):
+            return demand
+        if isinstance(demand, Occurs):
+            if demand.event not in self._events:
+                # The robot can always do it.
+                return TRUE
+            found = self._occurs(demand, instant, course)
+            return -found if demand.negated else found
+        parts = (self._demand(part, instant, course) for part in demand.parts)
+        return self.circuit.every(parts) if isinstance(demand, Every) else self.circuit.some(parts)
+
+    def _occurs(self, what: Occurs, instant: _Instant, course: _Course) -> int:
+        """That an event occurs in a window around an instant."""
+        return self.circuit.some(
+            self.circuit.every(
+                [there, other.events.get(what.event, FALSE), self._between(instant, other, what.start, what.end)]
+            )
+            for other, there in course
+            if what.event in other.events
+        )
+
+    def _law(self, law: Law, number: int, course: _Course) -> int:
+        """That a law is kept where one instant is concerned."""
+        circuit = self.circuit
+        instant, there = course[number]
+
+        def event(name: str) -> int:
+            return instant.events.get(name, FALSE)
+
+        holds = instant.values.literal
+        if isinstance(law, Lasting):
+            return self._lasting(law, instant, there, course)
+        if isinstance(law, EventRelation):
+            left, right = event(law.left), event(law.right)
+            if law.relation == "happenBefore":
+                kept = circuit.implies(right, self._occurs(Occurs(law.left, None, -1), instant, course))
+            elif law.relation == "mutualExclusive":
+                kept = -circuit.both(left, right)
+            else:
+                kept = circuit.implies(left, right) if law.relation == "witness" else circuit.same(left, right)
+        elif isinstance(law, Effect):
+            occurs, fact = event(law.event), holds(law.formula)
+            if law.relation == "causation":
+                kept = circuit.implies(fact, occurs)
+            else:
+                kept = circuit.implies(occurs, fact if law.relation == "includes" else -fact)
+        elif isinstance(law, MeasureRelation):
+            left = holds(law.left)
+            if law.right is None:
+                kept = left
+            elif law.relation in ("imply", "iff"):
+                right = holds(law.right)
+                kept = circuit.implies(left, right) if law.relation == "imply" else circuit.same(left, right)
+            else:
+                kept = -circuit.both(left, holds(law.right))
+        elif isinstance(law, Exclusive):
+            names = list(dict.fromkeys(law.names))
+            pairs = ((a, b) for place, a in enumerate(names) for b in names[place + 1 :])
+            kept = circuit.every(-circuit.both(event(a), event(b)) for a, b in pairs)
+        else:
+            kept = holds(law.formula) if isinstance(law, Assume) else -holds(law.formula)
+        return circuit.implies(there, kept)
+
+    def _lasting(self, law: Lasting, instant: _Instant, there: int, course: _Course, later: bool = False) -> int:
+        """`later`: only after that instant. What the robot begins although it does not hold is its own fault."""
+        circuit = self.circuit
+        begins = circuit.every([there, instant.events.get(law.event, FALSE), instant.values.literal(law.condition)])
+        if begins == FALSE:
+            return TRUE
+        last = None if law.duration is None else int(-(-seconds(law.duration) // 1)) - 1
+
+        def over(other: _Instant) -> int:
+            if law.end is None:
+                return FALSE
+            end = law.end
+            return circuit.some(
+                circuit.every(
+                    [
+                        there,
+                        middle.events.get(end, FALSE),
+                        middle.values.literal(law.end_condition),
+                        self._between(instant, middle, 0, None),
+                        self._between(middle, other, 0, None),
+                    ]
+                )
+                for middle, there in course
+            )
+
+        kept = [
+            circuit.implies(
+                circuit.both(there, self._between(instant, other, 0, last)),
+                circuit.either(other.values.literal(law.formula), over(other)),
+            )
+            for other, there in course
+            if not (later and other is instant)
+        ]
+        return circuit.implies(begins, circuit.every(kept))
+
+
+def lengths(part: Part) -> set[int]:
+    """The lengths, in seconds, that differences of times are compared with. Raises Undecided where a measure says
+    one."""
+    found = {
+        bound
+        for rule in part.rules
+        for occurrence in part.windows[rule.label]
+        for bound in (occurrence.start, occurrence.end)
+        if bound is not None
+    }
+    found.update(int(seconds(law.duration)) for law in part.laws if isinstance(law, Lasting) and law.duration)
+    return found

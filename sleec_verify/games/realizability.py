@@ -1,0 +1,318 @@
+"""Can the robot always keep its rules, whatever the environment does?
+
+Rules that share no event and no relation are games of their own. In each, plans of more and more instants are tried: a
+robot that wins with short ones wins, and as many instants as the rules can call for are enough.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from itertools import islice
+
+from sleec_runtime.model import Agent, Rule, Span, Value
+from sleec_runtime.model_time import EventRelation, Lasting
+from sleec_verify.games.agents import agents
+from sleec_verify.games.parts import Part, parts
+from sleec_verify.games.play import Play
+from sleec_verify.games.quantified import Move, winning
+from sleec_verify.solver import Undecided
+from sleec_verify.timed.endless import endless
+from sleec_verify.timed.program import Law, Program
+from sleec_verify.timed.responses import Occurs
+
+MOST_PLANNED = 4
+"""Instants of a plan that are tried."""
+
+MOST_REPLIES = 6
+"""Things that the robot may do at once, of which the answer of the environment is shown."""
+
+
+@dataclass(frozen=True)
+class Act:
+    """What happens at one instant: when, in seconds from the first act, the events, and the values of all that the
+    rules at odds look at."""
+
+    time: int
+    events: tuple[str, ...]
+    conditions: Mapping[str, Value]
+
+
+@dataclass(frozen=True)
+class Branch:
+    """What the robot does at once (None: whatever it does) and means to do later, and what the environment does
+    then."""
+
+    done: tuple[str, ...] | None
+    planned: tuple[Act, ...]
+    then: Strategy
+
+
+@dataclass(frozen=True)
+class Strategy:
+    """What the environment does, and how it goes on. Without branches, the robot has no way left to keep all. `more`:
+    the robot may do other things at once, that are not shown."""
+
+    act: Act
+    branches: tuple[Branch, ...] = ()
+    more: bool = False
+
+
+@dataclass(frozen=True)
+class Loss:
+    """A game that the environment wins: a minimal set of rules with which it does, in how many acts, and how. `place`
+    is that of the first of them, or of a law if there are none."""
+
+    rules: tuple[Rule, ...]
+    place: Span
+    steps: int
+    strategy: Strategy
+
+
+def losses(program: Program, steps: int) -> Iterator[tuple[Sequence[Rule], Callable[[], Loss | None]]]:
+    """The parts of the rules, each with the question whether the environment wins against it within `steps` acts.
+
+    A question raises Undecided past the bounds of what is tried, as does the first step where a measure says how long
+    a window is.
+    """
+    whose = agents(program.ruleset)
+    for part in parts(program, whose):
+        yield part.rules, partial(_loss, _Contest(program, part, whose), steps)
+
+
+class _Contest:
+    """A part of the rules, and the games about it."""
+
+    def __init__(self, program: Program, part: Part, whose: Mapping[str, Agent]) -> None:
+        self.program = program
+        self.part = part
+        self.whose = whose
+
+    def play(self, steps: int, spare: int, eager: bool = True, pressed: Sequence[str] = ()) -> Play:
+        never = self._never if self.has_memory else frozenset()
+        return Play(self.program, self.part, self.whose, steps, spare, never, eager, pressed)
+
+    def only(self, rules: Sequence[Rule]) -> _Contest:
+        """The same with fewer rules."""
+        windows = {rule.label: self.part.windows[rule.label] for rule in rules}
+        return _Contest(self.program, replace(self.part, rules=tuple(rules), windows=windows), self.whose)
+
+    @cached_property
+    def has_memory(self) -> bool:
+        """Whether what happened before makes any difference."""
+        return any(map(_is_delayed, self._windows())) or any(map(_remembers, self.part.laws))
+
+    @cached_property
+    def standing(self) -> list[str]:
+        """The events that may be forbidden by what was before."""
+        return sorted({window.event for window in self._windows() if window.negated and _is_delayed(window)})
+
+    def spare(self, steps: int) -> int | None:
+        """How many instants a plan may need: one for each thing that can come to be due later, one for each relation
+        that wants something to come first. None where what is due later leads back to itself."""
+        whole = self._whole(self._never)
+        return None if whole is None else steps * whole + sum(map(_looks_back, self.part.laws))
+
+    @cached_property
+    def _never(self) -> frozenset[str]:
+        """Events that the robot never does, because what they call for comes to no end."""
+        if self._whole(frozenset()) is not None:
+            return frozenset()
+        others = frozenset(rule.label for rule in self.program.rules) - self.part.windows.keys()
+        return endless(self.program, others)
+
+    def _whole(self, never: frozenset[str]) -> int | None:
+        return _Costs(self.program, self.part, never).of_rules(self.part.rules)
+
+    def _windows(self) -> Iterator[Occurs]:
+        for rule in self.part.rules:
+            yield from self.part.windows[rule.label]
+
+
+class _Costs:
+    """How many instants may come to be called for, where some events never occur."""
+
+    def __init__(self, program: Program, part: Part, never: frozenset[str]) -> None:
+        self._program = program
+        self._part = part
+        self._never = never
+        self._known: dict[str, int | None] = {}
+
+    def of_rules(self, rules: Iterable[Rule]) -> int | None:
+        """If each of these rules is triggered once. None where what is due later leads back to itself."""
+        whole = 0
+        for rule in rules:
+            for window in self._part.windows[rule.label]:
+                if not window.negated and window.event not in self._never and _is_delayed(window):
+                    cost = self._of(window.event)
+                    if cost is None:
+                        return None
+                    whole += 1 + cost
+        return whole
+
+    def _of(self, event: str) -> int | None:
+        """By one occurrence of an event, with all that may have to occur with it."""
+        if event not in self._known:
+            # Until it is known: who comes back here has gone round.
+            self._known[event] = None
+            rules: dict[str, Rule] = {}
+            ahead = [event]
+            while ahead:
+                for rule in self._program.by_trigger.get(ahead.pop(), ()):
+                    if rule.label in self._part.windows and rule.label not in rules:
+                        rules[rule.label] = rule
+                        ahead += (w.event for w in self._part.windows[rule.label] if not w.negated)
+            self._known[event] = self.of_rules(rules.values())
+        return self._known[event]
+
+
+def _is_delayed(window: Occurs) -> bool:
+    return not window.start == window.end == 0
+
+
+def _looks_back(law: Law) -> bool:
+    return isinstance(law, EventRelation) and law.relation == "happenBefore"
+
+
+def _remembers(law: Law) -> bool:
+    return isinstance(law, Lasting) or _looks_back(law)
+
+
+def _loss(contest: _Contest, steps: int) -> Loss | None:
+    if _always_won(contest):
+        return None
+    for count in range(1, (steps if contest.has_memory else 1) + 1):
+        lost = _lost(contest, count)
+        if lost is not None:
+            few, spare = lost
+            place = [*few.part.rules, *few.part.laws][0].span
+            return Loss(few.part.rules, place, count, _Telling(few, count, spare).strategy())
+    return None
+
+
+def _always_won(contest: _Contest) -> bool:
+    """Whether the robot can do all that an act calls for at once, even if earlier prohibitions still stand. Then
+    nothing is ever left open, and it wins however often the environment acts."""
+    if not contest.has_memory or any(map(_remembers, contest.part.laws)):
+        return False
+    return not _wins(contest.play(1, 0, pressed=contest.standing))
+
+
+def _lost(contest: _Contest, steps: int) -> tuple[_Contest, int] | None:
+    """A minimal set of rules with which the environment wins, and how many instants plans have there; None if the robot
+    wins. That more instants would not help is known once there are as many as those few rules can call for."""
+    bound = contest.spare(steps)
+    most = MOST_PLANNED if bound is None else min(bound, MOST_PLANNED)
+    for spare in range(min(most, 1), most + 1):
+        if not _wins(contest.play(steps, spare)):
+            return None
+        few = _fewest(contest, steps, spare)
+        enough = few.spare(steps)
+        if enough is None or enough > MOST_PLANNED:
+            continue
+        if enough <= spare:
+            return few, spare
+        if _wins(few.play(steps, enough)):
+            return _fewest(few, steps, enough), enough
+    if most == bound:
+        return contest, most
+    raise Undecided(f"no strategy of the robot with plans of up to {most} instants")
+
+
+def _wins(play: Play) -> bool:
+    """Whether the environment wins."""
+    first, *later = play.turns
+    return winning(play.circuit, first, play.lost, later) is not None
+
+
+def _fewest(contest: _Contest, steps: int, spare: int) -> _Contest:
+    """A minimal set of rules with which the environment still wins."""
+    kept = list(contest.part.rules)
+    size = len(kept)
+    while size:
+        start = 0
+        while start < len(kept):
+            fewer = kept[:start] + kept[start + size :]
+            if _wins(contest.only(fewer).play(steps, spare)):
+                kept = fewer
+            else:
+                start += size
+        size //= 2
+    return contest.only(kept)
+
+
+class _Telling:
+    """The strategy of the environment in a game that it wins, as simple as can be found."""
+
+    def __init__(self, contest: _Contest, steps: int, spare: int) -> None:
+        self._play = contest.play(steps, spare, eager=False)
+        self._circuit = self._play.circuit
+        self._steps = steps
+
+    def strategy(self) -> Strategy:
+        return self._from(0, {}, [])
+
+    def _from(self, step: int, settled: Move, unseen: list[int]) -> Strategy:
+        """From an act on, when some turns are settled, and the robot's variables `unseen` may be anything that the
+        environment does not look at."""
+        settled = {**settled, **self._simplest(step, settled, unseen)}
+        act = self._act(step, settled)
+        if step + 1 == self._steps:
+            return Strategy(act)
+        unseen = [*unseen, *self._play.turns[2 * step + 1]]
+        if self._move(step + 1, settled, unseen) is not None:
+            return Strategy(act, (Branch(None, (), self._from(step + 1, settled, unseen)),))
+        replies = list(islice(self._replies(step, settled, unseen), MOST_REPLIES + 1))
+        branches = tuple(
+            Branch(self._done(step, reply), self._planned(step, reply), self._from(step + 1, {**settled, **reply}, []))
+            for reply in replies[:MOST_REPLIES]
+        )
+        return Strategy(act, branches, more=len(replies) > MOST_REPLIES)
+
+    def _move(self, step: int, settled: Move, unseen: list[int]) -> Move | None:
+        """A winning act of the environment, with what is settled of it."""
+        own, robots, *later = self._play.turns[2 * step :]
+        goal = self._circuit.replaced(self._play.lost, settled)
+        free = [variable for variable in own if variable not in settled]
+        return winning(self._circuit, free, goal, [[*unseen, *robots], *later])
+
+    def _simplest(self, step: int, settled: Move, unseen: list[int]) -> Move:
+        """A winning act, early and with little happening."""
+        found = self._move(step, settled, unseen)
+        assert found is not None, "the environment wins"
+        fixed: Move = {}
+        for wish in self._play.wishes(step):
+            wanted = {**fixed, **wish}
+            if any(found[variable] != value for variable, value in wish.items()):
+                other = self._move(step, {**settled, **wanted}, unseen)
+                if other is None:
+                    continue
+                found = {**wanted, **other}
+            fixed = wanted
+        return found
+
+    def _replies(self, step: int, settled: Move, variables: Sequence[int]) -> Iterator[Move]:
+        """What the robot may do and plan that keeps all for now, each time with other events at once."""
+        goal = self._circuit.replaced(self._play.kept[step], settled)
+        while True:
+            reply = winning(self._circuit, variables, goal)
+            if reply is None:
+                return
+            yield reply
+            now = self._play.doing(step).values()
+            goal = self._circuit.both(goal, self._circuit.some(-variable * reply[variable] for variable in now))
+
+    # In words of the rules ------------------------------------------------------------------------------------
+
+    def _act(self, step: int, settled: Move) -> Act:
+        act = self._play.act(step, settled)
+        events = tuple(sorted(act.events - set(self._play.doing(step))))
+        return Act(act.time, events, dict(sorted(act.values.items())))
+
+    def _done(self, step: int, reply: Move) -> tuple[str, ...]:
+        return tuple(name for name, variable in self._play.doing(step).items() if reply[variable] > 0)
+
+    def _planned(self, step: int, reply: Move) -> tuple[Act, ...]:
+        planned = [act for act in self._play.plan(step, reply) if act.events]
+        return tuple(Act(act.time, tuple(sorted(act.events)), dict(sorted(act.values.items()))) for act in planned)

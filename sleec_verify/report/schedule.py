@@ -1,0 +1,93 @@
+"""Schedules: what is due until when, as lines of text and as a small chart."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from sleec_verify.report.timeline import chart_of, duration
+from sleec_verify.report.words import quoted
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Context
+    from sleec_verify.report.json import Json
+    from sleec_verify.schedule import Entry
+
+
+def in_words(entries: Sequence[Entry]) -> Iterator[str]:
+    """A line for each entry, those after an event below it, in columns."""
+    groups: dict[str | None, list[Entry]] = {}
+    for entry in entries:
+        groups.setdefault(entry.after, []).append(entry)
+    name = max(len(_what(entry)) for entry in entries)
+    time = max(len(_when(entry)) for entry in entries)
+    for after, group in groups.items():
+        if after is not None:
+            yield f"once {quoted(after)} is done, counted from then:"
+        for entry in group:
+            indent = "  " if after is not None else ""
+            yield f"{indent}{_what(entry).ljust(name)}  {_when(entry).ljust(time)}  {_by(entry)}"
+
+
+def _what(entry: Entry) -> str:
+    name = f"not {quoted(entry.event)}" if entry.negated else quoted(entry.event)
+    return name if entry.instead_of is None else f"or {name}"
+
+
+def _when(entry: Entry) -> str:
+    if entry.unknown is not None:
+        return f"within {entry.unknown}, of which the length is not given"
+    assert entry.start is not None, "what is known has a beginning"
+    if entry.end is None:
+        start = f" from {duration(entry.start)} on" if entry.start else ""
+        return (f"never{start}" if start else "never") if entry.negated else f"at some time{start}"
+    if entry.end == entry.start:
+        return "at once" if entry.start == 0 else f"after {duration(entry.start)}"
+    begins = f"from {duration(entry.start)} " if entry.start else ""
+    return f"{begins}until {duration(entry.end)}"
+
+
+def _by(entry: Entry) -> str:
+    why = f"by {entry.layer or entry.rule}"
+    if entry.instead_of is None:
+        return why
+    if entry.overdue:
+        return f"{why}, if {quoted(entry.instead_of)} was not done in time"
+    return f"{why}, in place of {quoted(entry.instead_of)}"
+
+
+def chart(entries: Sequence[Entry], context: Context) -> list[str]:
+    """The windows that count from the situation, with a column for each time at which one opens or closes."""
+    from sleec_verify.timed.timeline import Due, Moment, Timeline
+
+    now = [entry for entry in entries if entry.after is None and entry.start is not None]
+    dues = tuple(
+        Due(entry.rule, entry.clause, "", entry.event, entry.negated, entry.start or 0, entry.end) for entry in now
+    )
+    times = {0, *(due.start for due in dues), *(due.end for due in dues if due.end is not None)}
+    if len(times) == 1:
+        return []
+    moments = [
+        Moment(time, tuple(sorted(context.triggers)) if time == 0 else (), {}, (), dues if time == 0 else ())
+        for time in sorted(times)
+    ]
+    return chart_of(Timeline(tuple(moments), now=0))
+
+
+def as_json(entries: Sequence[Entry]) -> Json:
+    """Times are seconds from the situation, or from when `after` is done; `until` null: at some time."""
+    return [
+        {
+            "obligation": entry.event,
+            "negated": entry.negated,
+            "from": entry.start,
+            "until": entry.end,
+            "rule": entry.rule,
+            "clause": entry.clause,
+            "after": entry.after,
+            "instead_of": entry.instead_of,
+            "overdue": entry.overdue,
+            "unknown": entry.unknown,
+        }
+        for entry in entries
+    ]

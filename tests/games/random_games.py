@@ -1,0 +1,59 @@
+"""Small rulesets to play about: two events of the environment, one of the robot, one condition, windows of seconds."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import NamedTuple
+
+HEAD = "def_start\n  event A\n  event B\n  event X as system\n  measure m: boolean\ndef_end\n"
+
+WINDOWS = ("", "", " within 1 seconds", " within 2 seconds", " within [1,2] seconds", " within [1,1] seconds")
+
+ENVIRONMENTS = ("mutualExclusive A B", "happenBefore A B", "happenBefore X A", "witness A B")
+ROBOTS = ("happenBefore A X", "witness A X", "mutualExclusive A X", "equal A X")
+ENVIRONMENTS_OF_M = (
+    "when A then {m} for 2 seconds",
+    "when X then {m} for 2 seconds",
+    "when A then {m} until B",
+    "includes A {m}",
+    "causation B {m}",
+    "measure invariant {m}",
+)
+ROBOTS_OF_M = ("forbid X {m}", "causation X {m}")
+
+
+class Drawn(NamedTuple):
+    """A ruleset, which of its relations the environment keeps, and how many seconds what is due may reach."""
+
+    text: str
+    lawful: set[str]
+    measures: list[str]
+    reach: int
+
+
+def drawn(seed: int) -> Drawn:
+    """The same ruleset for the same seed."""
+    random = Random(seed)
+    with_m = random.random() < 0.4
+
+    def response(inner: bool = False) -> str:
+        negated, window = random.random() < 0.45, random.choice(WINDOWS)
+        text = f"{'not ' if negated else ''}X{window}"
+        if window and not (inner or negated) and random.random() < 0.2:
+            text += f" otherwise {response(inner=True)}"
+        return text
+
+    rules = []
+    for number in range(random.randint(1, 3)):
+        guard = random.choice(("", " and {m}", " and (not {m})")) if with_m else ""
+        hedge = f" unless ({{m}}) then {response(inner=True)}" if with_m and random.random() < 0.4 else ""
+        rules.append(f"  R{number} when {random.choice('AABBX')}{guard} then {response()}{hedge}\n")
+    relations: list[str] = []
+    if random.random() < 0.4:
+        choices = [*ENVIRONMENTS, *ROBOTS, *(ENVIRONMENTS_OF_M + ROBOTS_OF_M if with_m else ())]
+        relations = random.sample(choices, random.randint(1, 2))
+    text = HEAD + f"rule_start\n{''.join(rules)}rule_end\n"
+    if relations:
+        text += "relation_start\n" + "".join(f"  {relation}\n" for relation in relations) + "relation_end\n"
+    lawful = {*ENVIRONMENTS, *ENVIRONMENTS_OF_M}.intersection(relations)
+    return Drawn(text, lawful, ["m"] if with_m else [], 4 if "otherwise" in text else 2)

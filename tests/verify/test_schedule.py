@@ -1,0 +1,124 @@
+"""What is due until when: `explain` and `entail` of rules with time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from sleec_runtime.language import parse
+from sleec_runtime.model import Context
+from sleec_runtime.trace import Instant, Trace, broken
+from sleec_verify.chains import chain
+from sleec_verify.entailment import entail
+from sleec_verify.report.schedule import chart, in_words
+from sleec_verify.schedule import Entry, schedule
+from sleec_verify.timed.scope import Untimed
+
+SMOKE = """RULE smoke
+WHEN SmokeDetected
+THEN CallHelp WITHIN 5 minutes OTHERWISE (SoundAlarm WITHIN 2 minutes UNLESS Night IN WHICH CASE Ring)
+UNLESS Cooking IN WHICH CASE AskUser
+RULE ask
+WHEN AskUser THEN NOT CallHelp WITHIN 1 minutes
+RULE called
+WHEN CallHelp THEN OpenDoor WITHIN 10 TO 30 seconds AND Report EVENTUALLY
+"""
+
+
+def _entries(text: str, trigger: str, untimed: Untimed = "at", **conditions: object) -> tuple[Entry, ...]:
+    ruleset = parse(text)
+    context = Context(frozenset({trigger}), conditions)  # type: ignore[arg-type]
+    answer = entail(ruleset, context)
+    return schedule(ruleset, context, replace(answer, chain=chain(ruleset, context, answer)), untimed)
+
+
+def _times(entries: tuple[Entry, ...]) -> list[tuple[str, int | None, int | None, str | None]]:
+    return [(entry.event, entry.start, entry.end, entry.after) for entry in entries]
+
+
+def test_windows_are_clock_times_and_chains_count_from_what_is_done() -> None:
+    assert _times(_entries(SMOKE, "SmokeDetected")) == [
+        ("CallHelp", 0, 300, None),
+        ("SoundAlarm", 300, 420, None),
+        ("OpenDoor", 10, 30, "CallHelp"),
+        ("Report", 0, None, "CallHelp"),
+    ]
+
+
+def test_the_hedges_of_what_is_due_instead_are_decided_by_the_situation() -> None:
+    entries = _entries(SMOKE, "SmokeDetected", Night=True)
+    assert ("Ring", 300, 300, None) in _times(entries)
+    (ring,) = (entry for entry in entries if entry.event == "Ring")
+    assert (ring.instead_of, ring.overdue) == ("CallHelp", True)
+
+
+def test_words() -> None:
+    assert [" ".join(line.split()) for line in in_words(_entries(SMOKE, "SmokeDetected"))] == [
+        "CallHelp until 5 minutes by smoke",
+        "or SoundAlarm from 5 minutes until 7 minutes by smoke, if CallHelp was not done in time",
+        "once CallHelp is done, counted from then:",
+        "OpenDoor from 10 seconds until 30 seconds by called",
+        "Report at some time by called",
+    ]
+
+
+def test_prohibitions_alternatives_and_what_has_no_end() -> None:
+    text = (
+        "WHEN A THEN NOT B EVENTUALLY AND C WITHIN 1 hour ELSE D\nWHEN A THEN NOT E WITHIN 2 days AND F\n"
+        "WHEN A AND Late THEN G WITHIN 1 minutes OTHERWISE NOT H EVENTUALLY\n"
+    )
+    words = [" ".join(line.split()) for line in in_words(_entries(text, "A", Late=True))]
+    assert words == [
+        "not B never by rule_1",
+        "C until 1 hour by rule_1",
+        "or D at once by rule_1, in place of C",
+        "not E until 2 days by rule_2",
+        "F at once by rule_2",
+        "G until 1 minute by rule_3",
+        "or not H never from 1 minute on by rule_3, if G was not done in time",
+    ]
+
+
+def test_a_response_without_a_window_may_have_time() -> None:
+    text = "WHEN A THEN B\nWHEN A THEN C WITHIN 1 minutes OTHERWISE D\n"
+    words = [" ".join(line.split()) for line in in_words(_entries(text, "A", "eventually"))]
+    assert words[0] == "B at some time by rule_1"
+    assert words[-1] == "or D at some time from 1 minute on by rule_2, if C was not done in time"
+
+
+def test_a_length_that_a_measure_says_is_taken_from_the_situation() -> None:
+    text = "MEASURE delay: integer\nWHEN A THEN B WITHIN delay minutes OTHERWISE C\n"
+    assert _times(_entries(text, "A", delay=2)) == [("B", 0, 120, None), ("C", 120, 120, None)]
+    entries = _entries(text, "A")
+    assert _times(entries) == [("B", None, None, None), ("C", None, None, None)]
+    assert "of which the length is not given" in next(iter(in_words(entries)))
+
+
+def test_the_chart_has_a_column_for_each_time() -> None:
+    entries = _entries(SMOKE, "SmokeDetected")
+    lines = chart(entries, Context(frozenset({"SmokeDetected"}), {}))
+    assert lines[0].split() == ["0", "s", "now", "5", "min", "7", "min"]
+    assert any(line.startswith("CallHelp") and "-----" in line for line in lines)
+
+
+def test_rules_without_time_have_no_schedule() -> None:
+    assert _entries("WHEN A THEN B\n", "A") == ()
+    assert chart((), Context(frozenset(), {})) == []
+
+
+def test_rules_at_odds_have_none() -> None:
+    assert _entries("WHEN A THEN B AND C WITHIN 1 minutes\nWHEN A THEN NOT B\n", "A") == ()
+
+
+@pytest.mark.parametrize("late", [False, True])
+def test_to_do_all_as_scheduled_keeps_the_rules(late: bool) -> None:
+    """The evaluator of traces, which knows nothing of schedules, agrees with their times: done at the last moment all
+    is kept, done a second later it is not."""
+    text = "WHEN A THEN B WITHIN 2 minutes\nWHEN B THEN C WITHIN 10 TO 30 seconds\n"
+    b, c = _entries(text, "A")
+    assert b.end is not None
+    assert c.end is not None
+    times = {"A": 0, "B": b.end, "C": b.end + c.end + late}
+    trace = Trace(tuple(Instant(time, frozenset({event})) for event, time in times.items()))
+    assert bool(broken(parse(text), trace)) == late
