@@ -59,7 +59,7 @@ types: $(INSTALLED)
 	$(BIN)/mypy
 
 check-tests: $(INSTALLED)
-	$(BIN)/pytest --cov --cov-report=term
+	$(BIN)/pytest -n auto --dist worksteal --cov --cov-report=term
 
 long: $(INSTALLED)
 	HYPOTHESIS_PROFILE=long $(BIN)/pytest -m long --timeout=7200

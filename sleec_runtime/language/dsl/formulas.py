@@ -8,10 +8,13 @@ from __future__ import annotations
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.cursor import quoted
 from sleec_runtime.language.dsl.cursor import Cursor
-from sleec_runtime.language.dsl.names import Names, Side
+from sleec_runtime.language.dsl.names import Calculation, Names, Operand, Side
 from sleec_runtime.language.formulas import MAX_DIGITS, OPERATORS
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.model import And, Atom, Dialect, Formula, Not, Or, Source, Span, Truth
+
+MAX_CALCULATION = 200
+"""Tokens that a calculation in parentheses may have."""
 
 
 class FormulaParser(Cursor):
@@ -55,7 +58,7 @@ class FormulaParser(Cursor):
     def _primary(self) -> Formula:
         first = self.at
         kind = self.kinds[first]
-        if kind == "(":
+        if kind == "(" and not self._opens_calculation():
             self.deeper()
             self.at += 1
             formula = self.formula()
@@ -71,44 +74,94 @@ class FormulaParser(Cursor):
         if kind in ("true", "false"):
             self.at += 1
             return Truth(kind == "true", self.token_span(first))
-        left = self._side("a condition")
+        left = self.operand("a condition")
         if self.kinds[self.at] != "operator":
-            self._no_arithmetic()
-            if not isinstance(left.written, str):
+            if isinstance(left, Calculation) or not isinstance(left.written, str):
                 self.expected("a comparison such as < or >= after the number")
             if not self.hurt:
                 self.names.boolean(left.written, left.span)
             return Atom("condition", left.written, left.span)
         return self._comparison(first, left)
 
-    def _comparison(self, first: int, left: Side) -> Formula:
+    def _comparison(self, first: int, left: Operand) -> Formula:
         operator = OPERATORS[self.token_text(self.at)]
         self.at += 1
         if self.kinds[self.at] in ("true", "false"):
             return self._truth_of(first, left, operator)
-        right = self._side("a number or a name to compare with")
+        right = self.operand("a number or a name to compare with")
         span = self.span(first)
-        self._no_arithmetic()
         if self.kinds[self.at] == "operator":
             self.fail(
                 "only two things are compared at a time",
                 self.token_span(self.at),
                 "write two comparisons with and between them",
             )
-        found = None if self.hurt else self.names.comparison(left, operator, right, span)
+        found: Formula | None = None
+        if not self.hurt:
+            if isinstance(left, Side) and isinstance(right, Side):
+                found = self.names.comparison(left, operator, right, span)
+            else:
+                found = self.names.calculated(left, operator, right, span)
         return found if found is not None else Truth(True, span)
 
-    def _truth_of(self, first: int, left: Side, operator: str) -> Formula:
+    def _truth_of(self, first: int, left: Operand, operator: str) -> Formula:
         """``{measure} = true`` is the measure itself."""
         value = self.kinds[self.at] == "true"
         self.at += 1
         span = self.span(first)
-        if operator not in ("=", "!=") or not isinstance(left.written, str):
+        if operator not in ("=", "!=") or not (isinstance(left, Side) and isinstance(left.written, str)):
             self.fail("true and false have no order", span, "write the measure alone, or not and the measure")
         if not self.hurt:
             self.names.boolean(left.written, left.span)
         atom = Atom("condition", left.written, left.span)
         return atom if value == (operator == "=") else Not(atom, span)
+
+    # Calculations ---------------------------------------------------------------------------------------------
+
+    def _opens_calculation(self) -> bool:
+        """Whether the parenthesis at hand holds a calculation, and not a condition."""
+        depth, found = 0, False
+        for at in range(self.at, min(self.at + MAX_CALCULATION, len(self.kinds))):
+            kind = self.kinds[at]
+            if kind in ("+", "-", "*"):
+                found = True
+            elif kind == "(":
+                depth += 1
+            elif kind == ")":
+                depth -= 1
+                if depth == 0:
+                    return found or self.kinds[at + 1] in ("+", "-", "*")
+            elif kind not in ("word", "number", "{", "}", "->"):
+                return False
+        return False
+
+    def operand(self, what: str) -> Operand:
+        """One side of a comparison, or a length of time: a name, a number, or a calculation with some."""
+        first = self.at
+        left = self._product(what)
+        while (operator := self.kinds[self.at]) in ("+", "-"):
+            self.at += 1
+            left = Calculation(operator, left, self._product("a number or a measure"), self.span(first))
+        return left
+
+    def _product(self, what: str) -> Operand:
+        first = self.at
+        left = self._factor(what)
+        while self.kinds[self.at] == "*":
+            self.at += 1
+            left = Calculation("*", left, self._factor("a number or a measure"), self.span(first))
+        return left
+
+    def _factor(self, what: str) -> Operand:
+        first = self.at
+        if self.kinds[first] != "(":
+            return self._side(what)
+        self.deeper()
+        self.at += 1
+        inner = self.operand(what)
+        self.close(")", first)
+        self.depth -= 1
+        return inner
 
     def _side(self, what: str) -> Side:
         first = self.at
@@ -142,11 +195,3 @@ class FormulaParser(Cursor):
         if len(text) > MAX_DIGITS:
             self.fail(f"this number has more than {MAX_DIGITS} digits", self.span(first), "is a blank missing?")
         return -int(text) if negative else int(text)
-
-    def _no_arithmetic(self) -> None:
-        if self.kinds[self.at] in ("+", "-", "*"):
-            self.fail(
-                f"arithmetic with {quoted(self.kinds[self.at])} is not supported yet",
-                self.token_span(self.at),
-                "compare measures with numbers and constants only",
-            )

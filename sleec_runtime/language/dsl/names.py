@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import operator as operators
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from math import ceil, floor
 from typing import Literal, NamedTuple, Union
 
 from sleec_runtime.errors import Problem
@@ -13,6 +17,7 @@ from sleec_runtime.model import (
     Constant,
     Defect,
     DefectKind,
+    Formula,
     Measure,
     MeasureRef,
     Number,
@@ -22,10 +27,22 @@ from sleec_runtime.model import (
     Source,
     Span,
     Term,
+    Truth,
 )
 
 NameKind = Literal["event", "boolean", "measure", "constant"]
 _ARTICLE = {"event": "an event", "boolean": "a boolean measure", "measure": "a measure", "constant": "a constant"}
+
+
+_COMPARED: Mapping[Operator, Callable[[Rational, Rational], bool]] = {
+    "<": operators.lt,
+    "<=": operators.le,
+    "=": operators.eq,
+    "!=": operators.ne,
+    ">=": operators.ge,
+    ">": operators.gt,
+}
+_MIRRORED: Mapping[Operator, Operator] = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
 
 class Side(NamedTuple):
@@ -34,6 +51,30 @@ class Side(NamedTuple):
     written: str | Rational
     span: Span
     braced: bool = False
+
+
+class Calculation(NamedTuple):
+    """Two sides joined by ``+``, ``-`` or ``*``."""
+
+    operator: str
+    left: Side | Calculation
+    right: Side | Calculation
+    span: Span
+
+
+Operand = Union[Side, Calculation]
+
+
+class _Sum(NamedTuple):
+    """What a calculation comes to: so many times each measure, and a number."""
+
+    measures: dict[str, Rational]
+    number: Rational
+
+    def plus(self, other: _Sum, times: Rational = 1) -> _Sum:
+        names = [*self.measures, *(name for name in other.measures if name not in self.measures)]
+        found = {name: self.measures.get(name, 0) + times * other.measures.get(name, 0) for name in names}
+        return _Sum({name: factor for name, factor in found.items() if factor}, self.number + times * other.number)
 
 
 class Names:
@@ -202,8 +243,21 @@ class Names:
             did_you_mean(near) or f"define it, between def_start and def_end: {as_in}",
         )
 
-    def number(self, side: Side) -> Union[Number, MeasureRef, None]:
-        """A number, a constant or a numeric measure; None, and a problem, if it is nothing of that."""
+    def number(self, side: Operand) -> Union[Number, MeasureRef, None]:
+        """A number, a constant, a numeric measure, or a calculation that comes to one of them; None, and a problem, if
+        it is nothing of that."""
+        if isinstance(side, Calculation):
+            whole = self._sum(side)
+            if whole is None:
+                return None
+            if not whole.measures:
+                return Number(whole.number)
+            if not whole.number and list(whole.measures.values()) == [1]:
+                return self._ref(next(iter(whole.measures)))
+            self.problem(
+                "a calculation with a measure is no length of time", side.span, "use the measure alone, or none"
+            )
+            return None
         name = side.written
         if not isinstance(name, str):
             return Number(name)
@@ -223,6 +277,24 @@ class Names:
                 "write a whole number, a constant or a numeric measure",
             )
         return None
+
+    def _sum(self, side: Operand) -> _Sum | None:
+        """What a side comes to; None, and a problem, if it cannot be told."""
+        if isinstance(side, Side):
+            term = self.number(side)
+            if term is None:
+                return None
+            return _Sum({}, term.value) if isinstance(term, Number) else _Sum({term.name: 1}, 0)
+        left, right = self._sum(side.left), self._sum(side.right)
+        if left is None or right is None:
+            return None
+        if side.operator != "*":
+            return left.plus(right, 1 if side.operator == "+" else -1)
+        if left.measures and right.measures:
+            self.problem("a product of two measures is not analysed", side.span, "multiply a measure by a number")
+            return None
+        factor, other = (left.number, right) if not left.measures else (right.number, left)
+        return _Sum({}, 0).plus(other, factor)
 
     def _ref(self, name: str) -> MeasureRef:
         ref = self._refs.get(name)
@@ -263,6 +335,30 @@ class Names:
                 return None
         first, second = terms
         return None if first is None or second is None else Comparison(first, operator, second, span)
+
+    def calculated(self, left: Operand, operator: Operator, right: Operand, span: Span) -> Formula | None:
+        """A comparison of calculations as one that compares a measure with a number, or two measures; None, and a
+        problem, if it is none."""
+        one, two = self._sum(left), self._sum(right)
+        if one is None or two is None:
+            return None
+        whole = one.plus(two, -1)
+        factors = list(whole.measures.items())
+        if not factors:
+            return Truth(_COMPARED[operator](whole.number, 0), span)
+        name, factor = factors[0]
+        if factor < 0:
+            operator = _MIRRORED[operator]
+        if len(factors) == 1:
+            return _with_whole_number(self._ref(name), operator, Fraction(-whole.number) / Fraction(factor), span)
+        if len(factors) == 2 and factors[1][1] == -factor and not whole.number:
+            return Comparison(self._ref(name), operator, self._ref(factors[1][0]), span)
+        self.problem(
+            f"a calculation with {quoted(name)} and {quoted(factors[1][0])} is not analysed",
+            span,
+            "compare one measure with a number, or two measures with each other",
+        )
+        return None
 
     def _scale(self, side: Side) -> Measure | None:
         measure = self.measures.get(side.written) if isinstance(side.written, str) else None
@@ -321,6 +417,16 @@ class Names:
             f"compare {quoted(self._owners[value])} with it, or write a number",
         )
         return True
+
+
+def _with_whole_number(measure: MeasureRef, operator: Operator, number: Fraction, span: Span) -> Formula:
+    """A comparison of a whole number with any."""
+    if number.denominator == 1:
+        return Comparison(measure, operator, Number(int(number)), span)
+    if operator in ("=", "!="):
+        return Truth(operator == "!=", span)
+    up = operator in ("<", ">=")
+    return Comparison(measure, operator, Number(ceil(number) if up else floor(number)), span)
 
 
 def _values(measure: Measure) -> str:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, cast
 
 from sleec_runtime.language.cursor import ALTERNATIVE_LEVELS, Abandon, quoted
 from sleec_runtime.language.dsl.definitions import DefinitionParser
+from sleec_runtime.language.dsl.names import Side
 from sleec_runtime.language.units import UNITS, unit_meant
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Obligation, Span
 
@@ -142,10 +143,9 @@ class ResponseParser(DefinitionParser):
         first = self.at
         if self.kinds[first] == "[" or (self.token_text(first) in UNITS and self.kinds[first + 1] != "word"):
             self.expected("a number before the unit", "as in: within 5 minutes")
-        side = self._side("a length of time, such as 5 minutes")
-        self._no_arithmetic()
+        side = self.operand("a length of time, such as 5 minutes")
         amount = None if self.hurt else self.names.number(side)
-        if isinstance(side.written, int) and side.written < 0:
+        if isinstance(side, Side) and isinstance(side.written, int) and side.written < 0:
             self.fail(
                 f"a window cannot be negative: {side.written}",
                 side.span,
@@ -160,7 +160,9 @@ class ResponseParser(DefinitionParser):
             unit, span = self._unit(), self.span(first)
         if getattr(amount, "value", 0) < 0:
             self.fail(
-                f"a window cannot be negative: {quoted(str(side.written))} is", side.span, "give it another value"
+                f"a window cannot be negative: {quoted(self.text[side.span.start : side.span.end])} is",
+                side.span,
+                "give it another value",
             )
         return Length(amount, unit, span)
 
