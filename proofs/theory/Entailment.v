@@ -53,7 +53,7 @@ Proof.
     rewrite <- (due_of_ext _ (context_in v)) by exact A. exact I.
 Qed.
 
-(** Do what is to be done, and nothing else but, maybe, what [extra] names. *)
+(** Two extreme ones: do only what is to be done; do all but what is not to be. *)
 Definition least_model (chi : context) (ls : list literal) : atom -> bool :=
   interpretation chi (fun o => listed (Do o) ls).
 

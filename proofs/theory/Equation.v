@@ -30,6 +30,7 @@ Definition guard (r : reading) (R : rule) (i : nat) : formula fact :=
   conj (conjuncts r (c0 R) (conditions R) i).
 
 Definition clause_numbers (R : rule) : list nat := seq 0 (S (length (hedges R))).
+Arguments clause_numbers R : simpl never.
 
 (** * Equation 1 *)
 
