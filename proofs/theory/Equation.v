@@ -87,9 +87,15 @@ Lemma forallb_map {A B} (f : B -> bool) (g : A -> B) l :
   forallb f (map g l) = forallb (fun a => f (g a)) l.
 Proof. induction l; simpl; congruence. Qed.
 
-Lemma forallb_same {A} (f g : A -> bool) l :
-  (forall a, f a = g a) -> forallb f l = forallb g l.
-Proof. intro H. induction l; simpl; congruence. Qed.
+Lemma existsb_map {A B} (f : B -> bool) (g : A -> B) l :
+  existsb f (map g l) = existsb (fun a => f (g a)) l.
+Proof. induction l; simpl; congruence. Qed.
+
+Lemma firstn_succ {A} i (l : list A) : firstn (S i) l = firstn i l ++ firstn 1 (skipn i l).
+Proof.
+  revert l. induction i as [|i IH]; intros [|a l]; try reflexivity.
+  change (a :: firstn (S i) l = a :: (firstn i l ++ firstn 1 (skipn i l))). rewrite IH. reflexivity.
+Qed.
 
 (** The same for any chain, whatever its atoms are. *)
 Theorem conjuncts_decide {A} (v : A -> bool) r c cs i :
