@@ -1,0 +1,220 @@
+(** The conflict check ([sleec_verify/checks/conflict.py]; issue 5, theorem 6): a
+    formula that is unsatisfiable exactly if no context conflicts. *)
+
+From Coq Require Import List Bool PArith Arith Lia.
+From Sleec Require Import Model Evaluation Equation Entailment Readings Clauses Cnf Clashes.
+Import ListNotations.
+
+(** * Conflicts *)
+
+(** What is due, the context and the constraints have a common model over O. *)
+Definition compatible (r : reading) (G : ruleset) (Ks : list constraint) (chi : context) : Prop :=
+  jointly_possible Ks chi (due r G chi).
+
+Definition conflicts r G Ks chi : Prop := ~ compatible r G Ks chi.
+
+(** A ruleset is conflict-free if no context that can be conflicts. *)
+Definition conflict_free (r : reading) (G : ruleset) (Ks : list constraint) : Prop :=
+  forall chi, possible Ks chi = true -> compatible r G Ks chi.
+
+Definition obliged_literals (G : ruleset) : list literal := flat_map (@concat _) (map clauses G).
+
+Lemma due_obliged r G chi : incl (due r G chi) (obliged_literals G).
+Proof.
+  intros l I. apply in_due in I. destruct I as [R [I [_ L]]].
+  unfold obliged_literals. apply in_flat_map. exists (clauses R).
+  split; [apply in_map, I|]. apply in_concat. exists (clause R (active r chi R)).
+  split; [|exact L]. apply nth_In. rewrite clauses_length. pose proof (active_bound r chi R). lia.
+Qed.
+
+(** A name and its negation, where rules oblige both. *)
+Definition direct_clashes (ls : list literal) : list clash :=
+  flat_map (fun l => match l with
+                     | Do o => if listed (Avoid o) ls then [Clash [Do o; Avoid o] []] else []
+                     | Avoid _ => []
+                     end) (nodup literal_eq_dec ls).
+
+Definition all_clashes (G : ruleset) (Ks : list constraint) : list clash :=
+  direct_clashes (obliged_literals G) ++ clashes Ks (obliged_literals G).
+
+(** Some clash is among what is due, and its labels are true. *)
+Definition clash_here (r : reading) (G : ruleset) (Ks : list constraint) (chi : context) : bool :=
+  existsb (fun c => here chi c && within (due r G chi) c) (all_clashes G Ks).
+
+Lemma direct_clashes_spec chi ls ms :
+  incl ms ls ->
+  existsb (fun c => here chi c && within ms c) (direct_clashes ls) = contradictory ms.
+Proof.
+  intro S. apply Bool.eq_true_iff_eq. rewrite existsb_exists, contradictory_spec. split.
+  - intros [c [I X]]. apply in_flat_map in I. destruct I as [[o|o] [I J]]; [|destruct J].
+    destruct (listed (Avoid o) ls); [|destruct J]. destruct J as [<-|[]].
+    unfold here, within in X. simpl in X. rewrite andb_true_r, andb_true_iff in X.
+    exists (Do o). simpl. rewrite <- !listed_In. exact X.
+  - assert (E : forall o, In (Do o) ms -> In (Avoid o) ms ->
+        exists c, In c (direct_clashes ls) /\ here chi c && within ms c = true).
+    { intros o I J. exists (Clash [Do o; Avoid o] []). split.
+      - apply in_flat_map. exists (Do o). split; [apply nodup_In, S, I|].
+        rewrite (proj2 (listed_In (Avoid o) ls) (S _ J)). left. reflexivity.
+      - unfold here, within. simpl. rewrite andb_true_r, andb_true_iff, !listed_In. auto. }
+    intros [[o|o] [I J]]; eauto.
+Qed.
+
+(** The ∀ over obligations is gone: a context conflicts exactly where a clash is. *)
+Theorem clash_here_spec r G Ks chi :
+  compatible r G Ks chi <-> clash_here r G Ks chi = false.
+Proof.
+  unfold clash_here, all_clashes, compatible. rewrite existsb_app, orb_false_iff.
+  rewrite direct_clashes_spec by apply due_obliged.
+  assert (N : existsb (fun c => here chi c && within (due r G chi) c)
+                      (clashes Ks (obliged_literals G)) = false <->
+              forall c, In c (clashes Ks (obliged_literals G)) ->
+                        here chi c && within (due r G chi) c = false).
+  { rewrite <- not_true_iff_false, existsb_exists. split.
+    - intros H c I. apply not_true_is_false. intro T. apply H. eauto.
+    - intros H [c [I T]]. rewrite (H c I) in T. discriminate. }
+  rewrite N. split.
+  - intro P. assert (C : contradictory (due r G chi) = false).
+    { apply not_true_is_false. intro C. apply contradictory_spec in C.
+      destruct C as [l [I J]]. destruct P as [v [_ [T _]]].
+      pose proof (T _ I) as X. pose proof (T _ J) as Y.
+      rewrite true_in_opposite, X in Y. discriminate. }
+    split; [exact C|]. apply clashes_decide; auto using due_obliged.
+  - intros [C H]. apply (clashes_decide Ks (obliged_literals G)); auto using due_obliged.
+Qed.
+
+Corollary conflicts_iff r G Ks chi :
+  conflicts r G Ks chi <-> clash_here r G Ks chi = true.
+Proof.
+  unfold conflicts. rewrite clash_here_spec, not_false_iff_true. reflexivity.
+Qed.
+
+(** A context conflicts or it does not: no excluded middle is assumed. *)
+Corollary compatible_or_conflicts r G Ks chi :
+  compatible r G Ks chi \/ conflicts r G Ks chi.
+Proof.
+  rewrite conflicts_iff, clash_here_spec.
+  destruct (clash_here r G Ks chi); auto.
+Qed.
+
+(** Without constraints to conflict is to contradict: a literal and its opposite. *)
+Theorem compatible_without_constraints r G chi :
+  compatible r G [] chi <-> consistent r G chi.
+Proof.
+  split.
+  - intros [v [_ [T _]]]. apply consistent_spec. intros l I J.
+    pose proof (T _ I) as X. pose proof (T _ J) as Y.
+    rewrite true_in_opposite, X in Y. discriminate.
+  - intro C. exists (least_model chi (due r G chi)). split; [apply interpretation_agrees|].
+    split; [intros; apply least_model_true; assumption|intros k []].
+Qed.
+
+(** A context that does not conflict is consistent, so Proposition 1 holds there. *)
+Theorem compatible_consistent r G Ks chi : compatible r G Ks chi -> consistent r G chi.
+Proof.
+  intros [v [A [T _]]]. apply compatible_without_constraints. exists v.
+  split; [exact A|]. split; [exact T|intros k []].
+Qed.
+
+(** * The formula *)
+
+(** Where a literal is due: the guards of the clauses that oblige it. *)
+Definition due_formula (r : reading) (G : ruleset) (l : literal) : formula fact :=
+  disj (flat_map (fun R =>
+          flat_map (fun i => if listed l (clause R i) then [guard r R i] else [])
+                   (clause_numbers R)) G).
+
+Lemma due_formula_spec r G l chi : eval chi (due_formula r G l) = listed l (due r G chi).
+Proof.
+  unfold due_formula. rewrite eval_disj. apply Bool.eq_true_iff_eq.
+  rewrite existsb_exists, listed_In, in_due. split.
+  - intros [f [I E]]. apply in_flat_map in I. destruct I as [R [IR I]].
+    apply in_flat_map in I. destruct I as [i [Ii I]].
+    destruct (listed l (clause R i)) eqn:L; [|destruct I]. destruct I as [<-|[]].
+    apply in_clause_numbers in Ii. apply guard_true in E; [|exact Ii].
+    destruct E as [T <-]. exists R. rewrite <- listed_In. auto.
+  - intros [R [IR [T L]]]. exists (guard r R (active r chi R)). split.
+    + apply in_flat_map. exists R. split; [exact IR|]. apply in_flat_map.
+      exists (active r chi R). split; [apply in_clause_numbers, active_bound|].
+      rewrite (proj2 (listed_In _ _) L). left. reflexivity.
+    + apply guard_true; auto using active_bound.
+Qed.
+
+Definition clash_formula (r : reading) (G : ruleset) (c : clash) : formula fact :=
+  And (conj (labels c)) (conj (map (due_formula r G) (literals c))).
+
+(** Some clash is due, in a context that can be. *)
+Definition conflict_formula (r : reading) (G : ruleset) (Ks : list constraint) : formula fact :=
+  And (conj (map assumed Ks)) (disj (map (clash_formula r G) (all_clashes G Ks))).
+
+Lemma conflict_formula_value r G Ks chi :
+  eval chi (conflict_formula r G Ks) = possible Ks chi && clash_here r G Ks chi.
+Proof.
+  unfold conflict_formula, possible, clash_here. cbn [eval]. rewrite eval_conj, forallb_map. f_equal.
+  rewrite eval_disj, existsb_map. induction (all_clashes G Ks) as [|c cs IH]; [reflexivity|].
+  cbn [existsb]. rewrite IH. f_equal. unfold clash_formula. cbn [eval]. rewrite !eval_conj. f_equal.
+  unfold within. rewrite forallb_map. induction (literals c) as [|l ls IHl]; [reflexivity|].
+  cbn [forallb]. rewrite due_formula_spec, IHl. reflexivity.
+Qed.
+
+(** The formula is true in the contexts that conflict, and in no others. *)
+Theorem conflict_formula_spec r G Ks chi :
+  eval chi (conflict_formula r G Ks) = true <->
+  possible Ks chi = true /\ conflicts r G Ks chi.
+Proof. rewrite conflict_formula_value, andb_true_iff, conflicts_iff. reflexivity. Qed.
+
+(** Soundness and completeness of the check. *)
+Theorem conflict_check r G Ks :
+  conflict_free r G Ks <-> forall chi, eval chi (conflict_formula r G Ks) = false.
+Proof.
+  unfold conflict_free. split.
+  - intros F chi. apply not_true_is_false. intro E. apply conflict_formula_spec in E.
+    destruct E as [P C]. exact (C (F chi P)).
+  - intros U chi P. destruct (compatible_or_conflicts r G Ks chi) as [C|C]; [exact C|].
+    exfalso. assert (E : eval chi (conflict_formula r G Ks) = true).
+    { apply conflict_formula_spec. auto. }
+    rewrite U in E. discriminate.
+Qed.
+
+(** * The same as clauses, linear in the rules *)
+
+(** For each literal one that says whether it is due. *)
+Fixpoint build_dues (gs : list (list literal * lit)) (ls : list literal) (s : state)
+  : list lit * state :=
+  match ls with
+  | [] => ([], s)
+  | l :: rest =>
+      let (d, s1) := any_of (map snd (filter (fun p => listed l (fst p)) gs)) s in
+      let (ds, s2) := build_dues gs rest s1 in (d :: ds, s2)
+  end.
+
+Fixpoint lookup (l : literal) (ls : list literal) (ds : list lit) : lit :=
+  match ls, ds with
+  | m :: ls', d :: ds' => if literal_eqb l m then d else lookup l ls' ds'
+  | _, _ => constant false
+  end.
+
+Fixpoint build_clashes (ls : list literal) (ds : list lit) (cs : list clash) (s : state)
+  : list lit * state :=
+  match cs with
+  | [] => ([], s)
+  | c :: rest =>
+      let (fs, s1) := build_facts (labels c) s in
+      let (x, s2) := all_of (fs ++ map (fun l => lookup l ls ds) (literals c)) s1 in
+      let (xs, s3) := build_clashes ls ds rest s2 in (x :: xs, s3)
+  end.
+
+(** A literal for each clash, one for each assumption, and the gates of both. *)
+Definition conflict_gates (r : reading) (G : ruleset) (Ks : list constraint)
+  : list lit * list lit * state :=
+  let cs := all_clashes G Ks in
+  let ls := nodup literal_eq_dec (flat_map literals cs) in
+  let (gs, s1) := guarded r G start in
+  let (ds, s2) := build_dues gs ls s1 in
+  let (xs, s3) := build_clashes ls ds cs s2 in
+  let (ys, s4) := build_facts (map assumed Ks) s3 in
+  (xs, ys, s4).
+
+Definition conflict_clauses (r : reading) (G : ruleset) (Ks : list constraint) : cnf :=
+  match conflict_gates r G Ks with
+  | (xs, ys, s) => xs :: map (fun y => [y]) ys ++ built s
+  end.
