@@ -48,6 +48,13 @@ Definition respects (Ks : list constraint) (v : atom -> bool) : Prop :=
 Definition possible (Ks : list constraint) (chi : context) : bool :=
   forallb (fun k => eval chi (assumed k)) Ks.
 
+Lemma possible_ext Ks chi psi :
+  (forall f, chi f = psi f) -> possible Ks chi = possible Ks psi.
+Proof.
+  intro H. unfold possible. induction Ks as [|k Ks IH]; [reflexivity|]. cbn [forallb].
+  rewrite IH, (eval_ext chi psi _ H). reflexivity.
+Qed.
+
 Lemma in_pairs o p os : In (o, p) (pairs os) -> In o os /\ In p os /\ o <> p.
 Proof.
   induction os as [|q os IH]; simpl; [tauto|]. intro H. apply in_app_iff in H. destruct H as [H|H].

@@ -38,6 +38,9 @@ Proof.
   erewrite map_ext; [reflexivity|]. intro h. apply eval_ext. auto.
 Qed.
 
+Lemma due_ext r chi psi G : (forall f, chi f = psi f) -> due r G chi = due r G psi.
+Proof. intro H. unfold due. apply flat_map_ext. intro R. apply due_of_ext, H. Qed.
+
 (** In a context, Equation 1 of all rules says that what is due is true, no more
     and no less. *)
 Theorem models_iff_due r G chi v :

@@ -36,9 +36,7 @@ Proof.
   destruct (assignment_exists r G (interpretation chi (fun _ => false))) as [a [A T]].
   assert (X : forall x, facts_in a x = chi x) by (intro x; apply (A (Fact x))).
   assert (DA : In l (due r G (facts_in a))).
-  { unfold due in *. apply in_flat_map in D. destruct D as [R [I L]].
-    apply in_flat_map. exists R. split; [exact I|].
-    rewrite (due_of_ext r _ chi) by exact X. exact L. }
+  { rewrite (due_ext r _ chi) by exact X. exact D. }
   unfold f, propagation_clauses, equation_clauses.
   pose proof (guarded_due r G start a l start_sound T) as GD.
   pose proof (build_rules_gives r G start) as P.
