@@ -142,6 +142,14 @@ Qed.
 Definition clash_formula (r : reading) (G : ruleset) (c : clash) : formula fact :=
   And (conj (labels c)) (conj (map (due_formula r G) (literals c))).
 
+Lemma clash_formula_value r G c chi :
+  eval chi (clash_formula r G c) = here chi c && within (due r G chi) c.
+Proof.
+  unfold clash_formula. cbn [eval]. rewrite !eval_conj. f_equal.
+  unfold within. rewrite forallb_map. induction (literals c) as [|l ls IH]; [reflexivity|].
+  cbn [forallb]. rewrite due_formula_spec, IH. reflexivity.
+Qed.
+
 (** Some clash is due, in a context that can be. *)
 Definition conflict_formula (r : reading) (G : ruleset) (Ks : list constraint) : formula fact :=
   And (conj (map assumed Ks)) (disj (map (clash_formula r G) (all_clashes G Ks))).
@@ -151,9 +159,7 @@ Lemma conflict_formula_value r G Ks chi :
 Proof.
   unfold conflict_formula, possible, clash_here. cbn [eval]. rewrite eval_conj, forallb_map. f_equal.
   rewrite eval_disj, existsb_map. induction (all_clashes G Ks) as [|c cs IH]; [reflexivity|].
-  cbn [existsb]. rewrite IH. f_equal. unfold clash_formula. cbn [eval]. rewrite !eval_conj. f_equal.
-  unfold within. rewrite forallb_map. induction (literals c) as [|l ls IHl]; [reflexivity|].
-  cbn [forallb]. rewrite due_formula_spec, IHl. reflexivity.
+  cbn [existsb]. rewrite IH, clash_formula_value. reflexivity.
 Qed.
 
 (** The formula is true in the contexts that conflict, and in no others. *)
