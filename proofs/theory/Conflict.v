@@ -96,6 +96,43 @@ Proof.
   destruct (clash_here r G Ks chi); auto.
 Qed.
 
+(** ** To the letter: a table over the obligations that are named *)
+
+Definition compatible_by_table (r : reading) (G : ruleset) (Ks : list constraint) (chi : context)
+  : bool :=
+  let ls := due r G chi in
+  existsb
+    (fun w =>
+       let v := interpretation chi w in
+       forallb (true_in v) ls && forallb (fun k => negb (eval v (forbidden k))) Ks)
+    (valuations (nodup Pos.eq_dec
+                   (map about ls ++ flat_map (fun k => obligations_in (forbidden k)) Ks))).
+
+Theorem compatible_by_table_correct r G Ks chi :
+  compatible_by_table r G Ks chi = true <-> compatible r G Ks chi.
+Proof.
+  unfold compatible_by_table, compatible, jointly_possible. cbv zeta.
+  rewrite existsb_exists. split.
+  - intros [w [_ T]]. apply andb_true_iff in T. destruct T as [T K].
+    rewrite forallb_forall in T, K. exists (interpretation chi w).
+    split; [apply interpretation_agrees|]. split; [exact T|].
+    intros k I. apply negb_true_iff, K, I.
+  - intros [v [A [T K]]].
+    set (names := map about (due r G chi) ++ flat_map (fun k => obligations_in (forbidden k)) Ks).
+    destruct (valuations_complete (nodup Pos.eq_dec names) (fun o => v (Done o))) as [w [W H]].
+    exists w. split; [exact W|].
+    assert (S : forall o, In o names -> v (Done o) = w o).
+    { intros o I. symmetry. apply H, nodup_In, I. }
+    apply andb_true_iff. split; apply forallb_forall.
+    + intros l L. rewrite <- (T l L). unfold true_in. symmetry.
+      apply eval_on_obligations; [exact A|]. intros o I. apply S, in_app_iff. left.
+      replace o with (about l); [apply in_map, L|].
+      destruct l; simpl in I; destruct I as [I|[]]; exact I.
+    + intros k I. apply negb_true_iff. rewrite <- (K k I). symmetry.
+      apply eval_on_obligations; [exact A|]. intros o J. apply S, in_app_iff. right.
+      apply in_flat_map. eauto.
+Qed.
+
 (** Without constraints to conflict is to contradict: a literal and its opposite. *)
 Theorem compatible_without_constraints r G chi :
   compatible r G [] chi <-> consistent r G chi.

@@ -343,6 +343,41 @@ Proof.
   - destruct (proj2 (S warn) (or_introl eq_refl)) as [X|[]]; discriminate X.
 Qed.
 
+(** Activating the new layer before the old one is deactivated mends one rule, and not
+    two: between them one has changed and the other has not.  Here nothing is
+    deactivated at all.
+    [WHEN request THEN o1 UNLESS c IN WHICH CASE o2],
+    [WHEN request THEN o3 UNLESS c IN WHICH CASE o4]. *)
+Definition two_rules : ruleset :=
+  [Rule 1 request (Truth true) [Do 1] [Hedge (Atom 1) [Do 2]];
+   Rule 2 request (Truth true) [Do 3] [Hedge (Atom 1) [Do 4]]].
+
+Definition nothing_holds : situation := fun _ => false.
+
+Definition between_two_rules : list happening :=
+  [Changed only_undressed; Swap; Triggered [request]; Swap].
+
+Theorem two_rules_are_torn :
+  log (goes_on Cascade two_rules (settled Cascade two_rules nothing_holds) between_two_rules)
+  = [([request], [2; 3])] /\
+  ~ refines_at_some_time Cascade two_rules nothing_holds between_two_rules.
+Proof.
+  split; [reflexivity|]. intro F. specialize (F [request] [2; 3]).
+  destruct F as [past [future [E S]]]; [left; reflexivity|].
+  assert (H : holding (goes_on Cascade two_rules
+                (settled Cascade two_rules nothing_holds) past) = nothing_holds \/
+              holding (goes_on Cascade two_rules
+                (settled Cascade two_rules nothing_holds) past) = only_undressed).
+  { destruct past as [|e1 past]; [left; reflexivity|].
+    injection E as <- E. right. destruct past as [|e2 past]; [reflexivity|].
+    injection E as <- E. destruct past as [|e3 past]; [reflexivity|].
+    injection E as <- E. destruct past as [|e4 past]; [reflexivity|].
+    injection E as <- E. destruct past; [reflexivity|discriminate E]. }
+  destruct H as [H|H]; rewrite H in S.
+  - destruct (proj2 (S 1) (or_introl eq_refl)) as [X|[X|[]]]; discriminate X.
+  - destruct (proj2 (S 4) (or_intror (or_introl eq_refl))) as [X|[X|[]]]; discriminate X.
+Qed.
+
 (** Snapshot dispatch, with the same change and the same request, warns the user. *)
 Example snapshot_warns :
   map did (dispatches (run Cascade [dress_assist] (initial only_undressed)

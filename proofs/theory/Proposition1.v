@@ -4,7 +4,7 @@
     context χ." *)
 
 From Coq Require Import List Bool PArith Arith Lia.
-From Sleec Require Import Model Evaluation Equation Entailment Instance.
+From Sleec Require Import Model Evaluation Equation Entailment Instance Clashes Conflict.
 Import ListNotations.
 Local Open Scope positive_scope.
 
@@ -239,4 +239,64 @@ Proof.
   - split.
     + apply executes_computed. vm_compute. reflexivity.
     + apply (entails_not_computed _ _ _ (Do 1)). reflexivity.
+Qed.
+
+(** * Constraints *)
+
+(** They forbid and oblige nothing: what is due comes from the rules alone.  In a
+    context that does not conflict the proposition holds, and what is executed, and
+    not executed because it is forbidden, can be had with all constraints kept. *)
+Theorem proposition_1_with_constraints r method G Ks chi :
+  unique_labels G -> compatible r G Ks chi ->
+  (forall o, entails_to_do r G chi o <-> executes (gamma r method G) G chi o) /\
+  (exists v, agrees chi v /\ models r G v /\ respects Ks v /\
+             (forall o, executes (gamma r method G) G chi o -> v (Done o) = true) /\
+             (forall o, entails_literal r G chi (Avoid o) -> v (Done o) = false)).
+Proof.
+  intros U P. pose proof (compatible_consistent r G Ks chi P) as C.
+  split; [intro o; apply proposition_1; assumption|].
+  destruct P as [v [A [T K]]]. exists v.
+  pose proof (proj2 (models_iff_due r G chi v A) T) as M.
+  split; [exact A|]. split; [exact M|]. split; [exact K|]. split.
+  - intros o E. exact (T (Do o) (executed_due r method G chi o U E)).
+  - intros o E. apply (entailed_iff_due r G chi (Avoid o) C), T in E.
+    unfold true_in in E. simpl in E. apply negb_true_iff. exact E.
+Qed.
+
+(** Conflict-freeness is needed for that: o1 and o2 are due and exclude each other. *)
+Theorem conflict_freeness_needed :
+  exists G Ks chi,
+    unique_labels G /\ consistent Cascade G chi /\
+    ~ exists v, agrees chi v /\ respects Ks v /\
+        forall o, executes (gamma Cascade label G) G chi o -> v (Done o) = true.
+Proof.
+  set (G := [no_hedge 1 1 [Do 1]; no_hedge 2 1 [Do 2]]). set (Ks := [Exclusive [1; 2]]).
+  set (chi := only [1] []). exists G, Ks, chi.
+  assert (U : unique_labels G) by (unfold G, unique_labels; decide_rules).
+  split; [exact U|]. split; [reflexivity|]. intros [v [_ [K E]]].
+  specialize (K _ (or_introl eq_refl)). rewrite exclusive_meaning in K.
+  assert (D : forall o, In (Do o) (due Cascade G chi) -> v (Done o) = true).
+  { intros o I. apply E, due_executed, I. }
+  specialize (K 1 2). rewrite (D 1), (D 2) in K by (vm_compute; auto).
+  discriminate K; simpl; auto; discriminate.
+Qed.
+
+(** If constraints were premises of Definition 1, more would be entailed than is
+    executed: [NEVER o1 AND NOT o2], and o1 is due. *)
+Theorem constraints_oblige_nothing :
+  exists G Ks chi o,
+    unique_labels G /\ compatible Cascade G Ks chi /\
+    (forall v, agrees chi v -> models Cascade G v -> respects Ks v -> v (Done o) = true) /\
+    ~ executes (gamma Cascade label G) G chi o.
+Proof.
+  set (G := [no_hedge 1 1 [Do 1]]).
+  set (never := And (Atom (Done 1)) (Not (Atom (Done 2)))).
+  exists G, [Never never], (only [1] []), 2.
+  split; [unfold G, unique_labels; decide_rules|]. split; [|split].
+  - apply clash_here_spec. vm_compute. reflexivity.
+  - intros v A M K. specialize (K _ (or_introl eq_refl)). simpl in K.
+    assert (T : v (Done 1) = true).
+    { apply (proj1 (models_iff_due Cascade G (only [1] []) v A) M (Do 1)). vm_compute. auto. }
+    rewrite T in K. simpl in K. apply negb_false_iff in K. exact K.
+  - apply executes_not_computed. vm_compute. reflexivity.
 Qed.
