@@ -2,7 +2,9 @@
     unless each answer is "Closed under the global context": no axiom, nothing
     admitted. *)
 
-From Sleec Require Evaluation Equation Entailment Instance Readings Linear Clauses Cnf Propagation Clashes Conflict Proposition1 Cone Dispatch.
+From Sleec Require
+  Evaluation Equation Entailment Instance Readings Nested Linear
+  Clauses Cnf Propagation Clashes Conflict Proposition1 Cone Dispatch.
 
 Print Assumptions Evaluation.algorithm_1_as_printed_with_hedges.
 Print Assumptions Evaluation.algorithm_1_as_printed_without_hedges.
@@ -22,6 +24,7 @@ Print Assumptions Entailment.procedures_agree.
 
 Print Assumptions Instance.due_executed.
 Print Assumptions Instance.executed_due.
+Print Assumptions Instance.executed_iff_due.
 Print Assumptions Instance.layers_exist.
 
 Print Assumptions Readings.readings_differ_iff.
@@ -31,6 +34,10 @@ Print Assumptions Readings.to_cascade_entails.
 Print Assumptions Readings.to_priority_entails.
 Print Assumptions Readings.readings_agree_iff.
 Print Assumptions Readings.readings_agree_entails.
+
+Print Assumptions Nested.flatten_due.
+Print Assumptions Nested.flatten_models.
+Print Assumptions Nested.flatten_entails.
 
 Print Assumptions Linear.linear_conservative.
 Print Assumptions Linear.linear_equisatisfiable.
@@ -52,8 +59,11 @@ Print Assumptions Clashes.exclusive_meaning.
 Print Assumptions Clashes.clashes_decide.
 
 Print Assumptions Conflict.clash_here_spec.
+Print Assumptions Conflict.conflicts_iff.
+Print Assumptions Conflict.compatible_or_conflicts.
 Print Assumptions Conflict.compatible_by_table_correct.
 Print Assumptions Conflict.compatible_without_constraints.
+Print Assumptions Conflict.compatible_consistent.
 Print Assumptions Conflict.conflict_formula_spec.
 Print Assumptions Conflict.conflict_check.
 Print Assumptions Conflict.conflict_clauses_spec.

@@ -98,7 +98,7 @@ Proof.
 Qed.
 
 (** The same for any chain, whatever its atoms are. *)
-Theorem conjuncts_decide {A} (v : A -> bool) r c cs i :
+Lemma conjuncts_decide {A} (v : A -> bool) r c cs i :
   i <= length cs ->
   eval v (conj (conjuncts r c cs i)) = eval v c && (decides r (map (eval v) cs) =? i).
 Proof.
@@ -133,7 +133,7 @@ Proof.
   - unfold conditions. rewrite map_length. exact H.
 Qed.
 
-Corollary guard_true r chi R i :
+Lemma guard_true r chi R i :
   i <= length (hedges R) ->
   eval chi (guard r R i) = true <-> triggered chi R = true /\ active r chi R = i.
 Proof.
