@@ -46,14 +46,18 @@ Print Assumptions Linear.linear_size.
 Print Assumptions Linear.equation_size.
 
 Print Assumptions Clauses.renumber_unsatisfiable.
+Print Assumptions Clauses.dense_unsatisfiable.
 Print Assumptions Clauses.derives_sound.
 Print Assumptions Clauses.refutes_sound.
+Print Assumptions Clauses.propagate_correct.
+Print Assumptions Clauses.contradicts_correct.
 
 Print Assumptions Cnf.equation_clauses_conservative.
 
 Print Assumptions Propagation.unit_propagation_complete.
 Print Assumptions Propagation.refutes_iff_inconsistent.
 Print Assumptions Propagation.derived_iff_due.
+Print Assumptions Propagation.entails_by_unit_propagation_correct.
 
 Print Assumptions Clashes.exclusive_meaning.
 Print Assumptions Clashes.clashes_decide.
@@ -66,8 +70,10 @@ Print Assumptions Conflict.compatible_without_constraints.
 Print Assumptions Conflict.compatible_consistent.
 Print Assumptions Conflict.conflict_formula_spec.
 Print Assumptions Conflict.conflict_check.
+Print Assumptions Conflict.clash_clauses_spec.
 Print Assumptions Conflict.conflict_clauses_spec.
 Print Assumptions Conflict.conflict_free_iff_unsatisfiable.
+Print Assumptions Conflict.conflict_free_in_parts.
 
 Print Assumptions Proposition1.proposition_1_as_printed_false.
 Print Assumptions Proposition1.shared_epsilon_executes_too_much.

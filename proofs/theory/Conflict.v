@@ -37,9 +37,12 @@ Definition direct_clashes (ls : list literal) : list clash :=
 Definition all_clashes (G : ruleset) (Ks : list constraint) : list clash :=
   direct_clashes (obliged_literals G) ++ clashes Ks (obliged_literals G).
 
-(** Some clash is among what is due, and its labels are true. *)
+(** Some clash of [cs] is among what is due, and its labels are true. *)
+Definition one_here (r : reading) (G : ruleset) (chi : context) (cs : list clash) : bool :=
+  existsb (fun c => here chi c && within (due r G chi) c) cs.
+
 Definition clash_here (r : reading) (G : ruleset) (Ks : list constraint) (chi : context) : bool :=
-  existsb (fun c => here chi c && within (due r G chi) c) (all_clashes G Ks).
+  one_here r G chi (all_clashes G Ks).
 
 Lemma direct_clashes_spec chi ls ms :
   incl ms ls ->
@@ -63,7 +66,7 @@ Qed.
 Theorem clash_here_spec r G Ks chi :
   compatible r G Ks chi <-> clash_here r G Ks chi = false.
 Proof.
-  unfold clash_here, all_clashes, compatible. rewrite existsb_app, orb_false_iff.
+  unfold clash_here, one_here, all_clashes, compatible. rewrite existsb_app, orb_false_iff.
   rewrite direct_clashes_spec by apply due_obliged.
   assert (N : existsb (fun c => here chi c && within (due r G chi) c)
                       (clashes Ks (obliged_literals G)) = false <->
@@ -194,7 +197,7 @@ Definition conflict_formula (r : reading) (G : ruleset) (Ks : list constraint) :
 Lemma conflict_formula_value r G Ks chi :
   eval chi (conflict_formula r G Ks) = possible Ks chi && clash_here r G Ks chi.
 Proof.
-  unfold conflict_formula, possible, clash_here. cbn [eval]. rewrite eval_conj, forallb_map. f_equal.
+  unfold conflict_formula, possible, clash_here, one_here. cbn [eval]. rewrite eval_conj, forallb_map. f_equal.
   rewrite eval_disj, existsb_map. induction (all_clashes G Ks) as [|c cs IH]; [reflexivity|].
   cbn [existsb]. rewrite IH, clash_formula_value. reflexivity.
 Qed.
@@ -246,10 +249,9 @@ Fixpoint build_clashes (ls : list literal) (ds : list lit) (cs : list clash) (s 
       let (xs, s3) := build_clashes ls ds rest s2 in (x :: xs, s3)
   end.
 
-(** A literal for each clash, one for each assumption, and the gates of both. *)
-Definition conflict_gates (r : reading) (G : ruleset) (Ks : list constraint)
+(** A literal for each clash of [cs], one for each assumption, and the gates of both. *)
+Definition conflict_gates (r : reading) (G : ruleset) (Ks : list constraint) (cs : list clash)
   : list lit * list lit * state :=
-  let cs := all_clashes G Ks in
   let ls := nodup literal_eq_dec (flat_map literals cs) in
   let (gs, s1) := guarded r G start in
   let (ds, s2) := build_dues gs ls s1 in
@@ -257,10 +259,14 @@ Definition conflict_gates (r : reading) (G : ruleset) (Ks : list constraint)
   let (ys, s4) := build_facts (map assumed Ks) s3 in
   (xs, ys, s4).
 
-Definition conflict_clauses (r : reading) (G : ruleset) (Ks : list constraint) : cnf :=
-  match conflict_gates r G Ks with
+(** "One of these clashes is due, in a context that can be." *)
+Definition clash_clauses (r : reading) (G : ruleset) (Ks : list constraint) (cs : list clash) : cnf :=
+  match conflict_gates r G Ks cs with
   | (xs, ys, s) => xs :: map (fun y => [y]) ys ++ built s
   end.
+
+Definition conflict_clauses (r : reading) (G : ruleset) (Ks : list constraint) : cnf :=
+  clash_clauses r G Ks (all_clashes G Ks).
 
 (** ** What the gates are worth *)
 
@@ -374,17 +380,17 @@ Proof.
     + apply (gives_all_needs _ _ _ k); [apply incl_appr, incl_refl|exact IH2].
 Qed.
 
-Lemma conflict_gates_spec r G Ks :
-  match conflict_gates r G Ks with
+Lemma conflict_gates_spec r G Ks cs :
+  match conflict_gates r G Ks cs with
   | (xs, ys, s) =>
       extends start s /\
       forall a, cnf_true a (built s) = true ->
-        existsb (lit_true a) xs = clash_here r G Ks (facts_in a) /\
+        existsb (lit_true a) xs = one_here r G (facts_in a) cs /\
         forallb (lit_true a) ys = possible Ks (facts_in a)
   end.
 Proof.
   unfold conflict_gates. pose proof start_sound as S.
-  set (cs := all_clashes G Ks). set (ls := nodup literal_eq_dec (flat_map literals cs)).
+  set (ls := nodup literal_eq_dec (flat_map literals cs)).
   pose proof (fun a l => guarded_due r G start a l S) as GD.
   pose proof (guarded_extends r G start S) as X1.
   assert (GG : gives_all start (map snd (fst (guarded r G start)), snd (guarded r G start))
@@ -419,7 +425,7 @@ Proof.
     assert (A2 : cnf_true a (built s2) = true) by (eapply extends_true; eauto).
     assert (A1 : cnf_true a (built s1) = true) by (eapply extends_true; eauto).
     destruct (C S2) as [_ [_ [V _]]]. specialize (V a A3).
-    rewrite <- existsb_id, V. unfold clash_here. rewrite existsb_id. fold cs.
+    rewrite <- existsb_id, V. unfold one_here. rewrite existsb_id.
     assert (Q : forall l, existsb (lit_true a) (chosen gs l) = listed l (due r G (facts_in a))).
     { intro l. apply Bool.eq_true_iff_eq. rewrite existsb_exists, listed_In.
       rewrite (GD a l A1). unfold chosen. split.
@@ -438,12 +444,12 @@ Proof.
     rewrite <- forallb_id, V, forallb_id, forallb_map. reflexivity.
 Qed.
 
-Lemma conflict_clauses_true r G Ks a :
-  cnf_true a (conflict_clauses r G Ks) = true ->
-  possible Ks (facts_in a) = true /\ clash_here r G Ks (facts_in a) = true.
+Lemma clash_clauses_true r G Ks cs a :
+  cnf_true a (clash_clauses r G Ks cs) = true ->
+  possible Ks (facts_in a) = true /\ one_here r G (facts_in a) cs = true.
 Proof.
-  unfold conflict_clauses. pose proof (conflict_gates_spec r G Ks) as C.
-  destruct (conflict_gates r G Ks) as [[xs ys] s]. destruct C as [_ C]. intro T.
+  unfold clash_clauses. pose proof (conflict_gates_spec r G Ks cs) as C.
+  destruct (conflict_gates r G Ks cs) as [[xs ys] s]. destruct C as [_ C]. intro T.
   unfold cnf_true in T. cbn [forallb] in T. rewrite forallb_app, forallb_map in T.
   rewrite !andb_true_iff in T. destruct T as [X [Y B]]. destruct (C a B) as [<- <-].
   split; [|exact X]. apply forallb_forall. intros y I.
@@ -451,22 +457,22 @@ Proof.
   unfold clause_true in Y. cbn [existsb] in Y. rewrite orb_false_r in Y. exact Y.
 Qed.
 
-Lemma clash_here_ext r G Ks chi psi :
-  (forall f, chi f = psi f) -> clash_here r G Ks chi = clash_here r G Ks psi.
+Lemma one_here_ext r G cs chi psi :
+  (forall f, chi f = psi f) -> one_here r G chi cs = one_here r G psi cs.
 Proof.
-  intro E. unfold clash_here. rewrite (due_ext r chi psi G E).
-  induction (all_clashes G Ks) as [|c cs IH]; [reflexivity|].
+  intro E. unfold one_here. rewrite (due_ext r chi psi G E).
+  induction cs as [|c cs IH]; [reflexivity|].
   cbn [existsb]. rewrite IH. f_equal. f_equal.
   unfold here. induction (labels c) as [|f fs IHf]; [reflexivity|]. cbn [forallb].
   rewrite IHf, (eval_ext chi psi f E). reflexivity.
 Qed.
 
-Lemma conflict_clauses_model r G Ks chi :
-  possible Ks chi = true -> clash_here r G Ks chi = true ->
-  exists a, (forall f, facts_in a f = chi f) /\ cnf_true a (conflict_clauses r G Ks) = true.
+Lemma clash_clauses_model r G Ks cs chi :
+  possible Ks chi = true -> one_here r G chi cs = true ->
+  exists a, (forall f, facts_in a f = chi f) /\ cnf_true a (clash_clauses r G Ks cs) = true.
 Proof.
-  intros P H. unfold conflict_clauses. pose proof (conflict_gates_spec r G Ks) as C.
-  destruct (conflict_gates r G Ks) as [[xs ys] s]. destruct C as [[_ [_ [_ E]]] C].
+  intros P H. unfold clash_clauses. pose proof (conflict_gates_spec r G Ks cs) as C.
+  destruct (conflict_gates r G Ks cs) as [[xs ys] s]. destruct C as [[_ [_ [_ E]]] C].
   destruct (E start_sound (assignment_of (interpretation chi (fun _ => false)))) as [a [A T]];
     [reflexivity|].
   assert (F : forall f, facts_in a f = chi f).
@@ -474,7 +480,7 @@ Proof.
     - unfold assignment_of. rewrite atom_of_number. reflexivity.
     - destruct f; exact I. }
   exists a. split; [exact F|]. destruct (C a T) as [X Y].
-  rewrite (clash_here_ext r G Ks _ chi F), H in X.
+  rewrite (one_here_ext r G cs _ chi F), H in X.
   rewrite (possible_ext Ks _ chi F), P in Y.
   unfold cnf_true. cbn [forallb]. rewrite forallb_app, !andb_true_iff.
   split; [exact X|]. split; [|exact T].
@@ -484,17 +490,25 @@ Qed.
 
 (** ** The theorem that a certificate rests on *)
 
-(** The clauses are satisfiable exactly if a context that can be conflicts, and a
-    model of them is one. *)
+(** The clauses of some clashes are satisfiable exactly if one of them is due, in a
+    context that can be; and the context is read off a model. *)
+Theorem clash_clauses_spec r G Ks cs :
+  satisfiable (clash_clauses r G Ks cs) <->
+  exists chi, possible Ks chi = true /\ one_here r G chi cs = true.
+Proof.
+  split.
+  - intros [a T]. apply clash_clauses_true in T. eauto.
+  - intros [chi [P C]]. destruct (clash_clauses_model r G Ks cs chi P C) as [a [_ T]].
+    exists a. exact T.
+Qed.
+
+(** Those of all clashes are satisfiable exactly if a context that can be conflicts. *)
 Theorem conflict_clauses_spec r G Ks :
   satisfiable (conflict_clauses r G Ks) <->
   exists chi, possible Ks chi = true /\ conflicts r G Ks chi.
 Proof.
-  split.
-  - intros [a T]. apply conflict_clauses_true in T. exists (facts_in a).
-    rewrite conflicts_iff. exact T.
-  - intros [chi [P C]]. apply conflicts_iff in C.
-    destruct (conflict_clauses_model r G Ks chi P C) as [a [_ T]]. exists a. exact T.
+  unfold conflict_clauses. rewrite clash_clauses_spec.
+  split; intros [chi [P C]]; exists chi; split; auto; apply conflicts_iff; exact C.
 Qed.
 
 (** They are unsatisfiable exactly if no context conflicts. *)
@@ -505,4 +519,21 @@ Proof.
   - intros N chi P. destruct (compatible_or_conflicts r G Ks chi) as [C|C]; [exact C|].
     destruct N. eauto.
   - intros F [chi [P C]]. exact (C (F chi P)).
+Qed.
+
+(** The clashes may be asked about apart, in any parts that have them all. *)
+Theorem conflict_free_in_parts r G Ks parts :
+  (forall c, In c (all_clashes G Ks) <-> In c (concat parts)) ->
+  conflict_free r G Ks <-> forall cs, In cs parts -> unsatisfiable (clash_clauses r G Ks cs).
+Proof.
+  intro A. split.
+  - intros F cs I. apply unsatisfiable_iff. rewrite clash_clauses_spec. intros [chi [P H]].
+    specialize (F chi P). apply clash_here_spec, not_true_iff_false in F. apply F.
+    unfold clash_here, one_here in *. rewrite existsb_exists in *. destruct H as [c [C H]].
+    exists c. split; [|exact H]. apply A, in_concat. eauto.
+  - intros U chi P. apply clash_here_spec, not_true_is_false. intro H.
+    unfold clash_here, one_here in H. apply existsb_exists in H. destruct H as [c [C H]].
+    apply A, in_concat in C. destruct C as [cs [I C]].
+    specialize (U cs I). apply unsatisfiable_iff in U. apply U, clash_clauses_spec.
+    exists chi. split; [exact P|]. unfold one_here. apply existsb_exists. eauto.
 Qed.

@@ -115,3 +115,17 @@ Proof.
   intro C. rewrite <- (entailed_iff_due r G chi l C), unit_propagation_complete.
   rewrite refutes_iff_inconsistent. unfold consistent in C. rewrite C. intuition discriminate.
 Qed.
+
+(** Definition 1 decided by one propagation, computed. *)
+Definition entails_by_unit_propagation (r : reading) (G : ruleset) (chi : context) (l : literal)
+  : bool :=
+  let known := propagate (propagation_clauses r G chi) in
+  mem (lit_of l) known || contradicts known.
+
+Theorem entails_by_unit_propagation_correct r G chi l :
+  entails_by_unit_propagation r G chi l = true <-> entails_literal r G chi l.
+Proof.
+  unfold entails_by_unit_propagation. cbv zeta.
+  rewrite orb_true_iff, mem_In, propagate_correct, contradicts_correct.
+  symmetry. apply unit_propagation_complete.
+Qed.
