@@ -4,7 +4,7 @@
 
 From Sleec Require
   Evaluation Equation Entailment Instance Readings Nested Linear
-  Clauses Cnf Propagation Clashes Conflict Proposition1 Cone Dispatch.
+  Clauses Cnf Propagation Clashes Conflict Question Checks Proposition1 Cone Dispatch.
 
 Print Assumptions Evaluation.algorithm_1_as_printed_with_hedges.
 Print Assumptions Evaluation.algorithm_1_as_printed_without_hedges.
@@ -74,6 +74,16 @@ Print Assumptions Conflict.clash_clauses_spec.
 Print Assumptions Conflict.conflict_clauses_spec.
 Print Assumptions Conflict.conflict_free_iff_unsatisfiable.
 Print Assumptions Conflict.conflict_free_in_parts.
+
+Print Assumptions Question.question_spec.
+Print Assumptions Question.question_answered_no.
+
+Print Assumptions Checks.dead_rule_check.
+Print Assumptions Checks.dead_hedge_check.
+Print Assumptions Checks.same_due_check.
+Print Assumptions Checks.same_due_entails.
+Print Assumptions Checks.reading_check.
+Print Assumptions Checks.vacuous_conflict_check.
 
 Print Assumptions Proposition1.proposition_1_as_printed_false.
 Print Assumptions Proposition1.shared_epsilon_executes_too_much.
