@@ -1,4 +1,5 @@
-# All that is needed is Python (3.10 to 3.13), git and make: each target sets up .venv on its own.
+# All that is needed is Python (3.10 to 3.13), git and make: each target sets up .venv on its own. `make proofs` alone
+# needs Coq besides.
 
 PYTHON ?= python3
 VENV := .venv
@@ -9,16 +10,17 @@ INSTALLED := $(VENV)/installed
 # Where the index lacks a folder that pip was told of, pip says so once for each package.
 PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input
 
-.PHONY: help setup demo test lint types check-tests long bench mutants lock clean
+.PHONY: help setup demo test lint types check-tests long proofs bench mutants lock clean
 
 help:
 	@echo 'make demo     check the shipped rulesets and ask one question of them'
 	@echo 'make test     lint, types, and every test but the long ones'
 	@echo 'make long     the long tests'
+	@echo 'make proofs   the theory of the rules, checked by Coq (needs coq and ocaml-findlib)'
 	@echo 'make bench    the measurements of benchmarks/'
 	@echo 'make mutants  mutation testing of the core'
 	@echo 'make lock     renew requirements-dev.lock from pyproject.toml'
-	@echo 'make clean    remove .venv and what tests leave behind'
+	@echo 'make clean    remove .venv and what tests and proofs leave behind'
 
 setup: $(INSTALLED)
 
@@ -64,6 +66,10 @@ check-tests: $(INSTALLED)
 long: $(INSTALLED)
 	HYPOTHESIS_PROFILE=long $(BIN)/pytest -m long --timeout=7200
 
+# Needs no Python; where Coq is missing, it says in one line how to get it.
+proofs:
+	@$(MAKE) --no-print-directory -C proofs check
+
 bench: $(INSTALLED)
 	$(BIN)/python -m benchmarks
 
@@ -81,4 +87,5 @@ lock:
 	@rm -rf $(VENV)-lock
 
 clean:
+	@$(MAKE) --no-print-directory -C proofs clean
 	rm -rf $(VENV) $(VENV)-* build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis .coverage* mutants
