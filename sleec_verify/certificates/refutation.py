@@ -130,8 +130,10 @@ def _lemmas(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]
         finally:
             pysolvers.glucose41_del(solver)
         file.seek(0)
-        # What it forgets may be kept: more clauses only make more follow.
-        return [list(map(int, row.split()))[:-1] for row in file if row[:1] != b"d" and row.strip()]
+        # What it forgets may be kept: more clauses only make more follow. Where it comes to an end it writes the empty
+        # clause, which does not follow if literals were assumed; where it does, propagation finds it.
+        lemmas = (list(map(int, row.split()))[:-1] for row in file if row[:1] != b"d")
+        return [lemma for lemma in lemmas if lemma]
 
 
 def _moved(literals: Iterable[int], offset: int) -> Iterator[int]:
