@@ -72,19 +72,34 @@ def load(
     chains: bool = False,
     on_error: Callable[[Failure], object] | None = None,
     strict_times: bool = False,
+    certificate: str | Path | None = None,
+    key: str | Path | None = None,
 ) -> Sleec:
     """Reads the rules of a file and sets them to work.
 
     `domain` leaves out the rules of other domains. `reading`, ``cascade`` or ``priority``, goes before the file's own.
     `strict` makes a decision that depends on unreported conditions an error; without it they count as false, as
     Definition 1 of the paper has it. `clock`, `chains`, `on_error` and `strict_times` are for rules with times: see
-    `Sleec`. Raises UnreadableFile, LanguageError and UnknownDomain, and UnsupportedTimes with `strict_times`.
+    `Sleec`. `certificate` is the folder of one that must say that these rules, so read, are free of conflict in this
+    domain, and with `key`, the file of a public key, be signed (docs/certificates.md). What `replace` brings later is
+    not what was certified.
+
+    Raises UnreadableFile, LanguageError and UnknownDomain, UnsupportedTimes with `strict_times`, and CertificateRefused
+    with `certificate`.
     """
-    from sleec_runtime import language
+    from sleec_runtime import errors, language
     from sleec_runtime.runtime import Sleec
 
+    ruleset = language.load(path)
+    if certificate is not None:
+        from sleec_runtime.certificate import read_manifest, require_certified
+
+        read = ruleset if reading is None else ruleset.read_as(reading)
+        require_certified(read, domain, read_manifest(certificate, key))
+    elif key is not None:
+        raise errors.SleecError("a key without a certificate checks nothing", "give certificate= as well")
     return Sleec(
-        language.load(path),
+        ruleset,
         domain,
         reading,
         strict,

@@ -18,9 +18,7 @@ def conflict_free(cones: Cones) -> bool:
     """Whether no situation conflicts. Linear in the rules that oblige part of a clash, but for the solver."""
     found = all_clashes(cones)
     at_odds = {literal for clash in found for literal in clash.literals}
-    rules = [
-        position for position, clauses in enumerate(cones.clauses) if not at_odds.isdisjoint(literals_of(clauses))
-    ]
+    rules = [position for position, clauses in enumerate(cones.clauses) if not at_odds.isdisjoint(literals_of(clauses))]
     with Question(cones) as question:
         due = question.due(rules, at_odds)
         questions = []
@@ -30,4 +28,5 @@ def conflict_free(cones: Cones) -> bool:
                 literals.append(question.encoder.literal(clash.situation))
             questions.append(literals)
         # All are asked, so that all are recorded.
-        return not any([question.ask(*literals) for literals in questions])
+        answers = [question.ask(*literals) for literals in questions]
+        return not any(answers)
