@@ -51,7 +51,7 @@ def harmless_rules(count: int, seed: int = 0) -> str:
             f"WHEN Trigger{number} THEN Wait{number}",
             f"UNLESS {one} IN WHICH CASE NOT {done}",
             f"UNLESS {other} AND NOT {third} IN WHICH CASE Wait{number}",
-            f"UNLESS {third} OR Halted IN WHICH CASE NOT Warn{number}",
+            f"UNLESS {third} OR Halted IN WHICH CASE NOT Explain{number}",
         ]
     return "\n".join(lines) + "\n"
 

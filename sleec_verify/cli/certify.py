@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 @click.command(
     "certify",
     short_help="Proofs of what a check found, for others to check.",
-    epilog="Example: sleec-verify certify rulesets/hospital-ward.sleec -o ward.certificate && "
-    "sleec-verify certify --check ward.certificate rulesets/hospital-ward.sleec",
+    epilog="Example: sleec-verify certify rulesets/hospital-ward.sleec -o ward.certificate",
 )
 @options.paths(several=False)
 @click.option("-o", "--output", metavar="DIR", type=options.PATH, help="Write the certificate to this folder.")
@@ -148,8 +147,8 @@ def _check(
     from sleec_verify.cli.progress import Progress
 
     judge = chosen(checker)
-    ruleset: Ruleset = one_ruleset(path, None, None)
     try:
+        ruleset = _read(path, checked)
         with Progress() as progress:
             confirmed = check_certificate(
                 ruleset,
@@ -170,6 +169,22 @@ def _check(
         note("the certificate is signed; whether by whom it should be, --key PUB tells")
     write(told(form, confirmed.ruleset, checked, confirmed.shown, judge))
     return _exit_code([one.result for one in confirmed.shown], fail_level)
+
+
+def _read(path: str, checked: str) -> Ruleset:
+    """The rules in FILE. If they are none any more since they were certified, it is that which is said."""
+    from sleec_runtime.certificate import read_manifest
+    from sleec_runtime.errors import CertificateRefused, LanguageError
+
+    try:
+        return one_ruleset(path, None, None)
+    except LanguageError as error:
+        if read_manifest(checked).sha256 == error.source.sha256:
+            raise
+        raise CertificateRefused(
+            [("ruleset-changed", f"the certificate is not of this text, which is no ruleset: {error.source.path}")],
+            f"sleec-verify check {error.source.path}",
+        ) from None
 
 
 def _exit_code(results: Sequence[CheckResult], fail_level: Severity) -> int:
