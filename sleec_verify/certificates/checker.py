@@ -25,21 +25,6 @@ class Checker:
     refuses: Callable[[Path, Path], str | None]
 
 
-def checker(path: str | None = None) -> Checker:
-    """The checker at `path`; else the proved one, if it is built; else the one in Python.
-
-    Raises SleecError if `path` is not a program.
-    """
-    if path is None:
-        if not os.access(BUILT, os.X_OK):
-            return Checker("sleec_verify.certificates.lrat, in Python", False, _in_python)
-        path = str(BUILT)
-    elif not (os.path.isfile(path) and os.access(path, os.X_OK)):
-        raise SleecError(f"{path} is not a program", "make -C proofs/checker builds one: proofs/checker/check-lrat")
-    program = os.path.abspath(path)
-    return Checker(path, True, lambda formula, proof: _by_program(program, formula, proof))
-
-
 def _in_python(formula: Path, proof: Path) -> str | None:
     try:
         lrat.check(formula.read_text("ascii"), proof.read_text("ascii"))
@@ -48,6 +33,24 @@ def _in_python(formula: Path, proof: Path) -> str | None:
     except UnicodeDecodeError:
         return "the file is not in its format"
     return None
+
+
+IN_PYTHON = Checker("sleec_verify.certificates.lrat, in Python", False, _in_python)
+
+
+def checker(path: str | None = None) -> Checker:
+    """The checker at `path`; else the proved one, if it is built; else the one in Python.
+
+    Raises SleecError if `path` is not a program.
+    """
+    if path is None:
+        if not os.access(BUILT, os.X_OK):
+            return IN_PYTHON
+        path = str(BUILT)
+    elif not (os.path.isfile(path) and os.access(path, os.X_OK)):
+        raise SleecError(f"{path} is not a program", "make -C proofs/checker builds one: proofs/checker/check-lrat")
+    program = os.path.abspath(path)
+    return Checker(path, True, lambda formula, proof: _by_program(program, formula, proof))
 
 
 def _by_program(program: str, formula: Path, proof: Path) -> str | None:

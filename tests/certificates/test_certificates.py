@@ -16,8 +16,7 @@ from hypothesis import HealthCheck, given, settings
 from benchmarks.random_rules import random_rules
 from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import Ruleset
-from sleec_verify.certificates import lrat
-from sleec_verify.certificates.checker import Checker, checker
+from sleec_verify.certificates.checker import IN_PYTHON, checker
 from sleec_verify.certificates.checking import check_certificate
 from sleec_verify.certificates.directory import write_folder
 from sleec_verify.certificates.making import Certificate, certify
@@ -48,15 +47,8 @@ RULE d WHEN B AND Asleep THEN Lie UNLESS Awake AND Asleep IN WHICH CASE Whisper
 DOMAIN day
 RULE e WHEN A AND Asleep AND Awake THEN NOT Sing
 RULE f WHEN A THEN Sing UNLESS Asleep IN WHICH CASE Sing
+RULE g WHEN C THEN Hum UNLESS Asleep IN WHICH CASE Sing UNLESS Awake IN WHICH CASE Rest
 """
-
-
-def _refuses(formula: Path, proof: Path) -> str | None:
-    lrat.check(formula.read_text(), proof.read_text())
-    return None
-
-
-PYTHON = Checker("Python", False, _refuses)
 
 
 def written(ruleset: Ruleset, folder: Path, made: Certificate | None = None) -> dict[str, Any]:
@@ -83,7 +75,7 @@ def source(text: str, folder: Path) -> Ruleset:
 def test_certificates_of_the_shipped_rulesets_hold(path: Path, tmp_path: Path) -> None:
     ruleset = load(path)
     manifest = written(ruleset, tmp_path / "c")
-    confirmed = check_certificate(ruleset, str(tmp_path / "c"), PYTHON)
+    confirmed = check_certificate(ruleset, str(tmp_path / "c"), IN_PYTHON)
     assert [one.result.name for one in confirmed.shown] == [check["name"] for check in manifest["checks"]]
 
 
@@ -110,7 +102,7 @@ def test_the_manifest(tmp_path: Path) -> None:
     assert manifest["ruleset"] == {
         "sha256": hashlib.sha256(CONSTRAINED.encode()).hexdigest(),
         "syntax": "english",
-        "rules": 6,
+        "rules": 7,
         "domains": ["night", "day"],
     }
     assert (manifest["reading"], manifest["domain"], manifest["untimed"]) == ("cascade", None, None)
@@ -123,14 +115,14 @@ def test_the_manifest(tmp_path: Path) -> None:
     assert set(manifest["files"]) == names
     for name, digest in manifest["files"].items():
         assert hashlib.sha256((tmp_path / "c" / name).read_bytes()).hexdigest() == digest
-    check_certificate(ruleset, str(tmp_path / "c"), PYTHON)
+    check_certificate(ruleset, str(tmp_path / "c"), IN_PYTHON)
 
 
 def test_a_certificate_of_one_domain_and_of_another_reading(tmp_path: Path) -> None:
     ruleset = source(CONSTRAINED, tmp_path).read_as("priority")
     manifest = written(ruleset, tmp_path / "c", certify(ruleset, "day"))
     assert (manifest["reading"], manifest["domain"]) == ("priority", "day")
-    confirmed = check_certificate(load(tmp_path / "rules.sleec"), str(tmp_path / "c"), PYTHON, domain="day")
+    confirmed = check_certificate(load(tmp_path / "rules.sleec"), str(tmp_path / "c"), IN_PYTHON, domain="day")
     assert confirmed.ruleset.reading == "priority"
 
 
@@ -139,7 +131,7 @@ def test_assumptions_that_rule_out_everything_are_shown_by_a_proof(tmp_path: Pat
     manifest = written(ruleset, tmp_path / "c")
     assert of(manifest, "conflict") == ("proved", "proof")
     assert of(manifest, "assumptions") == ("refuted", "proof")
-    check_certificate(ruleset, str(tmp_path / "c"), PYTHON)
+    check_certificate(ruleset, str(tmp_path / "c"), IN_PYTHON)
 
 
 def test_an_unknown_verdict_is_listed_as_such(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -149,7 +141,7 @@ def test_an_unknown_verdict_is_listed_as_such(tmp_path: Path, monkeypatch: pytes
     conflict = manifest["checks"][0]
     assert (conflict["verdict"], conflict["evidence"], conflict["files"]) == ("unknown", "none", [])
     assert "more combinations" in conflict["reason"]
-    check_certificate(ruleset, str(tmp_path / "c"), PYTHON)
+    check_certificate(ruleset, str(tmp_path / "c"), IN_PYTHON)
 
 
 def print_digests() -> None:
@@ -185,7 +177,7 @@ def test_one_formula_for_all_says_what_the_causes_say(ruleset: Ruleset) -> None:
 def test_certificates_of_random_rulesets_hold(tmp_path: Path, ruleset: Ruleset) -> None:
     ruleset = source(print_ruleset(ruleset), tmp_path)
     written(ruleset, tmp_path / "c")
-    check_certificate(ruleset, str(tmp_path / "c"), PYTHON)
+    check_certificate(ruleset, str(tmp_path / "c"), IN_PYTHON)
 
 
 @pytest.mark.parametrize("seed", sorted({*range(20)} - {3, 8}))  # these two take long
@@ -193,7 +185,7 @@ def test_certificates_of_rulesets_with_times_hold(tmp_path: Path, seed: int) -> 
     ruleset = source(timed_ruleset(seed).source.text, tmp_path)
     manifest = written(ruleset, tmp_path / "c", certify(ruleset, untimed="eventually" if seed % 2 else "at"))
     assert manifest["untimed"] == ("eventually" if seed % 2 else "at")
-    check_certificate(ruleset, str(tmp_path / "c"), PYTHON)
+    check_certificate(ruleset, str(tmp_path / "c"), IN_PYTHON)
     for check in manifest["checks"]:
         if (check["name"], check["verdict"]) in (("conflict", "proved"), ("vacuous-conflict", "refuted")):
             assert check["evidence"] == "proof", check
