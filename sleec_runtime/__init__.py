@@ -81,25 +81,16 @@ def load(
     `strict` makes a decision that depends on unreported conditions an error; without it they count as false, as
     Definition 1 of the paper has it. `clock`, `chains`, `on_error` and `strict_times` are for rules with times: see
     `Sleec`. `certificate` is the folder of one that must say that these rules, so read, are free of conflict in this
-    domain, and with `key`, the file of a public key, be signed (docs/certificates.md). What `replace` brings later is
-    not what was certified.
+    domain, and with `key`, the file of a public key, be signed (docs/certificates.md).
 
     Raises UnreadableFile, LanguageError and UnknownDomain, UnsupportedTimes with `strict_times`, and CertificateRefused
     with `certificate`.
     """
-    from sleec_runtime import errors, language
+    from sleec_runtime import language
     from sleec_runtime.runtime import Sleec
 
-    ruleset = language.load(path)
-    if certificate is not None:
-        from sleec_runtime.certificate import read_manifest, require_certified
-
-        read = ruleset if reading is None else ruleset.read_as(reading)
-        require_certified(read, domain, read_manifest(certificate, key))
-    elif key is not None:
-        raise errors.SleecError("a key without a certificate checks nothing", "give certificate= as well")
     return Sleec(
-        ruleset,
+        language.load(path),
         domain,
         reading,
         strict,
@@ -107,6 +98,8 @@ def load(
         chains=chains,
         on_error=on_error,
         strict_times=strict_times,
+        certificate=certificate,
+        key=key,
     )
 
 

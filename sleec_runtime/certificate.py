@@ -85,11 +85,23 @@ def _text(value: object) -> str:
     return value
 
 
-def require_certified(ruleset: Ruleset, domain: str | None, manifest: Manifest) -> None:
-    """Refuse a ruleset, about to be set to work in `domain`, that the certificate does not call free of conflict.
+class Demand:
+    """What a runtime asks of rules before they are in force: the certificate in `folder`, signed by `key` if there is
+    one, must say that they are free of conflict.
 
-    Raises CertificateRefused.
+    Raises, when made, what `read_manifest` does.
     """
+
+    def __init__(self, folder: str | Path, key: str | Path | None = None) -> None:
+        self.key = key
+        self._manifest = read_manifest(folder, key)
+
+    def check(self, ruleset: Ruleset, domain: str | None) -> None:
+        """Refuse a ruleset that is to be in force in `domain` unless it is certified. Raises CertificateRefused."""
+        _require_certified(ruleset, domain, self._manifest)
+
+
+def _require_certified(ruleset: Ruleset, domain: str | None, manifest: Manifest) -> None:
     if manifest.sha256 != ruleset.source.sha256:
         raise _refused(
             "ruleset-changed",

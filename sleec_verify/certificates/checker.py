@@ -18,7 +18,7 @@ BUILT = Path(__file__).parents[2] / "proofs" / "checker" / "check-lrat"
 @dataclass(frozen=True)
 class Checker:
     """`refuses` takes the paths of a formula and of its refutation, and returns why it is none, or None. `name` says
-    who judges."""
+    who judges; `proved`, whether it is the one that is proved in Coq."""
 
     name: str
     proved: bool
@@ -50,7 +50,8 @@ def checker(path: str | None = None) -> Checker:
     elif not (os.path.isfile(path) and os.access(path, os.X_OK)):
         raise SleecError(f"{path} is not a program", "make -C proofs/checker builds one: proofs/checker/check-lrat")
     program = os.path.abspath(path)
-    return Checker(path, True, lambda formula, proof: _by_program(program, formula, proof))
+    proved = os.path.realpath(path) == os.path.realpath(BUILT)
+    return Checker(path, proved, lambda formula, proof: _by_program(program, formula, proof))
 
 
 def _by_program(program: str, formula: Path, proof: Path) -> str | None:

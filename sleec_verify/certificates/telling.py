@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.report.json import VERDICTS, Json, dump
 from sleec_verify.report.outcome import counted
 
@@ -37,8 +38,11 @@ def told(form: str, ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge
     for one in shown:
         yield f"  {one.result.name:{widest}}  {VERDICTS[type(one.result.verdict)]:8}  {_shown_by(one)}\n"
     if judge is not None:
-        by = "" if judge.proved else "; `make -C proofs/checker` builds one that is proved correct"
-        yield f"proofs checked by {judge.name}{by}\n"
+        if judge is IN_PYTHON:
+            more = "; `make -C proofs/checker` builds a checker that is proved correct"
+        else:
+            more = ", which is proved correct" if judge.proved else ""
+        yield f"proofs checked by {judge.name}{more}\n"
 
 
 def _shown_by(one: Shown) -> str:

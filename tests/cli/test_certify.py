@@ -49,6 +49,22 @@ def test_what_is_told(cli: Cli) -> None:
     assert held.splitlines()[-1].startswith("proofs checked by ")
 
 
+def test_it_is_told_who_judged(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    cli("certify", "clean.sleec", "-o", "a", files=FILES)
+    program = tmp_path / "program"
+    program.write_text("#!/bin/sh\necho VERIFIED\n")
+    program.chmod(0o755)
+
+    def last(*options: str) -> str:
+        return cli("certify", "--check", "a", "clean.sleec", *options).out.splitlines()[-1]
+
+    assert last("--checker", str(program)) == f"proofs checked by {program}"
+    monkeypatch.setattr("sleec_verify.certificates.checker.BUILT", program)
+    assert last() == f"proofs checked by {program}, which is proved correct"
+    monkeypatch.setattr("sleec_verify.certificates.checker.BUILT", tmp_path / "none")
+    assert "in Python; `make -C proofs/checker`" in last()
+
+
 def test_as_json(cli: Cli, tmp_path: Path) -> None:
     made = json.loads(cli("certify", "clean.sleec", "-o", "a", "--format", "json", files=FILES).out)
     assert made["checks"][0] == {

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 import sleec_runtime
 from sleec_runtime.errors import CertificateRefused, SleecError
+from sleec_runtime.language import load, parse
 from sleec_verify.cli import run
 
 ROOT = Path(__file__).parents[2]
@@ -73,6 +76,38 @@ def test_rules_that_conflict(rules: Path) -> None:
 
 def test_no_certificate(rules: Path) -> None:
     assert reason(rules, "nowhere", domain="night") == "no-certificate"
+
+
+def refused(change: Callable[[], object]) -> str:
+    with pytest.raises(CertificateRefused) as refusal:
+        change()
+    return refusal.value.problems[0][0]
+
+
+def test_another_domain_later(rules: Path) -> None:
+    sleec = sleec_runtime.load(rules, "night", certificate="all")
+    sleec.implement({"X": print, "Y": print})
+    sleec.enter_domain("day")
+    assert refused(lambda: sleec.enter_domain(None)) == "domain"
+    assert sleec.domain == "day"
+    sleec = sleec_runtime.load(rules, "night", certificate="night")
+    assert refused(lambda: sleec.enter_domain("day")) == "domain"
+    assert sleec.domain == "night"
+
+
+def test_other_rules_later(rules: Path) -> None:
+    sleec = sleec_runtime.load(rules, "night", certificate="all")
+    before = sleec.ruleset
+    (rules.parent / "new.sleec").write_text("DOMAIN night\nRULE a WHEN A THEN Z\n")
+    assert run(["certify", "new.sleec", "-o", "new"]) == 0
+    new = load("new.sleec")
+    for wrong in (None, "all", "nowhere"):
+        assert refused(partial(sleec.replace, new, certificate=wrong)) in ("ruleset-changed", "no-certificate")
+        assert sleec.ruleset is before
+    assert refused(lambda: sleec.replace(parse("DOMAIN night\nRULE a WHEN A THEN Z"))) == "ruleset-changed"
+    sleec.replace(new, certificate="new", implement={"Z": print})
+    sleec.replace(new)
+    assert refused(lambda: sleec.replace(load(rules))) == "ruleset-changed"
 
 
 def test_a_key_needs_a_certificate(rules: Path) -> None:
