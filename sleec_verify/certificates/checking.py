@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -119,7 +120,6 @@ class _Examined:
         self._folder = folder
         self._judge = judge
         self._cones: dict[str, Cones] = {}
-        self._unreadable: set[str] = set()
         self.shown: list[Shown] = []
 
     # Files ----------------------------------------------------------------------------------------------------
@@ -135,7 +135,6 @@ class _Examined:
                 continue
             data = self._bytes(name)
             if data is None:
-                self._unreadable.add(name)
                 yield Problem("file-missing", f"{name} cannot be read")
             elif sha256(data).hexdigest() != digest:
                 yield Problem("file-changed", f"{name} has other bytes than the {MANIFEST} says")
@@ -151,7 +150,7 @@ class _Examined:
     def contents(self, progress: Callable[[str, int, int], None] | None) -> Iterator[Problem]:
         """Whether the rules give these verdicts, the formulas are refuted, and the witnesses show what they should."""
         claimed, ruleset = self._claimed, self._ruleset
-        untimed: Untimed = claimed.whole["untimed"] or "at"
+        untimed: Untimed = claimed.whole.get("untimed") or "at"
         said = {check["name"]: check for check in claimed.whole["checks"]}
         for rebuilt in rebuild(ruleset, claimed.domain, untimed, progress, examining=True):
             one = rebuilt.shown()
@@ -163,7 +162,7 @@ class _Examined:
             else:
                 yield from self._entry(one, entry)
         digests = {name: claimed.files.get(name, "") for one in self.shown for name in one.files}
-        expected = manifest(ruleset, claimed.domain, claimed.whole["untimed"], self.shown, digests)
+        expected = manifest(ruleset, claimed.domain, claimed.whole.get("untimed"), self.shown, digests)
         for key in sorted(expected.keys() | claimed.whole.keys()):
             if key not in ("checks", "tool") and expected.get(key) != claimed.whole.get(key):
                 yield Problem("manifest", f"what the {MANIFEST} says under {key!r} is not what the rules give")
@@ -235,6 +234,8 @@ class _Examined:
             return str(value)
         if isinstance(value, bool) or not isinstance(value, (int, float, str)):
             raise ValueError("no number")
+        if isinstance(value, str) and not _FRACTION.fullmatch(value):
+            raise ValueError("no number as certificates have them")
         number = Fraction(str(value))
         return number.numerator if number.denominator == 1 else number
 
@@ -245,6 +246,8 @@ class _Examined:
 
 
 _WITNESS = ("witness", "timeline")
+_FRACTION = re.compile(r"-?[0-9]{1,200}/[0-9]{1,200}")
+"""How a number is written that JSON has no exact spelling for. Others, such as 1e999999999, would take all memory."""
 
 
 def _but_witness(finding: Any) -> Any:

@@ -15,6 +15,7 @@ from sleec_verify.certificates.checker import BUILT, checker
 from sleec_verify.certificates.elaboration import NotFollowing
 from sleec_verify.certificates.recording import Asked
 from sleec_verify.certificates.refutation import Disjunction
+from tests.certificates.conftest import require_coq
 from tests.certificates.formulas import asked, clauses, has_model
 
 FORMULA = "p cnf 2 4\n1 2 0\n-1 2 0\n1 -2 0\n-1 -2 0\n"
@@ -171,6 +172,16 @@ def test_python_refuses(name: str) -> None:
 def test_coq_refuses(name: str, by_coq: Proved) -> None:
     proof, formula = REFUSED[name]
     assert not by_coq(formula, proof)
+
+
+def test_these_tests_are_skipped_without_coq_but_never_in_ci(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shutil.which", lambda name: None)
+    monkeypatch.delenv("CI", raising=False)
+    with pytest.raises(pytest.skip.Exception, match="apt-get install coq"):
+        require_coq()
+    monkeypatch.setenv("CI", "true")
+    with pytest.raises(pytest.fail.Exception, match="apt-get install coq"):
+        require_coq()
 
 
 def test_usage(proved: Path, tmp_path: Path) -> None:

@@ -213,6 +213,12 @@ def test_a_manifest_without_an_entry(made: Path, tmp_path: Path, key: str) -> No
     assert reasons(folder) == {"no-certificate"}
 
 
+def test_a_manifest_that_says_nothing_of_time(tmp_path: Path) -> None:
+    folder = certified("timed", tmp_path)
+    rewrite(folder, lambda m: m.pop("untimed"))
+    assert reasons(folder) == {"manifest"}
+
+
 def test_more_in_the_manifest(made: Path, tmp_path: Path) -> None:
     folder = copied(made, tmp_path)
     rewrite(folder, lambda m: m.update(blessed=True))
@@ -272,6 +278,8 @@ def values(**changed: object) -> Callable[[Manifest], object]:
         values(Age=1),
         values(Age="1/0"),
         values(Age="old"),
+        values(Age="1e999999999"),
+        values(Age=float("inf")),
         values(Age=True),
         values(Age=None),
         values(Risk="low"),
