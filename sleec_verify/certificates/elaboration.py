@@ -26,6 +26,13 @@ class Step(NamedTuple):
     hints: tuple[int, ...]
 
 
+class Learnt(NamedTuple):
+    """A lemma, or (`forgotten`) that the solver goes on without one that it learnt before."""
+
+    literals: tuple[int, ...]
+    forgotten: bool = False
+
+
 class Answer(NamedTuple):
     """That some literals cannot all be true: those of `literals` alone lead to the conflict that `hints` follow."""
 
@@ -67,8 +74,9 @@ class Elaborator:
         self._trail: list[int] = []
         self._settled: dict[int, None] = {}
         """The variables with a value in any case, in the order in which they got it."""
-        self._lasts: list[int] = []
-        """For each lemma, how long the trail was before it."""
+        self._learnt: list[tuple[int, int | None]] = []
+        """Each lemma, by its number, with how long the trail was before it; or None where it is let go."""
+        self._numbers: dict[tuple[int, ...], list[int]] = {}
         self._broken: int | None = None
         """A clause that is false in any case, once there is one."""
         self._forgotten = len(clauses)
@@ -196,19 +204,42 @@ class Elaborator:
                     self._answers[place] = found
         return [place for place in range(len(self._questions)) if place not in self._answers]
 
-    def learn(self, lemmas: Iterable[Sequence[int]]) -> None:
+    def learn(self, lemmas: Iterable[Learnt]) -> None:
         """Take lemmas, each of which follows by propagation from the formula and the lemmas before it."""
         for lemma in lemmas:
-            literals = dict.fromkeys(lemma)
             if self._broken is not None:
                 return
-            if any(-literal in literals for literal in literals):
-                continue
-            self._lasts.append(len(self._trail))
-            self._clauses.append(list(literals))
-            self._forgotten = len(self._clauses)
-            self._attach(len(self._clauses) - 1)
-            self._settle()
+            literals = sorted(set(lemma.literals))
+            if lemma.forgotten:
+                self._let_go(self._numbers.get(tuple(literals), []))
+            elif not any(-literal in literals for literal in literals):
+                number = len(self._clauses)
+                self._learnt.append((number, len(self._trail)))
+                self._numbers.setdefault(tuple(literals), []).append(number)
+                self._clauses.append(literals)
+                self._forgotten = number + 1
+                self._attach(number)
+                self._settle()
+
+    def _let_go(self, numbers: list[int]) -> None:
+        """Propagate no more with one of these lemmas, unless something on the trail follows from it. What is not a
+        lemma stays."""
+        clause = self._clauses[numbers[-1]] if numbers else []
+        if len(clause) > 1 and self._reason[abs(clause[0])] != numbers[-1]:
+            number = numbers.pop()
+            for literal in clause[:2]:
+                self._watches[literal].remove(number)
+            self._learnt.append((number, None))
+
+    def _take_back(self, number: int) -> None:
+        """Propagate with a lemma again that was let go later on."""
+        clause = self._clauses[number]
+        # What became false last is what becomes open first.
+        clause.sort(key=lambda literal: 1 if self._value[literal] == -1 else 0)
+        if self._value[clause[1]] == -1:
+            clause[1:] = sorted(clause[1:], key=lambda literal: -self._trail.index(-literal))
+        for literal in clause[:2]:
+            self._watches[literal].append(number)
 
     def elaborate(self) -> Elaborated:
         """The refutation of every question. Nothing can be asked afterwards.
@@ -222,8 +253,11 @@ class Elaborator:
         for found in self._answers.values():
             self._note(found, needed, used)
         made: list[tuple[int, Step]] = []
-        for number in reversed(range(self._formula, len(self._clauses))):
-            made += self._settled_since(self._lasts[number - self._formula], needed, used)
+        for number, length in reversed(self._learnt):
+            if length is None:
+                self._take_back(number)
+                continue
+            made += self._settled_since(length, needed, used)
             # If anything is false in any case, the last lemma made it so.
             self._broken = None
             self._forgotten = number

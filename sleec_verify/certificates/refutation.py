@@ -12,7 +12,7 @@ import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from threading import current_thread, main_thread
 
-from sleec_verify.certificates.elaboration import Elaborated, Elaborator
+from sleec_verify.certificates.elaboration import Elaborated, Elaborator, Learnt
 from sleec_verify.certificates.recording import Asked
 
 MOST_LITERALS = 2_000_000
@@ -108,7 +108,7 @@ def refute(clauses: Sequence[Sequence[int]], questions: Sequence[Sequence[int]])
     return elaborator.elaborate()
 
 
-def _lemmas(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]) -> list[list[int]]:
+def _lemmas(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]) -> list[Learnt]:
     """What Glucose learns while it refutes these questions, in its order. It is python-sat's C interface again, as in
     `sleec_verify.solver`."""
     import pysolvers
@@ -130,10 +130,10 @@ def _lemmas(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]
         finally:
             pysolvers.glucose41_del(solver)
         file.seek(0)
-        # What it forgets may be kept: more clauses only make more follow. Where it comes to an end it writes the empty
-        # clause, which does not follow if literals were assumed; where it does, propagation finds it.
-        lemmas = (list(map(int, row.split()))[:-1] for row in file if row[:1] != b"d")
-        return [lemma for lemma in lemmas if lemma]
+        # Where it comes to an end it writes the empty clause, which does not follow if literals were assumed; where it
+        # does, propagation finds it.
+        lemmas = (Learnt(tuple(map(int, row.lstrip(b"d").split()))[:-1], row.startswith(b"d")) for row in file)
+        return [lemma for lemma in lemmas if lemma.literals]
 
 
 def _moved(literals: Iterable[int], offset: int) -> Iterator[int]:

@@ -7,8 +7,8 @@ import random
 import pytest
 from hypothesis import given, settings
 
-from sleec_verify.certificates import lrat
-from sleec_verify.certificates.elaboration import NotFollowing
+from sleec_verify.certificates import lrat, refutation
+from sleec_verify.certificates.elaboration import Elaborator, Learnt, NotFollowing
 from sleec_verify.certificates.recording import Asked, NoModel, Recorder
 from sleec_verify.certificates.refutation import Disjunction, disjunctions, refute
 from sleec_verify.solver import MiniSat
@@ -74,3 +74,23 @@ def test_a_recorder_keeps_a_formula_that_grows() -> None:
     (one,), models = recorder.take()
     assert (one.clauses, list(one.questions), models) == ([[1], [2]], [(-1,), (-2,)], 0)
     assert recorder.take() == ([], 0)
+
+
+def test_what_the_solver_forgets_is_taken_back_where_it_is_needed() -> None:
+    clauses = threes(190, 5, 2)
+    lemmas = refutation._lemmas(clauses, [()])
+    assert sum(lemma.forgotten for lemma in lemmas) > 100
+    formula = Disjunction([Asked(clauses, {(): None})])
+    lrat.check(formula.dimacs("a test"), formula.lrat())
+
+
+def test_lemmas_that_do_not_follow_are_refused() -> None:
+    elaborator = Elaborator([[1, 2], [-1, 2], [1, -2], [-1, -2, 3]], [()])
+    assert elaborator.open_questions() == [0]
+    elaborator.learn([Learnt((2, -2)), Learnt((2,)), Learnt((-3,))])
+    with pytest.raises(NotFollowing, match="lemma"):
+        elaborator.elaborate()
+    elaborator = Elaborator([[1, 2], [-1, 2]], [()])
+    elaborator.learn([Learnt((2,)), Learnt((2,), forgotten=True), Learnt((9,), forgotten=True)])
+    with pytest.raises(NotFollowing, match="question"):
+        elaborator.elaborate()
