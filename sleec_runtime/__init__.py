@@ -72,13 +72,19 @@ def load(
     chains: bool = False,
     on_error: Callable[[Failure], object] | None = None,
     strict_times: bool = False,
+    certificate: str | Path | None = None,
+    key: str | Path | None = None,
 ) -> Sleec:
     """Reads the rules of a file and sets them to work.
 
     `domain` leaves out the rules of other domains. `reading`, ``cascade`` or ``priority``, goes before the file's own.
     `strict` makes a decision that depends on unreported conditions an error; without it they count as false, as
     Definition 1 of the paper has it. `clock`, `chains`, `on_error` and `strict_times` are for rules with times: see
-    `Sleec`. Raises UnreadableFile, LanguageError and UnknownDomain, and UnsupportedTimes with `strict_times`.
+    `Sleec`. `certificate` is the folder of one that must say that these rules, so read, are free of conflict in this
+    domain, and with `key`, the file of a public key, be signed (docs/certificates.md).
+
+    Raises UnreadableFile, LanguageError and UnknownDomain, UnsupportedTimes with `strict_times`, and CertificateRefused
+    with `certificate`.
     """
     from sleec_runtime import language
     from sleec_runtime.runtime import Sleec
@@ -92,6 +98,8 @@ def load(
         chains=chains,
         on_error=on_error,
         strict_times=strict_times,
+        certificate=certificate,
+        key=key,
     )
 
 

@@ -60,6 +60,15 @@ class UnreadableFile(SleecError):
     """A file that cannot be read as text: missing, forbidden, not UTF-8, or holding a NUL byte."""
 
 
+class CertificateRefused(SleecError):
+    """A certificate that is none, or does not hold of the rules at hand. `problems` pairs each reason, one of those in
+    docs/certificates.md, with a sentence on it."""
+
+    def __init__(self, problems: Sequence[tuple[str, str]], hint: str | None = None) -> None:
+        super().__init__("\n".join(message for _, message in problems), hint)
+        self.problems = tuple(problems)
+
+
 # What the runtime refuses, before anything is executed ----------------------------------------------------
 
 

@@ -17,8 +17,10 @@ from sleec_runtime.program import Program
 from sleec_runtime.snapshot import Conditions, Snapshot
 
 if TYPE_CHECKING:
+    from pathlib import Path
     from types import TracebackType
 
+    from sleec_runtime.certificate import Demand
     from sleec_runtime.global_activation import GlobalActivation
     from sleec_runtime.monitor import Monitor
     from sleec_runtime.timed.clocks import Clock, MonotonicClock
@@ -43,6 +45,10 @@ class Sleec:
     while there is something to watch. With `chains`, a response that is done is an event and triggers the rules of
     that name. `on_error` is told of each `Failure` of what the clock started; without it, the log is. What the runtime
     does not enforce is named by a NotEnforced warning, or with `strict_times` by UnsupportedTimes.
+
+    With `certificate`, the folder of one, only rules that it, or another one given to `replace`, says to be free of
+    conflict are ever in force; with `key`, the file of a public key, it must be signed (docs/certificates.md). Others
+    are refused with CertificateRefused.
     """
 
     def __init__(
@@ -56,8 +62,13 @@ class Sleec:
         chains: bool = False,
         on_error: Callable[[Failure], object] | None = None,
         strict_times: bool = False,
+        certificate: str | Path | None = None,
+        key: str | Path | None = None,
     ) -> None:
         whole = _read(ruleset, reading)
+        self._demand = _demand(certificate, key)
+        if self._demand is not None:
+            self._demand.check(whole, domain)
         for name, choice in (("strict", strict), ("chains", chains), ("strict_times", strict_times)):
             if not isinstance(choice, bool):
                 raise WrongType(name, choice, "a choice, True or False", "give True or False")
@@ -288,27 +299,40 @@ class Sleec:
         with self._lock:
             self._instance.admit(whole)
 
-    def replace(self, ruleset: Ruleset, *, bind: Iterable[object] = (), implement: object = None) -> None:
+    def replace(
+        self,
+        ruleset: Ruleset,
+        *,
+        bind: Iterable[object] = (),
+        implement: object = None,
+        certificate: str | Path | None = None,
+    ) -> None:
         """Puts other rules in force, at once for all triggers; those under way finish under the old ones.
 
         Layers of equal name stay the objects that they are, methods stay bound by label, and what is known of the
         context stays known. `bind` and `implement` bring the code for new rules. Raises NotBound if a rule would be
         without code that was not without before, WrongType if a known value does not fit the new declarations, and
-        what `bind` and `implement` raise: then nothing has changed.
+        what `bind` and `implement` raise: then nothing has changed. An instance with a certificate needs `certificate`
+        for them, signed by the same key if it has one, and raises CertificateRefused.
         """
         whole = _read(ruleset, self._reading)
         with self._lock:
+            demand = self._demand
+            if certificate is not None:
+                demand = _demand(certificate, None if demand is None else demand.key)
             instance = self._instance.copied()
             instance.admit(whole)
             instance.bind(bind)
             if implement is not None:
                 instance.implement(implement, whole.obligations)
-            self._install(Program(whole, self.domain, self._strict), instance)
+            self._install(Program(whole, self.domain, self._strict), instance, demand)
 
     def enter_domain(self, domain: str | None) -> None:
-        """Puts the rules of another domain in force, as `replace` does. Raises UnknownDomain."""
+        """Puts the rules of another domain in force, as `replace` does. Raises UnknownDomain, and CertificateRefused
+        where there is a certificate, and not for this domain."""
         with self._lock:
-            self._install(Program(self._snapshot.program.whole, domain, self._strict), self._instance)
+            program = Program(self._snapshot.program.whole, domain, self._strict)
+            self._install(program, self._instance, self._demand)
 
     def activate_globally(self) -> GlobalActivation:
         """The paper's own mode (Section 4): from now on the layers of the active clauses are globally active, so that
@@ -403,7 +427,9 @@ class Sleec:
         triggers = dict.fromkeys(by_label[label].trigger for label in labels if label in by_label)
         self._snapshot = self._snapshot.without_plans(triggers)
 
-    def _install(self, program: Program, instance: Instance) -> None:
+    def _install(self, program: Program, instance: Instance, demand: Demand | None) -> None:
+        if demand is not None:
+            demand.check(program.whole, program.domain)
         before = self._snapshot
         were_missing = self._instance.missing(before.program.ruleset.rules)
         problems = [
@@ -424,6 +450,7 @@ class Sleec:
         self._watch_bound(instance, program)
         self._keep_times(program)
         self._instance = instance
+        self._demand = demand
         self._publish(before, after, program.ruleset.rules)
 
     def _watch_bound(self, instance: Instance, program: Program) -> None:
@@ -449,6 +476,16 @@ def _read(ruleset: Ruleset, reading: Reading | None) -> Ruleset:
             "read one: sleec_runtime.language.parse(text), or sleec_runtime.load(path) for a file",
         )
     return ruleset if reading is None else ruleset.read_as(reading)
+
+
+def _demand(certificate: str | Path | None, key: str | Path | None) -> Demand | None:
+    if certificate is None:
+        if key is not None:
+            raise SleecError("a key without a certificate checks nothing", "give certificate= as well")
+        return None
+    from sleec_runtime.certificate import Demand
+
+    return Demand(certificate, key)
 
 
 def _together(names: Iterable[str]) -> tuple[str, ...]:

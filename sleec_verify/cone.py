@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.model import (
     Assume,
@@ -26,6 +26,9 @@ from sleec_runtime.model import (
     leaves,
     measures_of,
 )
+
+if TYPE_CHECKING:
+    from sleec_verify.solver import Recorder
 
 Name = tuple[str, str]
 """A trigger (``("trigger", name)``), or a condition or measure (``("condition", name)``)."""
@@ -69,9 +72,11 @@ def names_of_rule(rule: Rule) -> Iterator[Name]:
 class Cones:
     """The indices of one ruleset, each made once, in time linear in the ruleset, when it is first asked for."""
 
-    def __init__(self, ruleset: Ruleset) -> None:
+    def __init__(self, ruleset: Ruleset, recorder: Recorder | None = None) -> None:
+        """`recorder` is told of every question about the ruleset."""
         self.ruleset = ruleset
         self.rules = ruleset.rules
+        self.recorder = recorder
 
     @cached_property
     def clauses(self) -> list[tuple[Clause, ...]]:

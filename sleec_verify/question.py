@@ -78,11 +78,17 @@ class Question:
             answer = self._solver.solve(literals)
             if answer is None:
                 raise Undecided("the solver gave up after its budget of conflicts")
+            recorder, clauses = self.cones.recorder, self.encoder.clauses
             if not answer:
+                if recorder is not None:
+                    recorder.refuted(clauses, literals)
                 return False
             refusal = self._refused_order()
             if refusal is None:
+                if recorder is not None:
+                    recorder.satisfied(clauses, literals, self._solver.holds)
                 return True
+            clauses.append(refusal)
             self._solver.add([refusal])
 
     def _refused_order(self) -> list[int] | None:

@@ -5,7 +5,7 @@ A solver says yes, no, or None where it gave up: unknown is an answer, never an 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from threading import current_thread, main_thread
 from types import TracebackType
 from typing import Protocol
@@ -48,6 +48,21 @@ class Solver(Protocol):
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None
     ) -> None: ...
+
+
+class Recorder(Protocol):
+    """What is told of every question that a check asks, once it is answered. A list of clauses stands for itself: it
+    is the same question's as long as it is the same list."""
+
+    def refuted(self, clauses: Sequence[Sequence[int]], literals: Sequence[int]) -> None:
+        """No model of the clauses makes all these literals true."""
+        ...
+
+    def satisfied(
+        self, clauses: Sequence[Sequence[int]], literals: Sequence[int], holds: Callable[[int], bool]
+    ) -> None:
+        """`holds` tells what is true in a model of the clauses that makes all these literals true."""
+        ...
 
 
 class MiniSat:

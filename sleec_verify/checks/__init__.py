@@ -26,10 +26,10 @@ from sleec_verify.checks.windows import BARE_PROHIBITION, ZERO_WINDOW
 from sleec_verify.cone import Cones
 from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
 from sleec_verify.replay import replays
-from sleec_verify.solver import Undecided
+from sleec_verify.solver import Recorder, Undecided
 from sleec_verify.timed.scope import Untimed, speaks_of_traces
 
-__all__ = ["CHECKS", "Check", "FindingKind", "checks_for", "run_checks"]
+__all__ = ["CHECKS", "Check", "Checking", "FindingKind", "checks_for", "run_checks"]
 
 CHECKS: Mapping[str, Check] = {
     check.name: check
@@ -94,34 +94,52 @@ def run_checks(
     says in which domains it holds. `untimed` is what a response without a window means, in rules that speak of time.
     `realizable` adds that check, for an environment that acts up to so many times. Raises KeyError for an unknown one.
     """
-    if names is None:
-        names = checks_for(ruleset)
-    checks: Mapping[str, Check] = CHECKS
+    checking = Checking(ruleset, domain, untimed, realizable=1 if realizable is None else realizable)
+    chosen = list(dict.fromkeys(checks_for(ruleset) if names is None else names))
     if realizable is not None:
-        names = [*names, REALIZABILITY.name]
-        checks = {**checks, REALIZABILITY.name: realizability(realizable)}
-    known: Callable[[Ruleset], Cones] = Cones
-    if speaks_of_traces(ruleset):
-        from sleec_verify.checks.timed import TIMED
-        from sleec_verify.timed.traces import Traces
-
-        checks = {**checks, **TIMED}
-        known = partial(Traces, untimed=untimed)
-    chosen = [checks[name] for name in dict.fromkeys(names)]
-    domains = ruleset.domains if domain is None else (domain,)
-    by_domain = {d: known(ruleset.in_domain(d)) for d in domains}
-    whole = known(ruleset)
+        chosen.append(REALIZABILITY.name)
     results = []
-    for done, check in enumerate(chosen):
+    for done, name in enumerate(chosen):
         if progress is not None:
-            progress(check.name, done, len(chosen))
-        started = perf_counter()
-        if check.scope == "text" or not by_domain:
-            verdict, reason = _verdict(check, {"": whole})
-        else:
-            verdict, reason = _verdict(check, by_domain)
-        results.append(CheckResult(check.name, verdict, perf_counter() - started, reason))
+            progress(name, done, len(chosen))
+        results.append(checking.result(name))
     return tuple(results)
+
+
+class Checking:
+    """The checks of one ruleset, one after the other. `recorder` is told of the questions that they ask.
+
+    `by_domain` is what they are asked of: the ruleset in each of its domains, in the one that is named, or, under an
+    empty name, as it is where it has none.
+    """
+
+    def __init__(
+        self,
+        ruleset: Ruleset,
+        domain: str | None = None,
+        untimed: Untimed = "at",
+        recorder: Recorder | None = None,
+        realizable: int = 1,
+    ) -> None:
+        """`realizable` is how often the environment acts in that check."""
+        self._checks: Mapping[str, Check] = {**CHECKS, REALIZABILITY.name: realizability(realizable)}
+        known: Callable[[Ruleset], Cones] = partial(Cones, recorder=recorder)
+        if speaks_of_traces(ruleset):
+            from sleec_verify.checks.timed import TIMED
+            from sleec_verify.timed.traces import Traces
+
+            self._checks = {**self._checks, **TIMED}
+            known = partial(Traces, untimed=untimed, recorder=recorder)
+        domains = ruleset.domains if domain is None else (domain,)
+        self.whole = known(ruleset)
+        self.by_domain = {d: known(ruleset.in_domain(d)) for d in domains} or {"": self.whole}
+
+    def result(self, name: str) -> CheckResult:
+        """The verdict of one check. Raises KeyError for an unknown one."""
+        check = self._checks[name]
+        started = perf_counter()
+        verdict, reason = _verdict(check, {"": self.whole} if check.scope == "text" else self.by_domain)
+        return CheckResult(check.name, verdict, perf_counter() - started, reason)
 
 
 def _verdict(check: Check, by_domain: Mapping[str, Cones]) -> tuple[Verdict, str | None]:

@@ -55,7 +55,8 @@ def _at_stake(
     """The clashes that the rules active with `trigger` can come to, and those of the rules that oblige part of one."""
     group = cones.together_with(trigger)
     due = {literal for other in group for literal in literals_of(cones.clauses[other])}
-    found = [c for literal in (None, *due) for c in by_literal.get(literal, ()) if c.literals <= due]
+    # In an order, so that the same rules make the same clauses.
+    found = [c for literal in (None, *sorted(due, key=str)) for c in by_literal.get(literal, ()) if c.literals <= due]
     part = {literal for clash in found for literal in clash.literals}
     return [other for other in group if not part.isdisjoint(literals_of(cones.clauses[other]))], found
 

@@ -16,7 +16,9 @@ from sleec_verify.report import FORMATS, renderer
 from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, tally
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Reading
+    from sleec_runtime.model import Reading, Ruleset
+    from sleec_verify.checks import Progress
+    from sleec_verify.finding import CheckResult
     from sleec_verify.timed.scope import Untimed
 
 
@@ -42,6 +44,9 @@ if TYPE_CHECKING:
     show_default=True,
     help="Exit with 1 if there is a finding as grave as this.",
 )
+@click.option(
+    "--certify", "output", metavar="DIR", type=options.PATH, help="Write a certificate of it to this folder, too."
+)
 @options.output_format(*FORMATS)
 def command(
     paths: tuple[str, ...],
@@ -50,6 +55,7 @@ def command(
     untimed: Untimed,
     realizable: int | None,
     fail_level: Severity,
+    output: str | None,
     form: str,
 ) -> int:
     """Check rulesets: files, folders of *.sleec files, or - for standard input.
@@ -58,23 +64,46 @@ def command(
     it. `sleec-verify rules` tells what is looked for.
     """
     from sleec_verify.checks import run_checks
-    from sleec_verify.cli.progress import Progress
+    from sleec_verify.cli.progress import Progress as Bar
     from sleec_verify.report.palette import Palette
     from sleec_verify.timed.scope import speaks_of_traces
 
     outcomes: list[Outcome] = []
+    if output is not None:
+        from sleec_verify.certificates.directory import check_free
+
+        check_free(output, force=False)
     found = rulesets(paths, reading, domain)
-    with Progress() as progress:
+    if output is not None and len(found) > 1:
+        raise click.UsageError("a certificate is of one ruleset: name one file")
+    with Bar() as progress:
         for ruleset in found:
             if isinstance(ruleset, Unusable):
                 complain(ruleset.error)
                 outcomes.append(ruleset)
             else:
                 told = progress.on(ruleset.source.path)
-                results = run_checks(ruleset, None, domain, told, untimed, realizable)
+                if output is None:
+                    results = run_checks(ruleset, None, domain, told, untimed, realizable)
+                else:
+                    results = _certified(ruleset, domain, told, untimed, output)
+                    if realizable is not None:
+                        # A strategy is no refutation: the certificate does not speak of it.
+                        results += run_checks(ruleset, (), domain, None, untimed, realizable)
                 outcomes.append(Checked(ruleset, results, untimed if speaks_of_traces(ruleset) else None))
     write(renderer(form)(outcomes, Palette.of(sys.stdout)))
     return _exit_code(outcomes, fail_level)
+
+
+def _certified(
+    ruleset: Ruleset, domain: str | None, told: Progress | None, untimed: Untimed, output: str
+) -> tuple[CheckResult, ...]:
+    from sleec_verify.certificates.making import certify
+    from sleec_verify.cli.certify import save
+
+    made = certify(ruleset, domain, untimed, told)
+    save(made, output)
+    return made.results
 
 
 def _exit_code(outcomes: Sequence[Outcome], fail_level: Severity) -> int:

@@ -14,6 +14,7 @@ _SUMMARIES = {
     "explain": "What do the rules oblige in a situation, and why?",
     "compile": "The rules as formulas or clauses (Equation 1).",
     "cases": "Few situations that reach every clause, for trials.",
+    "certify": "Proofs of what a check found, for others to check.",
     "conform": "Does a robot's code have the structure that the rules ask for?",
     "convert": "The rules in another language or reading.",
     "fmt": "The rules in their usual layout.",

@@ -56,14 +56,15 @@ def _ruleset(outcome: Outcome) -> Json:
     }
 
 
-_VERDICTS: dict[type, str] = {Proved: "proved", Refuted: "refuted", Unknown: "unknown"}
+VERDICTS: dict[type, str] = {Proved: "proved", Refuted: "refuted", Unknown: "unknown"}
+"""What a verdict is called where programs read it."""
 
 
 def _check(result: CheckResult) -> Json:
     verdict = result.verdict
     return {
         "name": result.name,
-        "verdict": _VERDICTS[type(verdict)],
+        "verdict": VERDICTS[type(verdict)],
         "seconds": round(result.seconds, 6),
         "reason": verdict.why if isinstance(verdict, Unknown) else result.reason,
     }

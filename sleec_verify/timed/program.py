@@ -19,6 +19,7 @@ from sleec_runtime.model import (
     leaves,
 )
 from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, Lasting, Relation
+from sleec_verify.solver import Recorder
 from sleec_verify.timed.responses import Occurs, Responses, occurrences
 from sleec_verify.timed.scope import Untimed
 
@@ -55,8 +56,10 @@ def _size(clause: Clause) -> int:
 class Program:
     """The indices of one ruleset under one meaning of responses without a window."""
 
-    def __init__(self, ruleset: Ruleset, untimed: Untimed = "at") -> None:
+    def __init__(self, ruleset: Ruleset, untimed: Untimed = "at", recorder: Recorder | None = None) -> None:
+        """`recorder` is told of every question about its traces."""
         self.ruleset = ruleset
+        self.recorder = recorder
         self.untimed = untimed
         self.rules = ruleset.rules
         self.responses = Responses(untimed)

@@ -374,13 +374,20 @@ class Unfolding:
         """Solve with all rules written down that the model triggers, and with times that can be."""
         while True:
             self._send()
-            answer = self._solver.solve(self._assumed(required, let_in, trusts))
+            assumed = self._assumed(required, let_in, trusts)
+            answer = self._solver.solve(assumed)
             if answer is None:
                 raise Undecided("the solver gave up after its budget of conflicts")
+            recorder = self.program.recorder
             if not answer:
-                self._core = set(self._solver.core())
+                core = self._solver.core()
+                self._core = set(core)
+                if recorder is not None:
+                    recorder.refuted(self.formula.clauses, core)
                 return False
             if not self._expand() and not self._refine():
+                if recorder is not None:
+                    recorder.satisfied(self.formula.clauses, assumed, self._solver.holds)
                 return True
 
     def trusting(self, *required: int, but: Set[str] = frozenset()) -> bool:

@@ -38,6 +38,8 @@ COMMANDS = (
     ["compile", "--to", "cnf"],
     ["fmt"],
     ["fmt", "--write"],
+    ["certify", "-o", "never"],
+    ["check", "--certify", "never"],
 )
 
 

@@ -1,0 +1,102 @@
+"""What certificates cost on 1,000 rules: writing one at most doubles the time of `check`, checking one takes at most
+five times as long as the check that solved the questions.
+
+Two rulesets, each with three hedges a rule: random ones, whose conflicts are shown by witnesses; and ones that nothing
+at odds ever meets in, where every clash has a refutation. Times are processor times of one process, the medians of some
+turns, those of the checker that is proved in Coq included, if it is built.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import statistics
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from benchmarks.random_rules import random_rules
+from sleec_runtime.language import load
+from sleec_runtime.model import Ruleset
+from sleec_verify.certificates.checker import checker
+from sleec_verify.certificates.checking import check_certificate
+from sleec_verify.certificates.directory import write_folder
+from sleec_verify.certificates.making import certify
+from sleec_verify.checks import run_checks
+from sleec_verify.finding import Proved
+
+RULES = 1_000
+TURNS = 3
+WRITING, CHECKING = 2, 5
+"""How many times the time of `check` writing a certificate, the check included, and checking one may take."""
+
+
+def harmless_rules(count: int, seed: int = 0) -> str:
+    """`count` rules of three hedges, two for each trigger, that oblige and forbid the same where the other does not:
+    every two of a trigger clash but for their conditions, and triggers that share an obligation are kept apart."""
+    draw = random.Random(seed)
+    lines = []
+    for number in range(count // 2):
+        done = f"Obligation{number // 2}"
+        one, other, third = draw.sample([f"Condition{number}_{name}" for name in "abcd"], 3)
+        if number % 2:
+            lines.append(f"ASSUME NOT (Trigger{number} AND Trigger{number - 1})")
+        lines += [
+            f"RULE do{number}",
+            f"WHEN Trigger{number} THEN {done}",
+            f"UNLESS {one} IN WHICH CASE Explain{number}",
+            f"UNLESS {other} IN WHICH CASE (Warn{number} AND {done})",
+            f"UNLESS {third} IN WHICH CASE Explain{number}",
+            f"RULE avoid{number}",
+            f"WHEN Trigger{number} THEN Wait{number}",
+            f"UNLESS {one} IN WHICH CASE NOT {done}",
+            f"UNLESS {other} AND NOT {third} IN WHICH CASE Wait{number}",
+            f"UNLESS {third} OR Halted IN WHICH CASE NOT Explain{number}",
+        ]
+    return "\n".join(lines) + "\n"
+
+
+def seconds(work: Callable[[], object]) -> float:
+    """Processor seconds of `work`, children included."""
+    before = os.times()
+    work()
+    after = os.times()
+    return sum(after[:4]) - sum(before[:4])
+
+
+def measure(ruleset: Ruleset, folder: str, turns: int = TURNS) -> tuple[float, float, float]:
+    """Median seconds of the check, of writing its certificate (the check included), and of checking that."""
+    times: tuple[list[float], ...] = ([], [], [])
+    for _ in range(turns):
+        works = (
+            lambda: run_checks(ruleset),
+            lambda: write_folder(folder, ((n, t.encode()) for n, t in certify(ruleset).texts()), force=True),
+            lambda: check_certificate(ruleset, folder, checker()),
+        )
+        for work, measured in zip(works, times):
+            measured.append(seconds(work))
+    solving, writing, checking = map(statistics.median, times)
+    return solving, writing, checking
+
+
+def main() -> None:
+    print(f"proofs are checked by {checker().name}")
+    for name, rules in (("random", random_rules), ("harmless", harmless_rules)):
+        with tempfile.TemporaryDirectory() as place:
+            path, folder = Path(place) / "rules.sleec", str(Path(place) / "certificate")
+            path.write_text(rules(RULES), encoding="utf-8")
+            ruleset = load(path)
+            solving, writing, checking = measure(ruleset, folder)
+            sizes = {kind: sum(f.stat().st_size for f in Path(folder).glob(f"*.{kind}")) for kind in ("cnf", "lrat")}
+            certificate = certify(ruleset)
+            proved = sum(isinstance(result.verdict, Proved) for result in certificate.results)
+            refuted = sum(one.refuted for one in certificate.shown)
+        print(f"{name}, {RULES:,} rules: {proved} checks proved, {refuted:,} questions refuted")
+        print(f"  check               {solving:7.2f} s")
+        print(f"  with a certificate  {writing:7.2f} s   {writing / solving:.2f} times (at most {WRITING})")
+        print(f"  checking that       {checking:7.2f} s   {checking / solving:.2f} times (at most {CHECKING})")
+        print(f"  formulas {sizes['cnf'] / 1e6:.2f} MB, refutations {sizes['lrat'] / 1e6:.2f} MB")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,65 @@
+"""Which checker judges refutations: the one that is proved in Coq, where it is built, or the one in Python."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from sleec_runtime.errors import SleecError
+from sleec_verify.certificates import lrat
+
+BUILT = Path(__file__).parents[2] / "proofs" / "checker" / "check-lrat"
+"""Where `make -C proofs/checker` puts it, in a copy of the sources."""
+
+
+@dataclass(frozen=True)
+class Checker:
+    """`refuses` takes the paths of a formula and of its refutation, and returns why it is none, or None. `name` says
+    who judges; `proved`, whether it is the one that is proved in Coq."""
+
+    name: str
+    proved: bool
+    refuses: Callable[[Path, Path], str | None]
+
+
+def _in_python(formula: Path, proof: Path) -> str | None:
+    try:
+        lrat.check(formula.read_text("ascii"), proof.read_text("ascii"))
+    except lrat.Refused as refusal:
+        return refusal.message
+    except UnicodeDecodeError:
+        return "the file is not in its format"
+    return None
+
+
+IN_PYTHON = Checker("sleec_verify.certificates.lrat, in Python", False, _in_python)
+
+
+def checker(path: str | None = None) -> Checker:
+    """The checker at `path`; else the proved one, if it is built; else the one in Python.
+
+    Raises SleecError if `path` is not a program.
+    """
+    if path is None:
+        if not os.access(BUILT, os.X_OK):
+            return IN_PYTHON
+        path = str(BUILT)
+    elif not (os.path.isfile(path) and os.access(path, os.X_OK)):
+        raise SleecError(f"{path} is not a program", "make -C proofs/checker builds one: proofs/checker/check-lrat")
+    program = os.path.abspath(path)
+    proved = os.path.realpath(path) == os.path.realpath(BUILT)
+    return Checker(path, proved, lambda formula, proof: _by_program(program, formula, proof))
+
+
+def _by_program(program: str, formula: Path, proof: Path) -> str | None:
+    try:
+        done = subprocess.run([program, formula, proof], capture_output=True, text=True, errors="replace", check=False)
+    except OSError as error:
+        raise SleecError(f"the checker {program} cannot be run: {error.strerror}") from None
+    if done.returncode == 0 and done.stdout == "VERIFIED\n":
+        return None
+    _, _, reason = done.stdout.strip().partition(": ")
+    return reason or f"the checker ended with {done.returncode} and no verdict"

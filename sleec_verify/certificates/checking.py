@@ -1,0 +1,254 @@
+"""Checking a certificate: everything in it is computed again from the text of the rules, and compared."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
+
+from sleec_runtime.certificate import MANIFEST, SIGNATURE, Manifest, read_manifest
+from sleec_runtime.errors import CertificateRefused, SleecError
+from sleec_runtime.model import READINGS
+from sleec_verify import __version__
+from sleec_verify.certificates.making import Rebuilt, rebuild
+from sleec_verify.certificates.manifest import check_json, manifest
+from sleec_verify.cone import Cones
+from sleec_verify.finding import Witness
+from sleec_verify.replay import replays
+from sleec_verify.timed.scope import speaks_of_traces
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Reading, Ruleset, Value
+    from sleec_verify.certificates.checker import Checker
+    from sleec_verify.certificates.manifest import Shown
+    from sleec_verify.finding import Finding
+    from sleec_verify.timed.scope import Untimed
+
+
+class Problem(NamedTuple):
+    """Why a certificate is refused: one of the reasons of docs/certificates.md, and a sentence on it."""
+
+    reason: str
+    message: str
+
+
+@dataclass(frozen=True)
+class Confirmed:
+    """A certificate that holds: of the ruleset, in the reading that it is for; who judged its refutations; and whether
+    there is a signature."""
+
+    ruleset: Ruleset
+    shown: tuple[Shown, ...]
+    checker: Checker
+    signed: bool
+
+
+def check_certificate(
+    ruleset: Ruleset,
+    folder: str,
+    judge: Checker,
+    *,
+    domain: str | None = None,
+    reading: str | None = None,
+    key: str | None = None,
+    progress: Callable[[str, int, int], None] | None = None,
+) -> Confirmed:
+    """Check the certificate in `folder` against a ruleset: its bytes, its verdicts, computed again, the formulas, built
+    again, the refutations of these, judged by `judge`, and the witnesses, replayed. `domain` and `reading`, if they
+    are given, and the public `key` must be those of the certificate.
+
+    Raises CertificateRefused with all the reasons that are found.
+    """
+    claimed = read_manifest(folder, key)
+    if claimed.sha256 != ruleset.source.sha256:
+        # Nothing that follows would mean anything.
+        raise CertificateRefused(
+            [
+                Problem(
+                    "ruleset-changed", f"the certificate is not of these rules: {ruleset.source.path} has other bytes"
+                )
+            ],
+            "certify the rules as they are now",
+        )
+    _check_options(ruleset, claimed, domain, reading)
+    read = ruleset if claimed.reading == ruleset.reading else ruleset.read_as(cast("Reading", claimed.reading))
+    examined = _Examined(read, claimed, Path(folder), judge)
+    problems = [*examined.files(), *examined.contents(progress)]
+    if problems:
+        raise CertificateRefused(problems, _hint(claimed))
+    return Confirmed(read, tuple(examined.shown), judge, (Path(folder) / SIGNATURE).exists())
+
+
+def _check_options(ruleset: Ruleset, claimed: Manifest, domain: str | None, reading: str | None) -> None:
+    """What the manifest says that the rules were checked as must be something that they can be, and what is asked."""
+    untimed = claimed.whole.get("untimed")
+    problem = None
+    if reading is not None and reading != claimed.reading:
+        problem = Problem("reading", f"the certificate is for the reading {claimed.reading}, not for {reading}")
+    elif claimed.reading not in READINGS:
+        problem = Problem("manifest", f"the {MANIFEST} names a reading that there is not")
+    elif domain is not None and domain != claimed.domain:
+        is_for = f"the domain {claimed.domain}" if claimed.domain else "all domains, each by itself"
+        problem = Problem("domain", f"the certificate is for {is_for}, not for the domain {domain}")
+    elif claimed.domain is not None and ruleset.domains and claimed.domain not in ruleset.domains:
+        problem = Problem("manifest", f"the {MANIFEST} names a domain that the rules do not have")
+    elif untimed not in (("at", "eventually") if speaks_of_traces(ruleset) else (None,)):
+        problem = Problem("manifest", f"the {MANIFEST} does not say what a response without a window means")
+    if problem is not None:
+        raise CertificateRefused([problem])
+
+
+def _hint(claimed: Manifest) -> str | None:
+    tool = claimed.whole.get("tool")
+    version = tool.get("version") if isinstance(tool, dict) else None
+    if version == __version__:
+        return None
+    return f"it was made by version {version}, and this is {__version__}; certify the rules again with this one"
+
+
+class _Examined:
+    """A certificate beside what the text of the rules gives. `shown` fills as the contents are gone through."""
+
+    def __init__(self, ruleset: Ruleset, claimed: Manifest, folder: Path, judge: Checker) -> None:
+        self._ruleset = ruleset
+        self._claimed = claimed
+        self._folder = folder
+        self._judge = judge
+        self._cones: dict[str, Cones] = {}
+        self.shown: list[Shown] = []
+
+    # Files ----------------------------------------------------------------------------------------------------
+
+    def files(self) -> Iterator[Problem]:
+        """Whether the files are those that the manifest names."""
+        there = set(os.listdir(self._folder)) - {MANIFEST, SIGNATURE}
+        for name in sorted(there - set(self._claimed.files)):
+            yield Problem("file-added", f"{name} is not in the {MANIFEST}")
+        for name, digest in sorted(self._claimed.files.items()):
+            if name not in there:
+                yield Problem("file-missing", f"{name} is missing")
+                continue
+            data = self._bytes(name)
+            if data is None:
+                yield Problem("file-missing", f"{name} cannot be read")
+            elif sha256(data).hexdigest() != digest:
+                yield Problem("file-changed", f"{name} has other bytes than the {MANIFEST} says")
+
+    def _bytes(self, name: str) -> bytes | None:
+        try:
+            return (self._folder / name).read_bytes()
+        except OSError:
+            return None
+
+    # Contents -------------------------------------------------------------------------------------------------
+
+    def contents(self, progress: Callable[[str, int, int], None] | None) -> Iterator[Problem]:
+        """Whether the rules give these verdicts, the formulas are refuted, and the witnesses show what they should."""
+        claimed, ruleset = self._claimed, self._ruleset
+        untimed: Untimed = claimed.whole.get("untimed") or "at"
+        said = {check["name"]: check for check in claimed.whole["checks"]}
+        for rebuilt in rebuild(ruleset, claimed.domain, untimed, progress, examining=True):
+            one = rebuilt.shown()
+            self.shown.append(one)
+            yield from self._formulas(rebuilt)
+            entry = said.get(one.result.name)
+            if entry is None:
+                yield Problem("verdict", f"the {MANIFEST} has no verdict of the check {one.result.name}")
+            else:
+                yield from self._entry(one, entry)
+        digests = {name: claimed.files.get(name, "") for one in self.shown for name in one.files}
+        expected = manifest(ruleset, claimed.domain, claimed.whole.get("untimed"), self.shown, digests)
+        for key in sorted(expected.keys() | claimed.whole.keys()):
+            if key not in ("checks", "tool") and expected.get(key) != claimed.whole.get(key):
+                yield Problem("manifest", f"what the {MANIFEST} says under {key!r} is not what the rules give")
+        if not {one.result.name for one in self.shown}.issuperset(said) or len(said) < len(claimed.whole["checks"]):
+            yield Problem("manifest", f"the {MANIFEST} has checks that there are not, or one of them twice")
+
+    def _formulas(self, rebuilt: Rebuilt) -> Iterator[Problem]:
+        for name in rebuilt.formulas:
+            formula, proof = f"{name}.cnf", f"{name}.lrat"
+            stored = self._bytes(formula)
+            if stored is None or self._bytes(proof) is None:
+                if not {formula, proof} <= set(self._claimed.files):
+                    yield Problem("file-missing", f"the check {rebuilt.result.name} has no proof {name}")
+            elif stored != rebuilt.dimacs(name).encode():
+                yield Problem("clauses", f"{formula} is not the formula that the rules give")
+            else:
+                reason = self._judge.refuses(self._folder / formula, self._folder / proof)
+                if reason is not None:
+                    yield Problem("proof", f"{proof} does not refute {formula}: {reason}")
+
+    def _entry(self, one: Shown, entry: Mapping[str, Any]) -> Iterator[Problem]:
+        """Whether a check's entry in the manifest is what the rules give, witnesses aside; and these, whether they show
+        what they are to show."""
+        name = one.result.name
+        expected: Mapping[str, Any] = check_json(one, self._ruleset)
+        if entry.get("verdict") != expected["verdict"]:
+            yield Problem(
+                "verdict", f"the check {name} is {expected['verdict']}, and the {MANIFEST} says {entry.get('verdict')}"
+            )
+            return
+        found, claims = expected["findings"], entry.get("findings")
+        if not isinstance(claims, list) or [_but_witness(c) for c in claims] != [_but_witness(f) for f in found]:
+            yield Problem("findings", f"the findings of the check {name} are not those that the rules give")
+        else:
+            for finding, computed, claim in zip(one.result.findings, found, claims):
+                if not self._shows(finding, computed, claim):
+                    yield Problem("witness", f"a witness of the check {name} does not show it: {finding.message}")
+        if any(entry.get(key) != expected[key] for key in expected.keys() - {"verdict", "findings"}):
+            yield Problem("manifest", f"what the {MANIFEST} says of the check {name} is not what the rules give")
+
+    def _shows(self, finding: Finding, computed: Mapping[str, Any], claim: Mapping[str, Any]) -> bool:
+        """Whether the evaluator finds in a witness what the finding says; a course of events must be the one that was
+        found and replayed now."""
+        if finding.witness is None or finding.timeline is not None:
+            return all(claim.get(key) == computed.get(key) for key in _WITNESS)
+        try:
+            witness = self._witness(claim["witness"])
+            told = replace(finding, witness=witness)
+            return all(replays(self._in(domain), told) for domain in finding.domains or ("",))
+        except (KeyError, TypeError, ValueError, AttributeError, ZeroDivisionError, SleecError):
+            return False
+
+    def _witness(self, claim: Mapping[str, Any]) -> Witness:
+        triggers = tuple(claim["triggers"])
+        values = {name: self._value(name, value) for name, value in claim["conditions"].items()}
+        if not self._ruleset.triggers.issuperset(triggers):
+            raise ValueError("a trigger that the rules do not have")
+        return Witness(triggers, values)
+
+    def _value(self, name: str, value: object) -> Value:
+        measure = self._ruleset.measures.get(name)
+        if measure is None:
+            if name not in self._ruleset.conditions or not isinstance(value, bool):
+                raise ValueError("no condition, or no truth value")
+            return value
+        if measure.kind == "scale":
+            if value not in measure.values:
+                raise ValueError("no value of the scale")
+            return str(value)
+        if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+            raise ValueError("no number")
+        if isinstance(value, str) and not _FRACTION.fullmatch(value):
+            raise ValueError("no number as certificates have them")
+        number = Fraction(str(value))
+        return number.numerator if number.denominator == 1 else number
+
+    def _in(self, domain: str) -> Cones:
+        if domain not in self._cones:
+            self._cones[domain] = Cones(self._ruleset.in_domain(domain) if domain else self._ruleset)
+        return self._cones[domain]
+
+
+_WITNESS = ("witness", "timeline")
+_FRACTION = re.compile(r"-?[0-9]{1,200}/[0-9]{1,200}")
+"""How a number is written that JSON has no exact spelling for. Others, such as 1e999999999, would take all memory."""
+
+
+def _but_witness(finding: Any) -> Any:
+    return {key: v for key, v in finding.items() if key not in _WITNESS} if isinstance(finding, dict) else finding

@@ -1,0 +1,71 @@
+"""The folder of a certificate: written whole or not at all, never in the place of anything else."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+
+from sleec_runtime.certificate import MANIFEST, SIGNATURE, read_manifest
+from sleec_runtime.errors import CertificateRefused, SleecError
+
+
+class Occupied(SleecError):
+    """Something is where the certificate is to be written."""
+
+
+def check_free(folder: str, force: bool) -> None:
+    """Refuse to write where there is something: but for an empty folder, and with `force` another certificate.
+
+    Raises Occupied.
+    """
+    path = Path(folder)
+    if not os.path.lexists(path):
+        return
+    if path.is_symlink() or not path.is_dir():
+        raise Occupied(f"{folder} exists and is no folder", "choose another name")
+    try:
+        names = set(os.listdir(path))
+    except OSError as error:
+        raise Occupied(f"the folder {folder} cannot be read: {error.strerror}") from None
+    if not names:
+        return
+    try:
+        ours = {MANIFEST, SIGNATURE, *read_manifest(folder).files}
+    except CertificateRefused:
+        ours = set()
+    if not names <= ours:
+        raise Occupied(f"{folder} exists and holds what no certificate has", "choose another folder, or a new one")
+    if not force:
+        raise Occupied(f"{folder} holds a certificate already", "certify with --force to replace it")
+
+
+def write_folder(folder: str, files: Iterable[tuple[str, bytes]], force: bool) -> None:
+    """Write a certificate whole, or nothing.
+
+    Raises Occupied where there is something already, SleecError where it cannot be written.
+    """
+    check_free(folder, force)
+    target = Path(os.path.abspath(folder))
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        made = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name}-"))
+        try:
+            new = made / "new"
+            new.mkdir()
+            for name, data in files:
+                (new / name).write_bytes(data)
+            if target.exists():
+                target.rename(made / "old")
+            try:
+                new.rename(target)
+            except OSError:
+                if (made / "old").exists():
+                    (made / "old").rename(target)
+                raise
+        finally:
+            shutil.rmtree(made, ignore_errors=True)
+    except OSError as error:
+        raise SleecError(f"the certificate cannot be written to {folder}: {error.strerror}", "nothing was") from None

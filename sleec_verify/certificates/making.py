@@ -1,0 +1,136 @@
+"""Checking rules and keeping what shows each verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from hashlib import sha256
+from typing import TYPE_CHECKING
+
+from sleec_verify.certificates.manifest import Shown, dumped, manifest
+from sleec_verify.certificates.recording import Asked, Recorder
+from sleec_verify.certificates.refutation import Disjunction, disjunctions
+from sleec_verify.certificates.whole import conflict_free
+from sleec_verify.checks import Checking, checks_for
+from sleec_verify.finding import Proved, Unknown
+from sleec_verify.timed.scope import speaks_of_traces
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Ruleset
+    from sleec_verify.cone import Cones
+    from sleec_verify.finding import CheckResult
+    from sleec_verify.report.json import Json
+    from sleec_verify.timed.scope import Untimed
+
+
+@dataclass(frozen=True)
+class Rebuilt:
+    """A check's verdict, and the formulas whose refutations show it, by the names of their files."""
+
+    result: CheckResult
+    models: int
+    formulas: dict[str, Disjunction]
+
+    def shown(self) -> Shown:
+        refuted = sum(formula.questions for formula in self.formulas.values())
+        files = (f"{name}.{kind}" for name in self.formulas for kind in ("cnf", "lrat"))
+        return Shown(self.result, refuted, self.models, tuple(files))
+
+    def dimacs(self, name: str) -> str:
+        return self.formulas[name].dimacs(f"what sleec-verify refutes for the check {self.result.name}")
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What goes into the folder: the manifest, and every other file by its name."""
+
+    shown: tuple[Shown, ...]
+    manifest: dict[str, Json]
+    files: dict[str, str]
+
+    @property
+    def results(self) -> tuple[CheckResult, ...]:
+        return tuple(one.result for one in self.shown)
+
+    def texts(self) -> Iterator[tuple[str, str]]:
+        """Every file, the manifest last."""
+        from sleec_runtime.certificate import MANIFEST
+
+        yield from self.files.items()
+        yield MANIFEST, dumped(self.manifest)
+
+
+def certify(
+    ruleset: Ruleset,
+    domain: str | None = None,
+    untimed: Untimed = "at",
+    progress: Callable[[str, int, int], None] | None = None,
+) -> Certificate:
+    """Run every check that there is for the ruleset, as `run_checks` does, and refute again, with a proof, what a
+    solver answered with no."""
+    shown, files = [], {}
+    for rebuilt in rebuild(ruleset, domain, untimed, progress):
+        shown.append(rebuilt.shown())
+        for name, formula in rebuilt.formulas.items():
+            files[f"{name}.cnf"] = rebuilt.dimacs(name)
+            files[f"{name}.lrat"] = formula.lrat()
+    digests = {name: sha256(text.encode()).hexdigest() for name, text in files.items()}
+    told = untimed if speaks_of_traces(ruleset) else None
+    return Certificate(tuple(shown), manifest(ruleset, domain, told, shown, digests), files)
+
+
+def rebuild(
+    ruleset: Ruleset,
+    domain: str | None,
+    untimed: Untimed,
+    progress: Callable[[str, int, int], None] | None = None,
+    examining: bool = False,
+) -> Iterator[Rebuilt]:
+    """The verdicts, computed from the text of the rules, with the formulas to be refuted. `examining` has every model
+    that a solver shows looked at."""
+    recorder = Recorder(examining)
+    checking = Checking(ruleset, domain, untimed, recorder)
+    for cones in (checking.whole, *checking.by_domain.values()):
+        _ask_what_is_possible(cones)
+    assumed, models = recorder.take()
+    names = checks_for(ruleset)
+    for done, name in enumerate(names):
+        if progress is not None:
+            progress(name, done, len(names))
+        result = checking.result(name)
+        asked, found = recorder.take()
+        if name == "assumptions":
+            asked, found = assumed + asked, models + found
+        if name == "conflict":
+            asked = _conflict(checking, recorder, result, asked, speaks_of_traces(ruleset))
+        if isinstance(result.verdict, Unknown):
+            asked = []
+        yield Rebuilt(result, found, _named(name, asked, name == "conflict" and isinstance(result.verdict, Proved)))
+
+
+def _ask_what_is_possible(cones: Cones) -> bool:
+    """Asked before all else, so that what the assumptions rule out is no part of the first check that needs it."""
+    return not cones.assumptions or cones.possible
+
+
+def _conflict(
+    checking: Checking, recorder: Recorder, result: CheckResult, asked: list[Asked], traces: bool
+) -> list[Asked]:
+    if not isinstance(result.verdict, Proved):
+        # Its findings have witnesses, and that there are no further causes is not claimed.
+        return []
+    if traces:
+        return asked
+    free = [conflict_free(cones) for cones in checking.by_domain.values()]
+    assert all(free), "no cause of a conflict was found"
+    return recorder.take()[0]
+
+
+def _named(name: str, asked: list[Asked], always: bool) -> dict[str, Disjunction]:
+    """The formulas by the names of their files. `always` where there must be one, though there was nothing to ask."""
+    if not asked and not always:
+        return {}
+    formulas = list(disjunctions(asked))
+    if len(formulas) == 1:
+        return {name: formulas[0]}
+    return {f"{name}-{number}": formula for number, formula in enumerate(formulas, 1)}

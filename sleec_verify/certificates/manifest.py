@@ -1,0 +1,108 @@
+"""What a certificate says: of which text, under which reading, what was found, and what shows it.
+
+Nothing in it depends on when, where or how fast it was made: the same rules give the same bytes.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from sleec_runtime.certificate import FORMAT
+from sleec_verify import __version__
+from sleec_verify.finding import Refuted, Unknown
+from sleec_verify.report.json import VERDICTS, Json, finding_json
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Ruleset
+    from sleec_verify.finding import CheckResult
+
+LEFT_OUT = ("check", "note", "help", "related")
+"""What a finding tells people and no certificate is about."""
+
+
+class Shown(NamedTuple):
+    """A verdict, and what shows it: how many questions were refuted, how many answered with a situation (or a trace),
+    and the names of the files with the proofs, formula and refutation by turns."""
+
+    result: CheckResult
+    refuted: int
+    models: int
+    files: tuple[str, ...]
+
+    @property
+    def evidence(self) -> str:
+        """``proof``; ``witnesses``; ``situations``, where what was looked for is nowhere because the opposite was found
+        each time; ``text`` where nothing was asked of a solver; ``none`` where the verdict is unknown."""
+        verdict = self.result.verdict
+        if isinstance(verdict, Unknown):
+            return "none"
+        if self.files:
+            return "proof"
+        if isinstance(verdict, Refuted) and all(finding.witness for finding in verdict.findings):
+            return "witnesses"
+        return "situations" if self.models else "text"
+
+
+def manifest(
+    ruleset: Ruleset,
+    domain: str | None,
+    untimed: str | None,
+    shown: Sequence[Shown],
+    files: Mapping[str, str],
+) -> dict[str, Json]:
+    """The manifest. `files` are the names of all other files with their SHA-256."""
+    checks: list[Json] = [check_json(one, ruleset) for one in shown]
+    return {
+        "certificate": "sleec-verify",
+        "format": FORMAT,
+        "tool": {"name": "sleec-verify", "version": __version__},
+        "ruleset": {
+            "sha256": ruleset.source.sha256,
+            "syntax": ruleset.syntax,
+            "rules": len(ruleset.rules),
+            "domains": list(ruleset.domains),
+        },
+        "reading": ruleset.reading,
+        "domain": domain,
+        "untimed": untimed,
+        "checks": checks,
+        "files": dict(files),
+    }
+
+
+def check_json(one: Shown, ruleset: Ruleset) -> dict[str, Json]:
+    """What the manifest says of one check."""
+    result = one.result
+    verdict = result.verdict
+    return {
+        "name": result.name,
+        "verdict": VERDICTS[type(verdict)],
+        "reason": verdict.why if isinstance(verdict, Unknown) else result.reason,
+        "evidence": one.evidence,
+        "refuted": one.refuted,
+        "models": one.models,
+        "files": list(one.files),
+        "findings": [
+            {
+                key: value
+                for key, value in finding_json(finding, finding.source or ruleset.source).items()
+                if key not in LEFT_OUT
+            }
+            for finding in result.findings
+        ],
+    }
+
+
+def dumped(value: Mapping[str, Json]) -> str:
+    """The manifest as text: a line for each entry, and one for each check."""
+    rows = []
+    for key, entry in value.items():
+        if key == "checks":
+            assert isinstance(entry, list)
+            written = "[\n  " + ",\n  ".join(json.dumps(one) for one in entry) + "\n ]"
+        else:
+            written = json.dumps(entry)
+        rows.append(f" {json.dumps(key)}: {written}")
+    return "{\n" + ",\n".join(rows) + "\n}\n"

@@ -1,0 +1,54 @@
+"""The questions that were answered no, and those that were answered yes, as the solver was asked them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from sleec_runtime.errors import SleecError
+
+
+class NoModel(SleecError):
+    """A solver said yes, and what it showed is no model of the question."""
+
+
+@dataclass
+class Asked:
+    """A formula, and the questions of it that were answered no: each says that some literals are true together."""
+
+    clauses: Sequence[Sequence[int]]
+    questions: dict[tuple[int, ...], None] = field(default_factory=dict)
+
+
+class Recorder:
+    """Keeps what solvers are asked. `examining` has it look at every model that a yes comes with.
+
+    A formula is kept as the list that it is, and may grow until `take` is called.
+    """
+
+    def __init__(self, examining: bool = False) -> None:
+        self._examining = examining
+        self._asked: dict[int, Asked] = {}
+        self._models = 0
+
+    def refuted(self, clauses: Sequence[Sequence[int]], literals: Sequence[int]) -> None:
+        """Told that no model of `clauses` makes all `literals` true."""
+        asked = self._asked.setdefault(id(clauses), Asked(clauses))
+        asked.questions[tuple(dict.fromkeys(literals))] = None
+
+    def satisfied(
+        self, clauses: Sequence[Sequence[int]], literals: Sequence[int], holds: Callable[[int], bool]
+    ) -> None:
+        """Told that `holds` says what is true in a model of `clauses` and of `literals`.
+
+        Raises NoModel, if examining, where it is none.
+        """
+        self._models += 1
+        if self._examining and not (all(map(holds, literals)) and all(any(map(holds, clause)) for clause in clauses)):
+            raise NoModel("a solver's model does not satisfy the question", "this is a bug; please report it")
+
+    def take(self) -> tuple[list[Asked], int]:
+        """The formulas with refuted questions since the last call, and how many models there were."""
+        taken = list(self._asked.values()), self._models
+        self._asked, self._models = {}, 0
+        return taken

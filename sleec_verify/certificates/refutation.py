@@ -1,0 +1,144 @@
+"""One formula for many questions: "some question of these has a model". And its refutation.
+
+Each question is a set of clauses of which some literals are assumed. Refuting one formula for each would make thousands
+of files; a conjunction of all would be refuted by one of them. So each set of clauses has its own variables and holds
+only if its *switch* is on, each question has a *selector* that turns on the switch and makes its literals true, and the
+last clause says that some selector is on. It has a model exactly if some question has one.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterable, Iterator, Sequence
+from threading import current_thread, main_thread
+
+from sleec_verify.certificates.elaboration import Elaborated, Elaborator, Learnt
+from sleec_verify.certificates.recording import Asked
+
+MOST_LITERALS = 2_000_000
+"""Literals after which a further pair of files is begun, as checkers hold a formula in memory."""
+
+
+class Disjunction:
+    """The formula "some question has a model", question by question. Linear in their size."""
+
+    def __init__(self, asked: Sequence[Asked]) -> None:
+        self._asked = asked
+        self.variables = 0
+        self.clauses: list[tuple[int, ...]] = []
+        self.questions = 0
+        self._parts: list[tuple[int, int, int]] = []
+        """For each set of clauses: what is added to its variables, its switch, and where its first clause stands."""
+        selectors: list[int] = []
+        for one in asked:
+            offset = self.variables
+            switch = offset + _top(one) + 1
+            self._parts.append((offset, switch, len(self.clauses)))
+            self.clauses += ((*_moved(dict.fromkeys(clause), offset), -switch) for clause in one.clauses)
+            for number, literals in enumerate(one.questions, 1):
+                selector = switch + number
+                selectors.append(selector)
+                self.clauses.append((-selector, switch))
+                self.clauses += ((-selector, literal) for literal in _moved(literals, offset))
+            self.variables = switch + len(one.questions)
+        self.questions = len(selectors)
+        self.clauses.append(tuple(selectors))
+
+    def dimacs(self, title: str) -> str:
+        """The formula in DIMACS, under a comment that says what it is."""
+        rows = [" ".join(map(str, (*clause, 0))) for clause in self.clauses]
+        said = f"c {title}\nc satisfiable if and only if one of the {self.questions} questions has a model\n"
+        return f"{said}p cnf {self.variables} {len(rows)}\n" + "\n".join(rows) + "\n"
+
+    def lrat(self) -> str:
+        """A refutation in LRAT.
+
+        Raises NotFollowing where none is found: a question has a model, or what the solver learnt does not follow.
+        """
+        rows: list[str] = []
+        next_number = len(self.clauses) + 1
+
+        def add(literals: Iterable[int], hints: Iterable[int]) -> int:
+            nonlocal next_number
+            rows.append(" ".join(map(str, (next_number, *literals, 0, *hints, 0))))
+            next_number += 1
+            return next_number - 1
+
+        refuted = []
+        for one, (offset, switch, first) in zip(self._asked, self._parts):
+            steps, answers = refute(one.clauses, list(one.questions))
+            size = len(one.clauses)
+            # Clauses are numbered from 1 in LRAT, from 0 here.
+            numbers = list(range(first + 1, first + size + 1))
+            for step in steps:
+                numbers.append(add((*_moved(step.literals, offset), -switch), (numbers[hint] for hint in step.hints)))
+            place = first + size + 1
+            for number, (literals, answer) in enumerate(zip(one.questions, answers), 1):
+                chosen = [place, *(place + 1 + literals.index(literal) for literal in answer.literals)]
+                refuted.append(add((-switch - number,), (*chosen, *(numbers[hint] for hint in answer.hints))))
+                place += 1 + len(literals)
+        add((), (*refuted, len(self.clauses)))
+        return "\n".join(rows) + "\n"
+
+
+def disjunctions(asked: Iterable[Asked]) -> Iterator[Disjunction]:
+    """All questions, in as few formulas as their size allows; one if there are none."""
+    part: list[Asked] = []
+    size = 0
+    for one in asked:
+        literals = sum(map(len, one.clauses))
+        if part and size + literals > MOST_LITERALS:
+            yield Disjunction(part)
+            part, size = [], 0
+        part.append(one)
+        size += literals
+    yield Disjunction(part)
+
+
+def refute(clauses: Sequence[Sequence[int]], questions: Sequence[Sequence[int]]) -> Elaborated:
+    """Why none of the questions has a model that satisfies the clauses. Most need unit propagation only; for the rest,
+    a solver is asked, and what it learns is elaborated.
+
+    Raises NotFollowing where that is not so.
+    """
+    elaborator = Elaborator(clauses, questions)
+    unanswered = elaborator.open_questions()
+    if unanswered:
+        elaborator.learn(_lemmas(clauses, [questions[place] for place in unanswered]))
+    return elaborator.elaborate()
+
+
+def _lemmas(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]) -> list[Learnt]:
+    """What Glucose learns while it refutes these questions, in its order. It is python-sat's C interface again, as in
+    `sleec_verify.solver`."""
+    import pysolvers
+
+    interruptible = int(current_thread() is main_thread())
+    with tempfile.TemporaryFile() as file:
+        solver = pysolvers.glucose41_new()
+        try:
+            stream = pysolvers.glucose41_tracepr(solver, file)
+            for clause in clauses:
+                pysolvers.glucose41_add_cl(solver, list(clause))
+            for literals in questions:
+                try:
+                    # What it learns under assumptions follows from the clauses alone.
+                    pysolvers.glucose41_solve(solver, list(literals), interruptible)
+                except pysolvers.error:
+                    raise KeyboardInterrupt from None
+            pysolvers.flushpr(stream)
+        finally:
+            pysolvers.glucose41_del(solver)
+        file.seek(0)
+        # Where it comes to an end it writes the empty clause, which does not follow if literals were assumed; where it
+        # does, propagation finds it.
+        lemmas = (Learnt(tuple(map(int, row.lstrip(b"d").split()))[:-1], row.startswith(b"d")) for row in file)
+        return [lemma for lemma in lemmas if lemma.literals]
+
+
+def _moved(literals: Iterable[int], offset: int) -> Iterator[int]:
+    return (literal + offset if literal > 0 else literal - offset for literal in literals)
+
+
+def _top(one: Asked) -> int:
+    return max((abs(literal) for row in (*one.clauses, *one.questions) for literal in row), default=0)

@@ -1,0 +1,78 @@
+"""What people, or programs, are told of a certificate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from sleec_verify.certificates.checker import IN_PYTHON
+from sleec_verify.report.json import VERDICTS, Json, dump
+from sleec_verify.report.outcome import counted
+
+if TYPE_CHECKING:
+    from sleec_runtime.errors import CertificateRefused
+    from sleec_runtime.model import Ruleset
+    from sleec_verify.certificates.checker import Checker
+    from sleec_verify.certificates.manifest import Shown
+
+SHOWN_BY = {
+    "proof": "",
+    "witnesses": "witnesses",
+    "situations": "a situation for each, found again by --check",
+    "text": "read off the text",
+    "none": "no proof, as there is no verdict",
+}
+
+
+def told(form: str, ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge: Checker | None) -> Iterator[str]:
+    """That a certificate was written, or (`judge`) that it holds."""
+    if form == "json":
+        yield dump(_json(ruleset, folder, shown, judge))
+        return
+    path = ruleset.source.path
+    if judge is None:
+        yield f"{folder}: a certificate of {path} (reading {ruleset.reading})\n"
+    else:
+        yield f"{folder}: the certificate holds of {path} (reading {ruleset.reading})\n"
+    widest = max(len(one.result.name) for one in shown)
+    for one in shown:
+        yield f"  {one.result.name:{widest}}  {VERDICTS[type(one.result.verdict)]:8}  {_shown_by(one)}\n"
+    if judge is not None:
+        if judge is IN_PYTHON:
+            more = "; `make -C proofs/checker` builds a checker that is proved correct"
+        else:
+            more = ", which is proved correct" if judge.proved else ""
+        yield f"proofs checked by {judge.name}{more}\n"
+
+
+def _shown_by(one: Shown) -> str:
+    if one.evidence != "proof":
+        return SHOWN_BY[one.evidence]
+    asked = f"{counted(one.refuted, 'question')} refuted" if one.refuted else "nothing is at odds that could be due"
+    return f"{asked}: {', '.join(one.files)}"
+
+
+def _json(ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge: Checker | None) -> Json:
+    checks: list[Json] = [
+        {
+            "name": one.result.name,
+            "verdict": VERDICTS[type(one.result.verdict)],
+            "evidence": one.evidence,
+            "files": list(one.files),
+        }
+        for one in shown
+    ]
+    return {
+        "certificate": folder,
+        "path": ruleset.source.path,
+        "sha256": ruleset.source.sha256,
+        "reading": ruleset.reading,
+        **({} if judge is None else {"holds": True, "checker": {"name": judge.name, "proved": judge.proved}}),
+        "checks": checks,
+    }
+
+
+def refused(folder: str, refusal: CertificateRefused) -> Iterator[str]:
+    """Why a certificate is refused, for programs."""
+    problems: list[Json] = [{"reason": reason, "message": message} for reason, message in refusal.problems]
+    yield dump({"certificate": folder, "holds": False, "problems": problems})

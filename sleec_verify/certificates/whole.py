@@ -1,0 +1,77 @@
+"""Conflict-freeness in few formulas, in the place of a question for each cause.
+
+The check looks for causes, so it asks of one set of clauses after the other. That nothing can conflict is told by fewer
+questions, one for each smallest set of obligations that cannot all be due (`sleec_verify.clashes`): in some situation,
+does each of them follow from some clause that decides there? They share the clauses of all the rules that oblige any of
+them; what shares neither rules nor assumptions is asked apart, so that a solver need not look at everything each time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Sequence
+
+from sleec_verify.checks.conflict import all_clashes
+from sleec_verify.clashes import Clash
+from sleec_verify.cone import Cones, Name, names_in, names_of_rule
+from sleec_verify.question import Question
+
+
+def conflict_free(cones: Cones) -> bool:
+    """Whether no situation conflicts. The formulas are linear in the rules that oblige part of a clash and in the
+    assumptions."""
+    # All are asked, so that all are recorded.
+    answers = [_possible(cones, group) for group in _groups(cones, all_clashes(cones))]
+    return not any(answers)
+
+
+def _possible(cones: Cones, group: Sequence[Clash]) -> bool:
+    """Whether any of these clashes comes true in some situation."""
+    at_odds = {literal for clash in group for literal in clash.literals}
+    with Question(cones) as question:
+        due = question.due(_rules(cones, group), at_odds)
+        questions = []
+        for clash in group:
+            literals = [due[literal] for literal in sorted(clash.literals, key=str)]
+            if clash.labels:
+                literals.append(question.encoder.literal(clash.situation))
+            questions.append(literals)
+        answers = [question.ask(*literals) for literals in questions]
+        return any(answers)
+
+
+def _rules(cones: Cones, group: Iterable[Clash]) -> list[int]:
+    """The rules that oblige part of these clashes, in the order of the text."""
+    return sorted({p.rule for clash in group for literal in clash.literals for p in cones.by_obligation[literal]})
+
+
+def _groups(cones: Cones, found: Iterable[Clash]) -> list[list[Clash]]:
+    """The clashes in groups that share neither rules nor names that the same assumptions speak of."""
+    parent: dict[Hashable, Hashable] = {}
+
+    def root(node: Hashable) -> Hashable:
+        while parent.setdefault(node, node) != node:
+            parent[node] = parent[parent[node]]
+            node = parent[node]
+        return node
+
+    assumed: set[Name] = set()
+    for assumption in cones.assumptions:
+        names = list(names_in(assumption.formula))
+        assumed.update(names)
+        for other in names[1:]:
+            parent[root(other)] = root(names[0])
+    by_root: dict[Hashable, list[Clash]] = {}
+    clashes = list(found)
+    tied: set[int] = set()
+    for clash in clashes:
+        for rule in _rules(cones, [clash]):
+            parent[root(rule)] = root(clash)
+            if rule not in tied:
+                tied.add(rule)
+                for name in assumed.intersection(names_of_rule(cones.rules[rule])):
+                    parent[root(name)] = root(rule)
+        for name in assumed.intersection(names_in(clash.situation)):
+            parent[root(name)] = root(clash)
+    for clash in clashes:
+        by_root.setdefault(root(clash), []).append(clash)
+    return list(by_root.values())

@@ -1,0 +1,194 @@
+"""``sleec-verify certify``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import click
+
+from sleec_verify.cli import exits, options
+from sleec_verify.cli.inputs import one_ruleset
+from sleec_verify.cli.output import note, write
+from sleec_verify.finding import SEVERITIES, Severity, Unknown
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Reading, Ruleset
+    from sleec_verify.certificates.making import Certificate
+    from sleec_verify.finding import CheckResult
+    from sleec_verify.timed.scope import Untimed
+
+
+@click.command(
+    "certify",
+    short_help="Proofs of what a check found, for others to check.",
+    epilog="Example: sleec-verify certify rulesets/hospital-ward.sleec -o ward.certificate",
+)
+@options.paths(several=False)
+@click.option("-o", "--output", metavar="DIR", type=options.PATH, help="Write the certificate to this folder.")
+@click.option("--check", "checked", metavar="DIR", type=options.PATH, help="Check this certificate of FILE instead.")
+@options.reading
+@options.domain
+@options.untimed
+@click.option(
+    "--fail-level",
+    type=click.Choice(SEVERITIES),
+    default="error",
+    show_default=True,
+    help="Exit with 1 if there is a finding as grave as this.",
+)
+@click.option(
+    "--sign", "private", metavar="KEY", type=options.PATH, help="Sign it with this private Ed25519 key, in PEM."
+)
+@click.option(
+    "--key",
+    "public",
+    metavar="PUB",
+    type=options.PATH,
+    help="With --check: refuse it unless it is signed by this key.",
+)
+@click.option(
+    "--checker", metavar="PROGRAM", type=options.PATH, help="With --check: what judges the proofs, as check-lrat does."
+)
+@click.option("--force", is_flag=True, help="With -o: replace the certificate that is there.")
+@options.output_format("full", "json")
+@click.pass_context
+def command(
+    context: click.Context,
+    path: str,
+    output: str | None,
+    checked: str | None,
+    reading: Reading | None,
+    domain: str | None,
+    untimed: Untimed,
+    fail_level: Severity,
+    private: str | None,
+    public: str | None,
+    checker: str | None,
+    force: bool,
+    form: str,
+) -> int:
+    """Check the rules in FILE and write a certificate: for what was proved, the clauses and their refutation (DIMACS,
+    LRAT), for what was refuted the witnesses, and a manifest. With --check, have a certificate checked: all of it is
+    computed again from the text of the rules.
+
+    Exit codes are those of `check`; a certificate that is refused is unusable, 2.
+    """
+    if (output is None) == (checked is None):
+        raise click.UsageError("say -o DIR to write a certificate, or --check DIR to have one checked")
+    _refuse_stray(context, ("public", "checker") if checked is None else ("private", "force", "untimed"))
+    if output is not None:
+        return _write(path, output, reading, domain, untimed, fail_level, private, force, form)
+    assert checked is not None
+    return _check(path, checked, reading, domain, fail_level, public, checker, form)
+
+
+def _refuse_stray(context: click.Context, names: tuple[str, ...]) -> None:
+    from click.core import ParameterSource
+
+    for parameter in context.command.params:
+        if parameter.name in names and context.get_parameter_source(parameter.name) != ParameterSource.DEFAULT:
+            without = "with --check" if parameter.name in ("public", "checker") else "with -o"
+            raise click.UsageError(f"{parameter.opts[0]} goes {without} only")
+
+
+def _write(
+    path: str,
+    output: str,
+    reading: Reading | None,
+    domain: str | None,
+    untimed: Untimed,
+    fail_level: Severity,
+    private: str | None,
+    force: bool,
+    form: str,
+) -> int:
+    from sleec_verify.certificates.directory import check_free
+    from sleec_verify.certificates.making import certify
+    from sleec_verify.certificates.telling import told
+    from sleec_verify.cli.progress import Progress
+
+    check_free(output, force)
+    ruleset = one_ruleset(path, reading, domain)
+    with Progress() as progress:
+        made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path))
+    save(made, output, private, force)
+    write(told(form, ruleset, output, made.shown, None))
+    return _exit_code(made.results, fail_level)
+
+
+def save(made: Certificate, output: str, private: str | None = None, force: bool = False) -> None:
+    """Write a certificate to the folder `output`, signed if there is a key."""
+    from sleec_runtime.certificate import MANIFEST, SIGNATURE
+    from sleec_verify.certificates.directory import write_folder
+    from sleec_verify.certificates.signing import sign
+
+    files = [(name, text.encode()) for name, text in made.texts()]
+    if private is not None:
+        files.append((SIGNATURE, sign(dict(files)[MANIFEST], private)))
+    write_folder(output, files, force)
+
+
+def _check(
+    path: str,
+    checked: str,
+    reading: Reading | None,
+    domain: str | None,
+    fail_level: Severity,
+    public: str | None,
+    checker: str | None,
+    form: str,
+) -> int:
+    from sleec_runtime.errors import CertificateRefused
+    from sleec_verify.certificates.checker import checker as chosen
+    from sleec_verify.certificates.checking import check_certificate
+    from sleec_verify.certificates.telling import refused, told
+    from sleec_verify.cli.output import complain
+    from sleec_verify.cli.progress import Progress
+
+    judge = chosen(checker)
+    try:
+        ruleset = _read(path, checked)
+        with Progress() as progress:
+            confirmed = check_certificate(
+                ruleset,
+                checked,
+                judge,
+                domain=domain,
+                reading=reading,
+                key=public,
+                progress=progress.on(ruleset.source.path),
+            )
+    except CertificateRefused as refusal:
+        if form == "json":
+            write(refused(checked, refusal))
+        else:
+            complain(refusal)
+        return exits.UNUSABLE
+    if public is None and confirmed.signed:
+        note("the certificate is signed; whether by whom it should be, --key PUB tells")
+    write(told(form, confirmed.ruleset, checked, confirmed.shown, judge))
+    return _exit_code([one.result for one in confirmed.shown], fail_level)
+
+
+def _read(path: str, checked: str) -> Ruleset:
+    """The rules in FILE. If they are none any more since they were certified, it is that which is said."""
+    from sleec_runtime.certificate import read_manifest
+    from sleec_runtime.errors import CertificateRefused, LanguageError
+
+    try:
+        return one_ruleset(path, None, None)
+    except LanguageError as error:
+        if read_manifest(checked).sha256 == error.source.sha256:
+            raise
+        raise CertificateRefused(
+            [("ruleset-changed", f"the certificate is not of this text, which is no ruleset: {error.source.path}")],
+            f"sleec-verify check {error.source.path}",
+        ) from None
+
+
+def _exit_code(results: Sequence[CheckResult], fail_level: Severity) -> int:
+    grave = SEVERITIES[: SEVERITIES.index(fail_level) + 1]
+    if any(finding.severity in grave for result in results for finding in result.findings):
+        return exits.FINDINGS
+    return exits.UNKNOWN if any(isinstance(result.verdict, Unknown) for result in results) else exits.HOLDS
