@@ -23,6 +23,7 @@ def test_a_code_is_documented(check, kind):
     assert kind.severity in SEVERITIES
     assert kind.title
     assert kind.explanation.endswith(".")
+    assert kind.mend.endswith(".")
 
 
 @pytest.mark.parametrize(("check", "kind"), KINDS, ids=lambda value: getattr(value, "code", None))
