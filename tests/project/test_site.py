@@ -1,0 +1,68 @@
+"""The pages that are made for the site. `make site` builds it, and so checks every link."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.project.sessions import ROOT, blocks
+from website import commands, copied, findings
+
+ENTRIES = findings.entries()
+PAGES = findings.pages()
+DOCS = ROOT / "docs"
+
+
+def test_every_code_has_a_page() -> None:
+    assert set(PAGES) == {f"findings/{entry['code']}.md" for entry in ENTRIES} | {"findings/index.md"}
+    for entry in ENTRIES:
+        assert f"[{entry['code']}]({entry['code']}.md)" in PAGES["findings/index.md"]
+
+
+@pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry["code"])
+def test_a_page_shows_the_finding_in_the_bad_example_and_not_in_the_good_one(entry: findings.Entry) -> None:
+    page = PAGES[f"findings/{entry['code']}.md"]
+    assert re.findall("^## (.*)$", page, re.M) == [
+        "What it says",
+        "How to mend it",
+        "An example that has it",
+        "Without it",
+    ]
+    bad, good = (block.body for block in blocks(page) if block.language == "console")
+    assert f"{entry['severity']}[{entry['code']}]" in bad
+    assert f"[{entry['code']}]" not in good
+    assert good.endswith("$ echo $?\n0\n")
+
+
+def test_every_command_has_a_page_with_its_options_and_an_example() -> None:
+    pages = commands.pages()
+    for name, command in commands.commands().items():
+        page = pages[f"commands/{name}.md"]
+        assert f"[`{name}`]({name}.md)" in pages["commands/index.md"]
+        assert f"```console\n$ sleec-verify {name} " in page
+        options = [option for parameter in command.params for option in parameter.opts if option.startswith("--")]
+        assert all(f"{option}" in page.partition("## Options")[2] for option in options)
+
+
+def test_every_shipped_ruleset_is_shown() -> None:
+    page = copied.pages()["rulesets.md"]
+    for path in (ROOT / "rulesets").glob("*.sleec"):
+        assert path.read_text(encoding="utf-8").strip() in page
+
+
+@pytest.mark.parametrize("page", sorted(DOCS.rglob("*.md")), ids=lambda path: path.stem)
+def test_what_a_page_links_to_is_there(page: Path) -> None:
+    """mkdocs looks closer; this needs no mkdocs."""
+    made = {*PAGES, *commands.pages(), *copied.pages()}
+    for link in re.findall(r"\]\(([^)#:]+)(?:#[\w-]+)?\)", page.read_text(encoding="utf-8")):
+        target = (page.parent / link).resolve()
+        assert target.is_relative_to(DOCS), f"{link} leads out of the site"
+        assert target.exists() or str(target.relative_to(DOCS)) in made, link
+
+
+def test_every_page_is_in_the_navigation() -> None:
+    navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").partition("\nnav:")[2]
+    for path in [*DOCS.rglob("*.md"), *(DOCS / name for name in copied.pages())]:
+        assert re.search(rf"[ :]{re.escape(str(path.relative_to(DOCS)))}$", navigation, re.M), path

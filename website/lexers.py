@@ -1,0 +1,56 @@
+"""Colours for rules: both languages as Pygments knows languages."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import pygments.lexers
+from pygments.lexer import RegexLexer, words
+from pygments.token import Comment, Keyword, Name, Number, Operator, Punctuation, Whitespace
+
+from sleec_runtime.language.dsl import scanner as dsl
+from sleec_runtime.language.keywords import KEYWORDS, RELATION_WORDS
+
+_COMMON = [
+    (r"\s+", Whitespace),
+    (r"//.*?$", Comment.Single),
+    (r"\d+(\.\d+)?", Number),
+    (r"[<>=!]=?|<>|[≤≥≠∧∨¬]|->", Operator),
+    (r"[(){}\[\],.:]", Punctuation),
+    (r"\w[\w.'’-]*", Name),
+    (r".", Punctuation),
+]
+
+
+class SleecLexer(RegexLexer):  # type: ignore[misc, unused-ignore]
+    """Structured English. A block of the language `sleec-bad` is one that is refused."""
+
+    name = "SLEEC"
+    aliases: ClassVar = ["sleec", "sleec-bad"]
+    tokens: ClassVar = {
+        "root": [
+            (r"#.*?$", Comment.Single),
+            (words(sorted(KEYWORDS | RELATION_WORDS | {"BY", "TO", "READING"}), r"\b", r"\b"), Keyword),
+            *_COMMON,
+        ]
+    }
+
+
+class DslLexer(RegexLexer):  # type: ignore[misc, unused-ignore]
+    """The `.sleec` DSL."""
+
+    name = "SLEEC DSL"
+    aliases: ClassVar = ["dsl", "dsl-bad"]
+    tokens: ClassVar = {
+        "root": [
+            (r"(?s)/\*.*?\*/", Comment.Multiline),
+            (words(sorted(dsl.KEYWORDS | dsl.BLOCK_MARKS), r"\b", r"\b"), Keyword),
+            *_COMMON,
+        ]
+    }
+
+
+def register() -> None:
+    """Let Pygments find them by their names."""
+    for lexer in (SleecLexer, DslLexer):
+        pygments.lexers.LEXERS[lexer.__name__] = (__name__, lexer.name, tuple(lexer.aliases), (), ())
