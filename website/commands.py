@@ -11,6 +11,8 @@ from sleec_verify.cli.commands import sleec_verify
 
 FOLDER = "commands"
 
+_TO_BE_CODE = re.compile(r"(?<![\w-])(--?[a-z][\w-]*|-(?= for standard)|\*\.[\w.]+)")
+
 
 def commands() -> dict[str, click.Command]:
     """Every command by its name, in the order of `sleec-verify --help`."""
@@ -58,26 +60,21 @@ def _text(command: click.Command) -> str:
 
 
 def _options(command: click.Command) -> str:
-    rows = "".join(f"| `{_cell(option)}` | {_code(_cell(meaning))} |\n" for option, meaning in _records(command))
+    # In code, | divides no cells; elsewhere it would.
+    records = ((option, _code(meaning).replace("|", "&#124;")) for option, meaning in _records(command))
+    rows = "".join(f"| `{option}` | {meaning} |\n" for option, meaning in records)
     return f"| option | |\n| --- | --- |\n{rows}"
 
 
 def _records(command: click.Command) -> Iterator[tuple[str, str]]:
     context = _context(command)
     for parameter in command.get_params(context):
-        record = parameter.get_help_record(context)
+        record = parameter.get_help_record(context) if isinstance(parameter, click.Option) else None
         if record is not None:
             yield record
 
 
-def _cell(text: str) -> str:
-    return text.replace("|", r"\|")
-
-
 def _code(text: str) -> str:
-    r"""Options as code, where they are not yet; and `*` and `<` as themselves."""
+    """Options, patterns of names and the - of standard input as code, where they are not yet."""
     parts = re.split(r"(`[^`]*`)", text)
-    return "".join(
-        part if part.startswith("`") else re.sub(r"(?<![\w-])(--?[a-z][\w-]*|\*\.[\w.]+)", r"`\1`", part)
-        for part in parts
-    )
+    return "".join(part if part.startswith("`") else _TO_BE_CODE.sub(r"`\g<0>`", part) for part in parts)

@@ -51,13 +51,16 @@ def pages() -> dict[str, str]:
 
 
 def _index(known: list[Entry]) -> str:
-    by_question: dict[tuple[str, str], list[Entry]] = {}
+    by_command: dict[str, list[Entry]] = {}
     for entry in known:
-        by_question.setdefault((entry["check"], entry["question"]), []).append(entry)
+        by_command.setdefault(command_for(entry)[0], []).append(entry)
     parts = [_INTRODUCTION]
-    for (check, question), kinds in by_question.items():
-        parts.append(f"\n## {check}\n\n{question}\n\n| code | | a finding says |\n| --- | --- | --- |\n")
-        parts += (f"| [{k['code']}]({k['code']}.md) | {k['severity']} | {_sentence(k['title'])} |\n" for k in kinds)
+    for command, kinds in by_command.items():
+        parts.append(f"\n## What `{command}` finds\n\n| code | | | check |\n| --- | --- | --- | --- |\n")
+        parts += (
+            f"| [{k['code']}]({k['code']}.md) | {k['severity']} | {_words(k['title'])} | `{k['check']}` |\n"
+            for k in kinds
+        )
     return "".join(parts)
 
 
@@ -107,7 +110,3 @@ def _language(name: str, text: str) -> str:
 def _words(text: str) -> str:
     """A text of the terminal as Markdown: `<` and `*` mean themselves."""
     return text.replace("*", r"\*").replace("<", "&lt;")
-
-
-def _sentence(text: str) -> str:
-    return _words(text[0].upper() + text[1:])

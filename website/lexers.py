@@ -11,6 +11,8 @@ from pygments.token import Comment, Keyword, Name, Number, Operator, Punctuation
 from sleec_runtime.language.dsl import scanner as dsl
 from sleec_runtime.language.keywords import KEYWORDS, RELATION_WORDS
 
+__all__ = ["DslLexer", "SleecLexer"]  # where Pygments looks for them
+
 _COMMON = [
     (r"\s+", Whitespace),
     (r"//.*?$", Comment.Single),

@@ -27,7 +27,7 @@ def with_answers(markdown: str) -> str:
 
 def _answer(text: str) -> str:
     try:
-        parse(text)
+        parse(text, "rules.sleec")
     except LanguageError as error:
         return "\n".join(error_lines(error, PLAIN)).strip()
     raise ValueError(f"this is shown as refused, and it is accepted:\n{text}")
