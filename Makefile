@@ -68,9 +68,10 @@ $(DOCS_LOCKED): requirements-docs.lock | $(INSTALLED)
 	@$(PIP) install -r requirements-docs.lock
 	@touch $@
 
-# As a module, so that website/ can be imported. The variable silences an advertisement of the theme.
+# As a module, so that website/ can be imported, and not --quiet, which has --strict overlook every warning. The
+# variable silences an advertisement of the theme.
 site: $(DOCS_LOCKED)
-	@NO_MKDOCS_2_WARNING=true $(BIN)/python -m mkdocs build --strict --quiet
+	@NO_MKDOCS_2_WARNING=true $(BIN)/python -m mkdocs build --strict
 	@echo 'The site is in site/; read it with: $(BIN)/python -m http.server --directory site'
 
 long: $(INSTALLED)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import ClassVar
 
 import pygments.lexers
-from pygments.lexer import RegexLexer, words
-from pygments.token import Comment, Keyword, Name, Number, Operator, Punctuation, Whitespace
+from pygments.lexer import RegexLexer, bygroups, words
+from pygments.token import Comment, Generic, Keyword, Name, Number, Operator, Punctuation, Whitespace
 
 from sleec_runtime.language.dsl import scanner as dsl
 from sleec_runtime.language.keywords import KEYWORDS, RELATION_WORDS
 
-__all__ = ["DslLexer", "SleecLexer"]  # where Pygments looks for them
+__all__ = ["DslLexer", "SessionLexer", "SleecLexer"]  # where Pygments looks for them
 
 _COMMON = [
     (r"\s+", Whitespace),
@@ -52,7 +52,21 @@ class DslLexer(RegexLexer):  # type: ignore[misc, unused-ignore]
     }
 
 
+class SessionLexer(RegexLexer):  # type: ignore[misc, unused-ignore]
+    """Commands behind "$ ", and what they print. Pygments' own takes an output that begins with # for a command."""
+
+    name = "Session"
+    aliases: ClassVar = ["console"]
+    tokens: ClassVar = {
+        "root": [
+            (r"^(\$ )(.*\n)", bygroups(Generic.Prompt, Generic.Strong)),
+            (r".*\n", Generic.Output),
+        ]
+    }
+
+
 def register() -> None:
     """Let Pygments find them by their names."""
-    for lexer in (SleecLexer, DslLexer):
+    pygments.lexers.LEXERS.pop("BashSessionLexer", None)
+    for lexer in (SleecLexer, DslLexer, SessionLexer):
         pygments.lexers.LEXERS[lexer.__name__] = (__name__, lexer.name, tuple(lexer.aliases), (), ())

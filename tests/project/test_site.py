@@ -6,9 +6,11 @@ import re
 from pathlib import Path
 
 import pytest
+from pygments.lexers import get_lexer_by_name
+from pygments.token import Error, Generic, Keyword
 
 from tests.project.sessions import ROOT, blocks
-from website import commands, copied, findings
+from website import commands, copied, findings, lexers
 
 ENTRIES = findings.entries()
 PAGES = findings.pages()
@@ -50,6 +52,20 @@ def test_every_shipped_ruleset_is_shown() -> None:
     page = copied.pages()["rulesets.md"]
     for path in (ROOT / "rulesets").glob("*.sleec"):
         assert path.read_text(encoding="utf-8").strip() in page
+
+
+def test_rules_have_colours() -> None:
+    lexers.register()
+    for path in (ROOT / "rulesets").glob("*.sleec"):
+        tokens = list(get_lexer_by_name("sleec").get_tokens(path.read_text(encoding="utf-8")))
+        assert (Keyword, "WHEN") in tokens
+        assert Error not in {kind for kind, _ in tokens}
+
+
+def test_what_a_command_prints_is_no_command() -> None:
+    lexers.register()
+    tokens = list(get_lexer_by_name("console").get_tokens("$ sleec-verify compile\n# dress_assist, default\n"))
+    assert [kind for kind, _ in tokens] == [Generic.Prompt, Generic.Strong, Generic.Output]
 
 
 @pytest.mark.parametrize("page", sorted(DOCS.rglob("*.md")), ids=lambda path: path.stem)
