@@ -59,7 +59,7 @@ class SessionLexer(RegexLexer):  # type: ignore[misc, unused-ignore]
     aliases: ClassVar = ["console"]
     tokens: ClassVar = {
         "root": [
-            (r"^(\$ )(.*\n)", bygroups(Generic.Prompt, Generic.Strong)),
+            (r"^(\$ )(.*\n)", bygroups(Generic.Prompt, Name)),
             (r".*\n", Generic.Output),
         ]
     }

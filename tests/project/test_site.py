@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from pygments.lexers import get_lexer_by_name
-from pygments.token import Error, Generic, Keyword
+from pygments.token import Error, Generic, Keyword, Name
 
 from tests.project.sessions import ROOT, blocks
 from website import commands, copied, findings, lexers
@@ -65,7 +65,7 @@ def test_rules_have_colours() -> None:
 def test_what_a_command_prints_is_no_command() -> None:
     lexers.register()
     tokens = list(get_lexer_by_name("console").get_tokens("$ sleec-verify compile\n# dress_assist, default\n"))
-    assert [kind for kind, _ in tokens] == [Generic.Prompt, Generic.Strong, Generic.Output]
+    assert [kind for kind, _ in tokens] == [Generic.Prompt, Name, Generic.Output]
 
 
 @pytest.mark.parametrize("page", sorted(DOCS.rglob("*.md")), ids=lambda path: path.stem)
