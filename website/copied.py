@@ -6,6 +6,8 @@ import re
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
+PAGES = {"CHANGELOG.md": "changelog.md", "rulesets/README.md": "rulesets.md"}
+"""The pages by the files whose text they have."""
 
 
 def pages() -> dict[str, str]:

@@ -9,8 +9,9 @@ from typing import Any
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
 
-from website import commands, copied, findings, lexers, refused
+from website import commands, copied, findings, lexers, links, refused
 
 _FOREIGN = re.compile(r"<(?:script|img|iframe|source|link)\b[^>]*?\b(?:src|href)=\"?(?:https?:)?//[^>]*>")
 
@@ -36,9 +37,9 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     return files
 
 
-def on_page_markdown(markdown: str, **_: Any) -> str:
-    """Below each text that is refused, show what is said of it."""
-    return refused.with_answers(markdown)
+def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
+    """Below each text that is refused, show what is said of it; and let links lead to where the site has it."""
+    return links.within_the_site(refused.with_answers(markdown), page.file.src_uri)
 
 
 def on_post_build(config: MkDocsConfig) -> None:
