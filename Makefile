@@ -7,19 +7,21 @@ BIN := $(VENV)/bin
 # Named after the lock's content: with another lock, the environment is made anew.
 LOCKED := $(VENV)/lock-$(firstword $(shell cksum <requirements-dev.lock))
 INSTALLED := $(VENV)/installed
+DOCS_LOCKED := $(VENV)/docs-lock-$(firstword $(shell cksum <requirements-docs.lock))
 # Where the index lacks a folder that pip was told of, pip says so once for each package.
 PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input
 
-.PHONY: help setup demo test lint types check-tests long proofs bench mutants lock clean
+.PHONY: help setup demo test lint types check-tests site long proofs bench mutants lock clean
 
 help:
 	@echo 'make demo     check the shipped rulesets and ask one question of them'
 	@echo 'make test     lint, types, and every test but the long ones'
+	@echo 'make site     the docs as a site, in site/'
 	@echo 'make long     the long tests'
 	@echo 'make proofs   the theory of the rules, checked by Coq (needs coq and ocaml-findlib)'
 	@echo 'make bench    the measurements of benchmarks/'
 	@echo 'make mutants  mutation testing of the core'
-	@echo 'make lock     renew requirements-dev.lock from pyproject.toml'
+	@echo 'make lock     renew the locks from pyproject.toml'
 	@echo 'make clean    remove .venv and what tests and proofs leave behind'
 
 setup: $(INSTALLED)
@@ -63,6 +65,17 @@ types: $(INSTALLED)
 check-tests: $(INSTALLED)
 	$(BIN)/pytest -n auto --dist worksteal --cov --cov-report=term
 
+# What the site needs besides, into the same environment: the pages are made by running the commands.
+$(DOCS_LOCKED): requirements-docs.lock | $(INSTALLED)
+	@$(PIP) install -r requirements-docs.lock
+	@touch $@
+
+# As a module, so that website/ can be imported, and not --quiet, which has --strict overlook every warning. The
+# variable silences an advertisement of the theme.
+site: $(DOCS_LOCKED)
+	@NO_MKDOCS_2_WARNING=true $(BIN)/python -m mkdocs build --strict
+	@echo 'The site is in site/; read it with: $(BIN)/python -m http.server --directory site'
+
 long: $(INSTALLED)
 	HYPOTHESIS_PROFILE=long $(BIN)/pytest -m long --timeout=7200
 
@@ -84,8 +97,11 @@ lock:
 	$(VENV)-lock/bin/pip install --quiet --disable-pip-version-check --use-pep517 '.[dev]' 'setuptools>=77'
 	$(VENV)-lock/bin/pip freeze --all --exclude pip --exclude sleec-verify \
 	  | sed -e 's/^\(exceptiongroup\|tomli\|backports.*\)==.*/&; python_version < "3.11"/' > requirements-dev.lock
+	$(VENV)-lock/bin/pip freeze --all > $(VENV)-lock/dev
+	$(VENV)-lock/bin/pip install --quiet --disable-pip-version-check -c requirements-dev.lock '.[docs]'
+	$(VENV)-lock/bin/pip freeze --all | grep -vxFf $(VENV)-lock/dev > requirements-docs.lock
 	@rm -rf $(VENV)-lock
 
 clean:
 	@$(MAKE) --no-print-directory -C proofs clean
-	rm -rf $(VENV) $(VENV)-* build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis .coverage* mutants
+	rm -rf $(VENV) $(VENV)-* build site dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis .coverage* mutants

@@ -49,6 +49,8 @@ ASSUMPTIONS = Check(
             "assumptions that contradict one another",
             "ASSUME removes situations that cannot be. Together these remove every situation, and then whatever one "
             "asks of the rules holds for want of a counterexample.",
+            "Take out the assumption that goes too far, or say in it when it holds. An ASSUME is for what cannot be, "
+            "not for what should not be.",
             "ASSUME Day OR Night\nASSUME NOT Day\nASSUME NOT Night\nWHEN UserCalls THEN Answer\n"
             "UNLESS Day IN WHICH CASE AnswerLoudly\nUNLESS Night IN WHICH CASE AnswerQuietly\n",
             "ASSUME Day OR Night\nASSUME NOT (Day AND Night)\nWHEN UserCalls THEN Answer\n"

@@ -22,12 +22,13 @@ the domain, because it is about the text."""
 
 @dataclass(frozen=True)
 class FindingKind:
-    """One code: what it says, why it matters and what to do, with a ruleset that has it and one that has not."""
+    """One code: what it says and why it matters, how to mend it, and a ruleset that has it and one that has not."""
 
     code: str
     severity: Severity
     title: str
     explanation: str
+    mend: str
     bad: str
     good: str
 

@@ -78,6 +78,8 @@ CONCERN = Check(
             "a concern that can come about while every rule is kept",
             "A concern is what must not come about. The robot can keep every rule and still bring it about: the rules "
             "are not enough. The timeline shows how.",
+            "Add the rule or the hedge that prevents it. If nothing the robot does could, say with RELATION, or "
+            "ASSUME, what is known of the world.",
             _EVENTS + "rule_start\n  R1 when UserCalls then Answer unless {asleep} then Ring\nrule_end\n"
             "concern_start\n  c1 when UserCalls and {asleep} then Ring\nconcern_end\n",
             _EVENTS + "rule_start\n  R1 when UserCalls then Answer unless {asleep} then not Ring\nrule_end\n"
@@ -95,8 +97,9 @@ PURPOSE = Check(
             "SLEEC105",
             "error",
             "a purpose that the rules block",
-            "A purpose is what must be able to come about. Whatever happens, some rule is broken wherever it does: the "
-            "rules ask too much. The rules that block it are named.",
+            "A purpose is what must be able to come about. Whatever happens, some rule is broken wherever it does: "
+            "the rules ask too much. The rules that block it are named.",
+            "Give the rules that are named a hedge for the purpose, or give up the purpose.",
             _EVENTS + "rule_start\n  R1 when UserCalls then not Answer\nrule_end\n"
             "purpose_start\n  p1 exists UserCalls while Answer\npurpose_end\n",
             _EVENTS + "rule_start\n  R1 when UserCalls then Answer unless {asleep} then not Answer\nrule_end\n"

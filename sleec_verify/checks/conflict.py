@@ -214,8 +214,9 @@ CONFLICT = Check(
             "rules that cannot be kept together",
             "In the situation shown, what the named clauses oblige is at odds: a thing is due and forbidden at once, "
             "or an EXCLUSIVE or NEVER comes true. A robot in this situation must break a rule, and nobody has decided "
-            "which. The clauses are a minimal set: without any one of them there is no conflict. Decide which gives "
-            "way and say so with a hedge, or state with ASSUME that the situation cannot be.",
+            "which. The clauses are a minimal set: without any one of them there is no conflict.",
+            "Decide which gives way and say so with a hedge (UNLESS), or state with ASSUME that the situation cannot "
+            "be.",
             "RULE privacy\nWHEN CurtainOpenRequest THEN OpenCurtains\nUNLESS UserUndressed IN WHICH CASE "
             "NOT OpenCurtains\nRULE air\nWHEN CurtainOpenRequest AND RoomStuffy THEN OpenCurtains\n",
             "RULE privacy\nWHEN CurtainOpenRequest THEN OpenCurtains\nUNLESS UserUndressed IN WHICH CASE "

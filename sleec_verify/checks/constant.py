@@ -128,6 +128,8 @@ CONSTANT_CONDITION = Check(
             "Whatever the situation, this part of a condition is true, or it is false: it decides nothing. Mostly a "
             "bound is off by one, or AND and OR are mixed up. Guards and hedges whose whole condition is never true "
             "are dead rules and dead hedges, and reported as these.",
+            "Compare the bounds with what you want to say, and look whether AND should be OR. If all is as it should "
+            "be, leave the part out.",
             "MEASURE Heat: number\nWHEN UserCalls THEN Answer\nUNLESS Heat > 30 OR Heat < 40 IN WHICH CASE Cool\n",
             "MEASURE Heat: number\nWHEN UserCalls THEN Answer\nUNLESS Heat > 40 OR Heat < 0 IN WHICH CASE Cool\n",
         ),

@@ -123,7 +123,8 @@ DEAD_RULE = Check(
             "warning",
             "a rule that is active in no situation",
             "The guard of the rule can never be true, or an assumption says that its trigger never occurs. The rule "
-            "reads like a protection and protects nobody. Mend the guard, or remove the rule.",
+            "reads like a protection and protects nobody.",
+            "Mend the guard or the assumption, or remove the rule.",
             "MEASURE UserAge: number\nWHEN UserCalls AND UserAge < 18 AND UserAge > 65 THEN Answer\n",
             "MEASURE UserAge: number\nWHEN UserCalls AND (UserAge < 18 OR UserAge > 65) THEN Answer\n",
         ),
@@ -142,6 +143,8 @@ DEAD_HEDGE = Check(
             "a hedge that decides in no situation",
             "No situation makes this hedge the one that decides: its condition cannot be true, or whenever it is, "
             "another hedge of the rule decides instead. The exception that it promises is never made.",
+            "Look at its condition first: a bound may be off by one, or an AND should be an OR. If another hedge "
+            "always decides instead, change their order or the reading, or remove this one.",
             _EXAMPLE_SCALE + "WHEN UserSaysStop THEN RobotStop\n"
             "UNLESS RiskLevel < r_low IN WHICH CASE AskToFinishFirst\n",
             _EXAMPLE_SCALE + "WHEN UserSaysStop THEN RobotStop\n"

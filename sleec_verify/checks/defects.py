@@ -28,6 +28,7 @@ DEFECTS = Check(
             "a label that two rules have",
             "Tools tell of a rule by its label, and some keep only the last rule of each label. The second rule is "
             "called label#2 here, so that both count. The labels of concerns and purposes are read alike.",
+            "Give each a label of its own.",
             _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nR1 when Answer then Wait\nrule_end\n",
             _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nR2 when Answer then Wait\nrule_end\n",
         ),
@@ -35,8 +36,9 @@ DEFECTS = Check(
             "SLEEC507",
             "error",
             "a value of another scale",
-            "A measure is compared with a value that its scale does not have. Tools that keep the values of all scales "
-            "in one table take its place in the other scale, which need not be what is meant.",
+            "A measure is compared with a value that its scale does not have. Tools that keep the values of all "
+            "scales in one table take its place in the other scale, which need not be what is meant.",
+            "Write a value of the measure's own scale.",
             _DEFINED + "measure noise: scale(quiet, loud)\ndef_end\nrule_start\n"
             "R1 when Called and ({noise} = high) then Answer\nrule_end\n",
             _DEFINED + "measure noise: scale(quiet, loud)\ndef_end\nrule_start\n"
@@ -48,7 +50,8 @@ DEFECTS = Check(
             "a scale that is compared with a number",
             "Tools that keep the values of a scale as numbers read over it: the number stands for the value in that "
             "place, counted from 0, and past the end of the scale the comparison is always true or always false. It "
-            "is read so here, too. Write the value that is meant.",
+            "is read so here, too.",
+            "Write the value that is meant, by its name.",
             _DEFINED + "constant LIMIT = 20\ndef_end\nrule_start\n"
             "R1 when Called and ({risk} > LIMIT) then Answer\nrule_end\n",
             _DEFINED + "def_end\nrule_start\nR1 when Called and ({risk} > low) then Answer\nrule_end\n",

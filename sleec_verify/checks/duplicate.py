@@ -44,6 +44,7 @@ DUPLICATE_RULE = Check(
             "a rule that says the same as another one",
             "Two rules have the same trigger, guard and clauses under two labels. One of them is left over, or is a "
             "copy that was never changed to what it should say.",
+            "Remove one of the two, or change the copy to what it should say.",
             "RULE greet\nWHEN UserEnters THEN Greet\nRULE welcome\nWHEN UserEnters THEN Greet\n",
             "RULE greet\nWHEN UserEnters THEN Greet\nRULE welcome\nWHEN UserEnters THEN OfferSeat\n",
         ),

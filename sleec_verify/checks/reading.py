@@ -116,7 +116,9 @@ READING = Check(
             "Two readings of a chain of hedges are in use. `cascade` stops at the first false condition; `priority` "
             "lets the last true condition win, whatever came before it. Where a later condition can be true while an "
             "earlier one is false, they may oblige different things, and tools of others may read this rule unlike "
-            "you. Write the rule so that both agree, for example by making each hedge repeat the condition before it.",
+            "you.",
+            "Write the rule so that both agree, for example by making each hedge repeat the condition before it. "
+            "`sleec-verify convert --to english --reading …` does it for you.",
             "WHEN HumanOnFloor THEN CallEmergencyServices\n"
             "UNLESS UserResponsive IN WHICH CASE AskForUserStatus\n"
             "UNLESS UserWithCompanion IN WHICH CASE AskCompanionToCheck\n",

@@ -72,6 +72,9 @@ REALIZABILITY = Check(
             "environment has a strategy: whatever the robot does and plans, in the end no way is left to keep all. The "
             "strategy is shown, act by act. This check is made if it is asked for: `check --realizable N`, for an "
             "environment that acts up to N times.",
+            "Decide what should give way when both are called for, and say so with a hedge. Often it is enough to "
+            "leave the robot more time, or to forbid for a shorter one. Where the environment never acts like that, "
+            "say so with a relation.",
             _EVENTS + "rule_start\n  R1 when SmokeDetected then SoundAlarm within 2 minutes\n"
             "  R2 when NightBegins then not SoundAlarm within 8 hours\nrule_end\n",
             _EVENTS + "rule_start\n  R1 when SmokeDetected then SoundAlarm within 2 minutes\n"

@@ -132,7 +132,8 @@ REDUNDANT_RULE = Check(
             "warning",
             "a rule without which every situation obliges the same",
             "Whatever this rule obliges, other rules oblige in the same situations. Two rules that say the same drift "
-            "apart when only one of them is changed. Each of two equal rules is reported: keep one.",
+            "apart when only one of them is changed.",
+            "Remove the rule. If two are reported because each makes the other redundant, keep one of them.",
             "RULE answer\nWHEN UserCalls THEN Answer\nRULE answer_kindly\nWHEN UserCalls THEN Answer AND Smile\n",
             "RULE answer_kindly\nWHEN UserCalls THEN Answer AND Smile\n",
         ),
@@ -151,6 +152,7 @@ REDUNDANT_HEDGE = Check(
             "a hedge without which every situation obliges the same",
             "The rule with this hedge and the rule without it oblige the same in every situation, as the hedge "
             "repeats the response that would be due anyway, or never decides.",
+            "Remove the hedge, or change its response to what it was meant to be.",
             "WHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE Answer\n",
             "WHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE WaitUntilAwake\n",
         ),

@@ -78,8 +78,9 @@ STRAY_EVENT = Check(
             "note",
             "a concern or purpose that speaks of an event no rule knows",
             "The event triggers no rule, answers none, and no relation ties it to one that does: nothing in the rules "
-            "brings it about or prevents it. So a purpose that waits for it is reached too easily, and a concern about "
-            "it cannot be ruled out. A rule is missing, or the event goes by another name.",
+            "brings it about or prevents it. So a purpose that waits for it is reached too easily, and a concern "
+            "about it cannot be ruled out.",
+            "Look for another spelling of the event first, then for a rule that is missing.",
             _EVENTS + _RULES + _PURPOSE,
             _EVENTS + _BOTH + _PURPOSE,
         ),
@@ -88,7 +89,9 @@ STRAY_EVENT = Check(
             "note",
             "a relation that speaks of an event nothing else speaks of",
             "The event stands in one relation and nowhere else. Then the relation says next to nothing of what the "
-            "rules are about. A rule is missing, or the event goes by another name.",
+            "rules are about.",
+            "Look for another spelling of the event first, then for a rule that is missing. If it is neither, remove "
+            "the relation.",
             _EVENTS + _RULES + _RELATION,
             _EVENTS + _BOTH + _RELATION,
         ),

@@ -127,6 +127,7 @@ UNUSED_NAME = Check(
             "note",
             "a name that is declared and never used",
             "A declaration that nothing uses is either left over or a sign that a rule spells the name otherwise.",
+            "Remove the declaration, or use its spelling in the rules.",
             "CONDITION UserAsleep, UserAway\nWHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE Wait\n",
             "CONDITION UserAsleep\nWHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE Wait\n",
         ),
@@ -135,7 +136,9 @@ UNUSED_NAME = Check(
             "note",
             "a constraint on something that no rule obliges",
             "An EXCLUSIVE or NEVER names an obligation that no rule obliges or forbids. It can matter only through "
-            "other constraints that name it too. Usually the name is spelt otherwise in the rules.",
+            "other constraints that name it too.",
+            "Usually the name is spelt otherwise in the rules: use one spelling. Otherwise remove it from the "
+            "constraint.",
             "EXCLUSIVE Answer, StayQuiet\nWHEN UserCalls THEN Answer\nWHEN UserSleeps THEN StaySilent\n",
             "EXCLUSIVE Answer, StaySilent\nASSUME NOT (UserCalls AND UserSleeps)\n"
             "WHEN UserCalls THEN Answer\nWHEN UserSleeps THEN StaySilent\n",
@@ -155,6 +158,8 @@ EMPTY_HEDGE = Check(
             "a hedge that says nothing of what to do",
             "UNLESS without IN WHICH CASE lifts the rule and puts nothing in its place. That may be meant; a reader "
             "cannot tell it from something forgotten.",
+            "Write what is to be done: IN WHICH CASE and a response. If nothing is, leave it, and say why in a "
+            "comment.",
             "WHEN UserCalls THEN Answer\nUNLESS UserAsleep\n",
             "WHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE WaitUntilAwake\n",
         ),
@@ -174,6 +179,8 @@ TRIGGER_OBLIGATION = Check(
             "The response of one rule bears the name of the trigger of another. That is allowed, and the two are kept "
             "apart: that it happened, and that it is to be done. Whether doing it sets off the other rule is a "
             "question of its own.",
+            "If the two are different things, give them different names. If doing the one is the other, leave it: "
+            "`explain` shows what becomes due then.",
             "WHEN SmokeDetected THEN SoundAlarm\nWHEN SoundAlarm THEN CallOperator\n",
             "WHEN SmokeDetected THEN SoundAlarm\nWHEN AlarmHeard THEN CallOperator\n",
         ),
@@ -192,6 +199,8 @@ PHRASE_KEYWORD = Check(
             "a phrase that holds a keyword in lower case",
             "Keywords are written in capitals. In lower case the word is part of the name, so `the user is alone and "
             "asleep` is one condition, not two.",
+            "If you meant the keyword, write it in capitals. If it is part of the name, join the words, as in "
+            "UserAloneAndAsleep, or put it in other words.",
             "WHEN the user calls THEN answer\nUNLESS the user is alone and asleep IN WHICH CASE wait\n",
             "WHEN the user calls THEN answer\nUNLESS the user is alone AND the user is asleep IN WHICH CASE wait\n",
         ),

@@ -100,6 +100,8 @@ VACUOUS_CONFLICT = Check(
             "a rule that is triggered only in situations that conflict",
             "The rule can be triggered, but in each such situation what is due cannot all be done. There is no way to "
             "keep it: it is written down and never lived by.",
+            "Look at the conflicts that are reported with it: one of them holds wherever the rule is triggered. "
+            "Narrow the guard of this rule or of the other, or give one of them a hedge for the case of both.",
             "RULE open\nWHEN UserAsks THEN OpenDoor\nRULE shut\nWHEN UserAsks THEN NOT OpenDoor\n",
             "RULE open\nWHEN UserAsks THEN OpenDoor\nUNLESS NightTime IN WHICH CASE NOT OpenDoor\n",
         ),

@@ -82,7 +82,9 @@ ZERO_WINDOW = Check(
             "note",
             "a window of no length",
             "A response within 0 minutes is due at the very instant of the trigger, as it is without a window. A "
-            "relation for 0 minutes says nothing. The number, or the constant behind it, is likely not what was meant.",
+            "relation for 0 minutes says nothing. The number, or the constant behind it, is likely not what was "
+            "meant.",
+            "Write the length that is meant, or leave the window out.",
             _DEFINED + "R1 when Called then Answer within 0 minutes\nrule_end\n",
             _DEFINED + "R1 when Called then Answer within 1 minute\nrule_end\n",
         ),
@@ -101,6 +103,7 @@ BARE_PROHIBITION = Check(
             "a prohibition without a window, in SLEEC-TK's dialect",
             "SLEEC-TK refuses `not` without a window. Here it is read as LEGOS-SLEEC reads it: the event is forbidden "
             "at the instant of the trigger, and allowed a second later. That is seldom what is meant.",
+            "Say how long: `not E within 1 hour`.",
             _DEFINED + "R1 when Called and asleep then not Answer\nrule_end\n",
             _DEFINED + "R1 when Called and asleep then not Answer within 1 hour\nrule_end\n",
         ),

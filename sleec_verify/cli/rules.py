@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 @options.output_format("full", "json")
 def command(code: str | None, form: str) -> int:
     """List what `check` and `conform` can find, or explain one CODE (or one check by its name): what it means, why it
-    matters, an example that has it and one that has not."""
+    matters, how to mend it, an example that has it and one that has not."""
     by_code = _entries()
     chosen = by_code if code is None else _matching(by_code, code)
     palette = Palette.of(sys.stdout)
@@ -97,6 +97,7 @@ def _explained(entry: _Entry, palette: Palette) -> Iterator[str]:
     yield f"{palette('strong', kind.code)}: {kind.title}\n"
     yield f"{palette(kind.severity, kind.severity)} of the check {check}: {question}\n\n"
     yield fill(kind.explanation, 100) + "\n\n"
+    yield fill(f"To mend it: {kind.mend}", 100) + "\n\n"
     for title, example in ((f"{what} that have it:", kind.bad), (f"{what} that have not:", kind.good)):
         yield f"{title}\n\n{indent(example.strip(), '    ')}\n\n"
 
@@ -110,6 +111,7 @@ def _json(entry: _Entry) -> Json:
         "title": kind.title,
         "question": question,
         "explanation": kind.explanation,
+        "mend": kind.mend,
         "bad": kind.bad,
         "good": kind.good,
     }

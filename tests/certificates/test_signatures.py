@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import shlex
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -10,6 +13,7 @@ import pytest
 import sleec_runtime
 from sleec_runtime.errors import CertificateRefused, SleecError
 from tests.cli.conftest import Cli, cli
+from tests.project.sessions import blocks
 
 __all__ = ["cli"]
 
@@ -106,3 +110,20 @@ def test_without_the_library_it_is_said_what_to_install(
     with pytest.raises(SleecError, match="sleec-verify\\[sign\\]"):
         sleec_runtime.load("rules.sleec", certificate="c", key=keys["own.pub"])
     sleec_runtime.load("rules.sleec", certificate="c")
+
+
+@pytest.mark.skipif(shutil.which("openssl") is None, reason="openssl, which makes the keys, is not installed")
+def test_the_example_of_the_page(cli: Cli, tmp_path: Path) -> None:
+    cli("check", "rules.sleec", files={"rules.sleec": RULES["rules.sleec"].replace("RULE a", "DOMAIN ward\nRULE a")})
+    page = Path(__file__).parents[2] / "docs" / "certificates.md"
+    (commands, code) = (block.body for block in blocks(page.read_text("utf-8")) if block.language in ("sh", "python"))
+    for line in commands.strip().splitlines():
+        program, *arguments = shlex.split(line)
+        if program == "sleec-verify":
+            ran = cli(*arguments)
+            assert (ran.code, ran.err) == (0, ""), line
+        else:
+            subprocess.run([program, *arguments], check=True, capture_output=True)
+    names: dict[str, object] = {"sleec_runtime": sleec_runtime}
+    exec(code, names)
+    assert isinstance(names["sleec"], sleec_runtime.Sleec)

@@ -232,7 +232,7 @@ UNLESS UserDistressed IN WHICH CASE (WarnUser AND OpenCurtains)
 def test_rules_as_json(cli: Cli) -> None:
     listed = json.loads(cli("rules", "--format", "json").out)
     assert [kind["code"] for kind in listed] == sorted(kind["code"] for kind in listed)
-    assert all(kind[key] for kind in listed for key in ("severity", "title", "explanation", "bad", "good"))
+    assert all(kind[key] for kind in listed for key in ("severity", "title", "explanation", "mend", "bad", "good"))
     (one,) = json.loads(cli("rules", "dead-hedge", "--format", "json").out)
     assert one["code"] == "SLEEC202"
 

@@ -8,13 +8,12 @@ from pathlib import Path
 import pytest
 
 from sleec_verify.cases.read import read_cases
-from sleec_verify.cli import run
 from sleec_verify.conformance import Nonconformance, check_conformance
 from sleec_verify.conformance.oracle import Oracle
 from sleec_verify.conformance.suite import PARTS
 
 PAGE = Path("docs/conformance.md").read_text(encoding="utf-8")
-# What stands above is about reading code, and has tests of its own.
+# What stands above is about reading code; its session is run by tests/project/test_docs.py, as that of `cases` is.
 GUIDE = PAGE[PAGE.index("## By test: the code, run") :]
 
 
@@ -53,11 +52,3 @@ def test_the_cases_are_due(tmp_path: Path) -> None:
     ruleset, cases = read_cases(path)
     for case in cases:
         assert set(Oracle(ruleset).expected(case.context()).due) == set(case.obligations)
-
-
-def test_the_command_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (block,) = (block for block in blocks("console") if "sleec-verify cases" in block)
-    command, said = block.splitlines()
-    arguments = command.removeprefix("$ sleec-verify ").split()
-    assert run([*arguments[:-1], str(tmp_path / arguments[-1])]) == 0
-    assert capsys.readouterr().err == said + "\n"

@@ -10,12 +10,14 @@ import pytest
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, print_ruleset
 
-PAGES = sorted((Path(__file__).parents[2] / "docs").glob("*.md"))
+PAGES = sorted((Path(__file__).parents[2] / "docs").rglob("*.md"))
 BLOCKS = [
     block
     for page in PAGES
     for block in re.findall(
-        r"^```(sleec(?:-bad)?)\n(.*?)^```$", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL
+        r'^```(sleec(?:-bad)?)(?: title="[^"]+")?\n(.*?)^```$',
+        page.read_text(encoding="utf-8"),
+        flags=re.MULTILINE | re.DOTALL,
     )
 ]
 

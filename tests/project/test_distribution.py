@@ -8,6 +8,8 @@ import sys
 from importlib import metadata
 from pathlib import Path
 
+import pytest
+
 import sleec_verify
 
 ROOT = Path(__file__).parents[2]
@@ -21,20 +23,30 @@ def test_changelog_has_the_version():
     assert f"## {sleec_verify.__version__}" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
 
 
-def test_lock_pins_every_package_to_one_version():
-    lines = (ROOT / "requirements-dev.lock").read_text(encoding="utf-8").splitlines()
+@pytest.mark.parametrize("lock", ["requirements-dev.lock", "requirements-docs.lock"])
+def test_lock_pins_every_package_to_one_version(lock):
+    lines = (ROOT / lock).read_text(encoding="utf-8").splitlines()
     assert lines
     for line in lines:
         assert re.fullmatch(r"[\w.-]+==[\w.]+(; python_version < \"3\.11\")?", line), line
 
 
 def test_lock_holds_what_pyproject_asks_for():
-    locked = {line.split("==")[0].lower() for line in (ROOT / "requirements-dev.lock").read_text().splitlines()}
+    dev, docs = (locked(f"requirements-{name}.lock") for name in ("dev", "docs"))
     for requirement in metadata.requires("sleec-verify") or ():
         if "mutants" not in requirement:
             name = re.match(r"[\w.-]+", requirement)
             assert name
-            assert name.group().lower() in locked
+            assert name.group().lower() in (docs if "docs" in requirement else dev)
+
+
+def test_what_the_docs_need_besides_is_in_one_lock_only():
+    """Both are installed into one environment."""
+    assert not locked("requirements-dev.lock") & locked("requirements-docs.lock")
+
+
+def locked(name: str) -> set[str]:
+    return {line.split("==")[0].lower() for line in (ROOT / name).read_text(encoding="utf-8").splitlines()}
 
 
 def test_runtime_imports_nothing_of_the_verifier():

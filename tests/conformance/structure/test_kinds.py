@@ -25,6 +25,7 @@ def test_a_code_is_documented(name: str) -> None:
     assert kind.severity in SEVERITIES
     assert kind.title
     assert kind.explanation.endswith(".")
+    assert kind.mend.endswith(".")
 
 
 @pytest.mark.parametrize("name", KINDS)

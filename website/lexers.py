@@ -1,0 +1,72 @@
+"""Colours for rules: both languages as Pygments knows languages."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import pygments.lexers
+from pygments.lexer import RegexLexer, bygroups, words
+from pygments.token import Comment, Generic, Keyword, Name, Number, Operator, Punctuation, Whitespace
+
+from sleec_runtime.language.dsl import scanner as dsl
+from sleec_runtime.language.keywords import KEYWORDS, RELATION_WORDS
+
+__all__ = ["DslLexer", "SessionLexer", "SleecLexer"]  # where Pygments looks for them
+
+_COMMON = [
+    (r"\s+", Whitespace),
+    (r"//.*?$", Comment.Single),
+    (r"\d+(\.\d+)?", Number),
+    (r"[<>=!]=?|<>|[≤≥≠∧∨¬]|->", Operator),
+    (r"[(){}\[\],.:]", Punctuation),
+    (r"\w[\w.'’-]*", Name),
+    (r".", Punctuation),
+]
+
+
+class SleecLexer(RegexLexer):  # type: ignore[misc, unused-ignore]
+    """Structured English. A block of the language `sleec-bad` is one that is refused."""
+
+    name = "SLEEC"
+    aliases: ClassVar = ["sleec", "sleec-bad"]
+    tokens: ClassVar = {
+        "root": [
+            (r"#.*?$", Comment.Single),
+            (words(sorted(KEYWORDS | RELATION_WORDS | {"BY", "TO", "READING"}), r"\b", r"\b"), Keyword),
+            *_COMMON,
+        ]
+    }
+
+
+class DslLexer(RegexLexer):  # type: ignore[misc, unused-ignore]
+    """The `.sleec` DSL."""
+
+    name = "SLEEC DSL"
+    aliases: ClassVar = ["dsl", "dsl-bad"]
+    tokens: ClassVar = {
+        "root": [
+            (r"(?s)/\*.*?\*/", Comment.Multiline),
+            (words(sorted(dsl.KEYWORDS | dsl.BLOCK_MARKS), r"\b", r"\b"), Keyword),
+            *_COMMON,
+        ]
+    }
+
+
+class SessionLexer(RegexLexer):  # type: ignore[misc, unused-ignore]
+    """Commands behind "$ ", and what they print. Pygments' own takes an output that begins with # for a command."""
+
+    name = "Session"
+    aliases: ClassVar = ["console"]
+    tokens: ClassVar = {
+        "root": [
+            (r"^(\$ )(.*\n)", bygroups(Generic.Prompt, Name)),
+            (r".*\n", Generic.Output),
+        ]
+    }
+
+
+def register() -> None:
+    """Let Pygments find them by their names."""
+    pygments.lexers.LEXERS.pop("BashSessionLexer", None)
+    for lexer in (SleecLexer, DslLexer, SessionLexer):
+        pygments.lexers.LEXERS[lexer.__name__] = (__name__, lexer.name, tuple(lexer.aliases), (), ())

@@ -1,0 +1,27 @@
+"""Links that lead out of docs/: they work where the project is read as files, and the site has other addresses."""
+
+from __future__ import annotations
+
+import re
+from posixpath import dirname, join, normpath, relpath
+
+from website import copied
+
+_LINK = re.compile(r"\[([^\]\n]*(?:\n[^\]\n]*)?)\]\(([^)\s#:]+)(#[\w-]+)?\)")
+_PAGES = {**copied.PAGES, "README.md": "index.md"}
+
+
+def within_the_site(markdown: str, page: str) -> str:
+    """The text of `page`, a path below docs/, where such a link leads to the page that has the same, or is plain text
+    if there is none."""
+
+    def changed(link: re.Match[str]) -> str:
+        words, path, anchor = link.groups()
+        target = normpath(join("docs", dirname(page), path))
+        if target.startswith("docs/"):
+            return link.group()
+        if target not in _PAGES:
+            return str(words)
+        return f"[{words}]({relpath(_PAGES[target], dirname(page) or '.')}{anchor or ''})"
+
+    return _LINK.sub(changed, markdown)
