@@ -14,6 +14,9 @@ from website.running import folder_with, printed
 
 FOLDER = "findings"
 
+_ASKED_FOR = {"realizability": ("--realizable", "2")}
+"""The options that have checks made which are made only if asked for."""
+
 _INTRODUCTION = """\
 # Findings
 
@@ -97,7 +100,7 @@ def example_files(entry: Entry, text: str) -> Mapping[str, str]:
 def command_for(entry: Entry) -> tuple[str, ...]:
     """The arguments of the command that makes the finding, in a folder with the files of an example."""
     if entry["check"] in CHECKS:
-        return ("check", "rules.sleec")
+        return ("check", "rules.sleec", *_ASKED_FOR.get(entry["check"], ()))
     return ("conform", "robot.py", "--ruleset", "rules.sleec")
 
 
