@@ -15,6 +15,9 @@ from website.running import folder_with, printed
 
 FOLDER = "findings"
 
+_ASKED_FOR = {"realizability": ("--realizable", "2")}
+"""The options that have checks made which are made only if asked for."""
+
 _INTRODUCTION = """\
 # Findings
 
@@ -100,7 +103,7 @@ def command_for(entry: Entry) -> tuple[str, ...]:
     if entry["check"] == REALIZABILITY.name:
         return ("check", "rules.sleec", "--realizable", "2")
     if entry["check"] in CHECKS:
-        return ("check", "rules.sleec")
+        return ("check", "rules.sleec", *_ASKED_FOR.get(entry["check"], ()))
     return ("conform", "robot.py", "--ruleset", "rules.sleec")
 
 
