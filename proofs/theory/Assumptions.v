@@ -26,6 +26,7 @@ Print Assumptions Instance.due_executed.
 Print Assumptions Instance.executed_due.
 Print Assumptions Instance.executed_iff_due.
 Print Assumptions Instance.layers_exist.
+Print Assumptions Instance.empty_hedge_suppresses.
 
 Print Assumptions Readings.readings_differ_iff.
 Print Assumptions Readings.to_cascade_preserves.
@@ -68,6 +69,7 @@ Print Assumptions Conflict.compatible_or_conflicts.
 Print Assumptions Conflict.compatible_by_table_correct.
 Print Assumptions Conflict.compatible_without_constraints.
 Print Assumptions Conflict.compatible_consistent.
+Print Assumptions Conflict.positive_rules_never_conflict.
 Print Assumptions Conflict.conflict_formula_spec.
 Print Assumptions Conflict.conflict_check.
 Print Assumptions Conflict.clash_clauses_spec.

@@ -155,6 +155,11 @@ Proof.
   split; [exact A|]. split; [exact T|intros k []].
 Qed.
 
+(** Obligations without [NOT], and no constraints: nothing can conflict. *)
+Theorem positive_rules_never_conflict r G :
+  (forall R, In R G -> positive_rule R) -> conflict_free r G [].
+Proof. intros P chi _. apply compatible_without_constraints, positive_consistent, P. Qed.
+
 (** * The formula *)
 
 (** Where a literal is due: the guards of the clauses that oblige it. *)
