@@ -8,7 +8,6 @@ from typing import TypedDict
 
 from sleec_runtime.language import parse
 from sleec_verify.checks import CHECKS
-from sleec_verify.checks.realizability import REALIZABILITY
 from sleec_verify.conformance import structure
 from sleec_verify.conformance.structure.examples import files_of
 from website.running import folder_with, printed
@@ -100,8 +99,6 @@ def example_files(entry: Entry, text: str) -> Mapping[str, str]:
 
 def command_for(entry: Entry) -> tuple[str, ...]:
     """The arguments of the command that makes the finding, in a folder with the files of an example."""
-    if entry["check"] == REALIZABILITY.name:
-        return ("check", "rules.sleec", "--realizable", "2")
     if entry["check"] in CHECKS:
         return ("check", "rules.sleec", *_ASKED_FOR.get(entry["check"], ()))
     return ("conform", "robot.py", "--ruleset", "rules.sleec")
