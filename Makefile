@@ -18,7 +18,7 @@ help:
 	@echo 'make test     lint, types, and every test but the long ones'
 	@echo 'make site     the docs as a site, in site/'
 	@echo 'make long     the long tests'
-	@echo 'make proofs   the theory of the rules, checked by Coq (needs coq and ocaml-findlib)'
+	@echo 'make proofs   the theory of the rules and the checker of refutations, by Coq (needs coq and ocaml-findlib)'
 	@echo 'make bench    the measurements of benchmarks/'
 	@echo 'make mutants  mutation testing of the core'
 	@echo 'make lock     renew the locks from pyproject.toml'
@@ -82,6 +82,7 @@ long: $(INSTALLED)
 # Needs no Python; where Coq is missing, it says in one line how to get it.
 proofs:
 	@$(MAKE) --no-print-directory -C proofs check
+	@$(MAKE) --no-print-directory -C proofs/checker
 
 bench: $(INSTALLED)
 	$(BIN)/python -m benchmarks
@@ -104,4 +105,5 @@ lock:
 
 clean:
 	@$(MAKE) --no-print-directory -C proofs clean
+	@$(MAKE) --no-print-directory -C proofs/checker clean
 	rm -rf $(VENV) $(VENV)-* build site dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis .coverage* mutants
