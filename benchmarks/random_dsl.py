@@ -1,13 +1,13 @@
-"""Random rulesets of the DSL without times, as text: hedges, prohibitions, and responses that trigger other rules."""
+"""Random rulesets of the DSL as text: hedges, prohibitions, and responses that trigger other rules."""
 
 from __future__ import annotations
 
 import random
 
 
-def random_dsl(count: int, hedges: int = 2, seed: int = 0) -> str:
+def random_dsl(count: int, hedges: int = 2, seed: int = 0, windows: tuple[str, ...] = ("",)) -> str:
     """`count` rules of `hedges` hedges at most. There are as many events as rules, half of them responses, a tenth of
-    which trigger rules too; a tenth of the responses forbid."""
+    which trigger rules too; a tenth of the responses forbid. `windows` are what stands behind a response."""
     draw = random.Random(seed)
     half = max(5, count // 2)
     causes, effects = [f"E{n}" for n in range(half)], [f"F{n}" for n in range(half)]
@@ -20,7 +20,7 @@ def random_dsl(count: int, hedges: int = 2, seed: int = 0) -> str:
         )
 
     def response() -> str:
-        return f"{'not ' if draw.random() < 0.1 else ''}{draw.choice(effects)}"
+        return f"{'not ' if draw.random() < 0.1 else ''}{draw.choice(effects)}{draw.choice(windows)}"
 
     lines = ["def_start", *(f"  event {e}" for e in causes + effects), *(f"  measure {m}: boolean" for m in measures)]
     lines += ["def_end", "rule_start"]

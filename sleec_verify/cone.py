@@ -29,6 +29,7 @@ from sleec_runtime.model import (
 
 if TYPE_CHECKING:
     from sleec_verify.solver import Recorder
+    from sleec_verify.timed.program import Program
 
 Name = tuple[str, str]
 """A trigger (``("trigger", name)``), or a condition or measure (``("condition", name)``)."""
@@ -77,6 +78,13 @@ class Cones:
         self.ruleset = ruleset
         self.rules = ruleset.rules
         self.recorder = recorder
+
+    @cached_property
+    def program(self) -> Program:
+        """The rules as courses of events are asked about them."""
+        from sleec_verify.timed.program import Program
+
+        return Program(self.ruleset)
 
     @cached_property
     def clauses(self) -> list[tuple[Clause, ...]]:

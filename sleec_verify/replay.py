@@ -25,10 +25,8 @@ def replays(cones: Cones, finding: Finding) -> bool:
         return plays(cones, finding)
     if finding.strategy is not None:
         from sleec_verify.games.replay import plays as is_lawful
-        from sleec_verify.timed.program import Program
-        from sleec_verify.timed.traces import Traces
 
-        return is_lawful(cones.program if isinstance(cones, Traces) else Program(cones.ruleset), finding)
+        return is_lawful(cones.program, finding)
     context = finding.witness.context()
     possible = not broken_assumptions(cones.ruleset, context)
     return possible and _CLAIMS[finding.check](_about(cones, finding, context), finding, context)

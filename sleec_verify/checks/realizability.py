@@ -23,12 +23,9 @@ def _losses(cones: Cones, steps: int) -> Iterator[Finding]:
     """A finding for each part of the rules that has nothing to do with the others and cannot always be kept."""
     from sleec_verify.games.realizability import losses
     from sleec_verify.solver import Undecided
-    from sleec_verify.timed.program import Program
-    from sleec_verify.timed.traces import Traces
 
-    program = cones.program if isinstance(cones, Traces) else Program(cones.ruleset)
     unknown: dict[str, None] = {}
-    for part, question in losses(program, steps):
+    for part, question in losses(cones.program, steps):
         try:
             loss = question()
         except Undecided as error:

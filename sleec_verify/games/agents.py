@@ -1,27 +1,12 @@
-"""Whose an event is: the robot's or the environment's."""
+"""Whose a relation is to keep: the robot's or the environment's."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from sleec_runtime.model import Agent, Declaration, Ruleset
+from sleec_runtime.model import Agent
 from sleec_runtime.model_time import EventRelation, Lasting
-from sleec_verify.timed.program import Law, events_of, responses_of
-
-
-def agents(ruleset: Ruleset) -> dict[str, Agent]:
-    """The agent of every event that the rules and relations speak of: as it is declared; else a response is the
-    robot's, and any other event the environment's."""
-    found: dict[str, Agent] = {}
-    for statement in ruleset.statements:
-        if isinstance(statement, Declaration) and statement.agent is not None:
-            found.update(dict.fromkeys(statement.names, statement.agent))
-    for rule in ruleset.rules:
-        for response in responses_of(rule):
-            found.setdefault(response.name, "system")
-    for rule in ruleset.rules:
-        found.setdefault(rule.trigger, "environment")
-    return found
+from sleec_verify.timed.program import Law, events_of
 
 
 def is_environments(law: Law, whose: Mapping[str, Agent]) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from sleec_runtime.model import Agent, Atom, Exclusive, Formula, Rule, formulas_of, leaves, measures_of
+from sleec_runtime.model import Atom, Exclusive, Formula, Rule, formulas_of, leaves, measures_of
 from sleec_runtime.model_time import EventRelation, Lasting, MeasureRelation
 from sleec_verify.timed.program import Law, Program, events_of
 from sleec_verify.timed.responses import Occurs
@@ -26,13 +26,15 @@ class Part:
     windows: Mapping[str, tuple[Occurs, ...]]
 
 
-def free_events(program: Program, whose: Mapping[str, Agent]) -> frozenset[str]:
+def free_events(program: Program) -> frozenset[str]:
     """What the robot can do at any time without consequence. Linear in the size of the rules, but for those that call
     for something later which leads back to them."""
     tied = {name for law in program.laws for name in events_of(law)}
     windows = {rule.label: program.windows(rule) for rule in program.rules}
     bound = {window.event for found in windows.values() for window in found if window.negated}
-    bound |= {name for name, agent in whose.items() if agent != "system"} | tied | set(_endless(program, windows))
+    bound |= (
+        {name for name, agent in program.agents.items() if agent != "system"} | tied | set(_endless(program, windows))
+    )
     calling: dict[str, set[str]] = {}
     for rule in program.rules:
         for window in windows[rule.label]:
@@ -45,7 +47,7 @@ def free_events(program: Program, whose: Mapping[str, Agent]) -> frozenset[str]:
             if trigger not in bound:
                 bound.add(trigger)
                 ahead.append(trigger)
-    return frozenset(whose) - bound
+    return frozenset(program.agents) - bound
 
 
 def _endless(program: Program, windows: Mapping[str, list[Occurs]]) -> Iterator[str]:
@@ -65,13 +67,13 @@ def _endless(program: Program, windows: Mapping[str, list[Occurs]]) -> Iterator[
                     yield rule.trigger
 
 
-def parts(program: Program, whose: Mapping[str, Agent]) -> Iterator[Part]:
+def parts(program: Program) -> Iterator[Part]:
     """The parts of a ruleset, in the order of their first rules and laws. O(size of the rules).
 
     Rules that share an event belong together, and so do those that a law ties. What a law says of measures only holds
     in every part that looks at one of them; they share the measures, which are the environment's to choose in each.
     """
-    free = free_events(program, whose)
+    free = free_events(program)
     windows = {r.label: tuple(w for w in program.windows(r) if w.event not in free) for r in program.rules}
     contested = [rule for rule in program.rules if windows[rule.label]]
     union = _Union()

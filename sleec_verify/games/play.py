@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from sleec_runtime.model import Agent, Assume, Exclusive, Rule, Value, formulas_of
+from sleec_runtime.model import Assume, Exclusive, Rule, Value, formulas_of
 from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
 from sleec_verify.games.agents import is_environments
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
@@ -86,7 +86,6 @@ class Play:
         self,
         program: Program,
         part: Part,
-        whose: Mapping[str, Agent],
         steps: int,
         spare: int,
         never: frozenset[str] = frozenset(),
@@ -100,7 +99,6 @@ class Play:
         self._program = program
         self._laws = part.laws
         self._events = frozenset(part.events)
-        self._whose = whose
         self._rules = part.rules
         self._reading = program.ruleset.reading
         formulas = [formula for rule in part.rules for formula in formulas_of(rule)]
@@ -111,8 +109,10 @@ class Play:
         answers = {w.event for rule in part.rules for w in part.windows[rule.label]}
         called_for = {w.event for rule in part.rules for w in part.windows[rule.label] if not w.negated}
         # What nothing calls for, the robot does not do.
-        robots = [name for name in part.events if whose.get(name) == "system" and name in (called_for | tied) - never]
-        others = [name for name in part.events if whose.get(name) != "system"]
+        robots = [
+            name for name in part.events if program.agents.get(name) == "system" and name in (called_for | tied) - never
+        ]
+        others = [name for name in part.events if program.agents.get(name) != "system"]
         always = [name for name in others if eager and name not in tied | answers]
         self._robots = frozenset(robots)
         mine = sorted({*robots, *others} - {*always})
@@ -200,7 +200,7 @@ class Play:
 
     def _lawful(self, course: _Course) -> int:
         """That the environment has kept what it has to."""
-        laws = [law for law in self._laws if is_environments(law, self._whose)]
+        laws = [law for law in self._laws if is_environments(law, self._program.agents)]
         return self.circuit.every(
             self._lasting(law, *course[number], course, later=law.event in self._robots)
             if isinstance(law, Lasting)

@@ -11,9 +11,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import islice
 
-from sleec_runtime.model import Agent, Rule, Span, Value
+from sleec_runtime.model import Rule, Span, Value
 from sleec_runtime.model_time import EventRelation, Lasting
-from sleec_verify.games.agents import agents
 from sleec_verify.games.parts import Part, parts
 from sleec_verify.games.play import Play
 from sleec_verify.games.quantified import Move, winning
@@ -76,27 +75,25 @@ def losses(program: Program, steps: int) -> Iterator[tuple[Sequence[Rule], Calla
     A question raises Undecided past the bounds of what is tried, as does the first step where a measure says how long
     a window is.
     """
-    whose = agents(program.ruleset)
-    for part in parts(program, whose):
-        yield part.rules, partial(_loss, _Contest(program, part, whose), steps)
+    for part in parts(program):
+        yield part.rules, partial(_loss, _Contest(program, part), steps)
 
 
 class _Contest:
     """A part of the rules, and the games about it."""
 
-    def __init__(self, program: Program, part: Part, whose: Mapping[str, Agent]) -> None:
+    def __init__(self, program: Program, part: Part) -> None:
         self.program = program
         self.part = part
-        self.whose = whose
 
     def play(self, steps: int, spare: int, eager: bool = True, pressed: Sequence[str] = ()) -> Play:
         never = self._never if self.has_memory else frozenset()
-        return Play(self.program, self.part, self.whose, steps, spare, never, eager, pressed)
+        return Play(self.program, self.part, steps, spare, never, eager, pressed)
 
     def only(self, rules: Sequence[Rule]) -> _Contest:
         """The same with fewer rules."""
         windows = {rule.label: self.part.windows[rule.label] for rule in rules}
-        return _Contest(self.program, replace(self.part, rules=tuple(rules), windows=windows), self.whose)
+        return _Contest(self.program, replace(self.part, rules=tuple(rules), windows=windows))
 
     @cached_property
     def has_memory(self) -> bool:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from sleec_runtime.model import Ruleset
 from sleec_runtime.trace import Instant, Trace, Untimed, broken
 from sleec_verify.finding import Finding
-from sleec_verify.games.agents import agents, is_environments
+from sleec_verify.games.agents import is_environments
 from sleec_verify.games.realizability import Act, Strategy
 from sleec_verify.timed.program import Program
 
@@ -21,8 +21,7 @@ def plays(program: Program, finding: Finding) -> bool:
     rules = tuple(whole.by_label[label] for label in finding.rules)
     measures = tuple(whole.measures.values())
     robots = replace(whole, statements=(*program.laws, *rules), inferred=measures)
-    whose = agents(whole)
-    lawful = tuple(law for law in program.laws if is_environments(law, whose))
+    lawful = tuple(law for law in program.laws if is_environments(law, program.agents))
     environments = replace(whole, statements=lawful, inferred=measures)
     return _plays(finding.strategy, robots, environments, (), program.untimed)
 

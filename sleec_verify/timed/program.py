@@ -7,9 +7,11 @@ from functools import cached_property
 from typing import Union
 
 from sleec_runtime.model import (
+    Agent,
     Assume,
     Atom,
     Clause,
+    Declaration,
     Exclusive,
     Never,
     Obligation,
@@ -149,6 +151,21 @@ class Program:
     def has_delays(self) -> bool:
         """Whether any rule demands anything of other instants than that of its trigger."""
         return any(map(self.is_timed, self.rules))
+
+    @cached_property
+    def agents(self) -> dict[str, Agent]:
+        """The agent of every event that the rules speak of: as it is declared; else a response is the robot's, and what
+        only triggers the environment's."""
+        found: dict[str, Agent] = {}
+        for statement in self.ruleset.statements:
+            if isinstance(statement, Declaration) and statement.agent is not None:
+                found.update(dict.fromkeys(statement.names, statement.agent))
+        for rule in self.rules:
+            for response in responses_of(rule):
+                found.setdefault(response.name, "system")
+        for rule in self.rules:
+            found.setdefault(rule.trigger, "environment")
+        return found
 
     @cached_property
     def claims(self) -> list[Claim]:
