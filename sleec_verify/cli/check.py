@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import click
 
 from sleec_verify.cli import exits, options
-from sleec_verify.cli.inputs import rulesets
-from sleec_verify.cli.output import complain, write
+from sleec_verify.cli.inputs import files, rulesets
+from sleec_verify.cli.output import complain, report
 from sleec_verify.finding import SEVERITIES, Severity
-from sleec_verify.report import FORMATS, renderer
+from sleec_verify.report import FORMATS
 from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, tally
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Reading
+    from sleec_runtime.model import Reading, Ruleset
+    from sleec_verify.cache import Cache
+    from sleec_verify.cli.progress import Progress
+    from sleec_verify.finding import CheckResult
     from sleec_verify.timed.scope import Untimed
 
 
@@ -29,14 +31,11 @@ if TYPE_CHECKING:
 @options.reading
 @options.domain
 @options.untimed
-@click.option(
-    "--fail-level",
-    type=click.Choice(SEVERITIES),
-    default="error",
-    show_default=True,
-    help="Exit with 1 if there is a finding as grave as this.",
-)
+@options.fail_level
 @options.output_format(*FORMATS)
+@options.output
+@click.option("--no-cache", is_flag=True, help="Decide everything anew, and keep nothing of it for the next time.")
+@click.option("--watch", "watched", is_flag=True, help="Check again whenever a file changes, until Ctrl-C.")
 def command(
     paths: tuple[str, ...],
     reading: Reading | None,
@@ -44,30 +43,74 @@ def command(
     untimed: Untimed,
     fail_level: Severity,
     form: str,
+    output: str | None,
+    no_cache: bool,
+    watched: bool,
 ) -> int:
     """Check rulesets: files, folders of *.sleec files, or - for standard input.
 
     Every check is decided for all situations, not for examples. A finding comes with the smallest situation that shows
     it. `sleec-verify rules` tells what is looked for.
+
+    What was decided is kept: rules that did not change are not checked again. It is kept in the user's cache folder, or
+    in the folder that the environment's SLEEC_VERIFY_CACHE names; SLEEC_VERIFY_CACHE=off keeps nothing.
     """
-    from sleec_verify.checks import run_checks
+    if output is not None:
+        from sleec_verify.cli.files import require_writable
+
+        require_writable(output, (path for path in files(paths) if not isinstance(path, Unusable)))
+    cache = None if no_cache else _cache()
+
+    def once() -> int:
+        outcomes = _outcomes(rulesets(paths, reading, domain), domain, untimed, cache)
+        report(outcomes, form, output)
+        return _exit_code(outcomes, fail_level)
+
+    if not watched:
+        return once()
+    from sleec_verify.cli.watch import watch
+
+    return watch(paths, once)
+
+
+def _cache() -> Cache | None:
+    from sleec_verify.cache import Cache
+    from sleec_verify.cli.output import note
+
+    return Cache.of_environment(note)
+
+
+def _outcomes(
+    found: Sequence[Ruleset | Unusable], domain: str | None, untimed: Untimed, cache: Cache | None
+) -> list[Outcome]:
     from sleec_verify.cli.progress import Progress
-    from sleec_verify.report.palette import Palette
     from sleec_verify.timed.scope import speaks_of_traces
 
     outcomes: list[Outcome] = []
-    found = rulesets(paths, reading, domain)
     with Progress() as progress:
         for ruleset in found:
             if isinstance(ruleset, Unusable):
                 complain(ruleset.error)
                 outcomes.append(ruleset)
             else:
-                told = progress.on(ruleset.source.path)
-                results = run_checks(ruleset, None, domain, told, untimed)
+                results = _results(ruleset, domain, untimed, cache, progress)
                 outcomes.append(Checked(ruleset, results, untimed if speaks_of_traces(ruleset) else None))
-    write(renderer(form)(outcomes, Palette.of(sys.stdout)))
-    return _exit_code(outcomes, fail_level)
+    return outcomes
+
+
+def _results(
+    ruleset: Ruleset, domain: str | None, untimed: Untimed, cache: Cache | None, progress: Progress
+) -> tuple[CheckResult, ...]:
+    """The results that are kept, or else new ones. What decides is imported only for these."""
+    kept = None if cache is None else cache.kept(ruleset, domain, untimed)
+    if kept is not None:
+        return kept
+    from sleec_verify.checks import run_checks
+
+    results = run_checks(ruleset, None, domain, progress.on(ruleset.source.path), untimed)
+    if cache is not None:
+        cache.keep(ruleset, domain, untimed, results)
+    return results
 
 
 def _exit_code(outcomes: Sequence[Outcome], fail_level: Severity) -> int:
