@@ -21,8 +21,8 @@ _SUMMARIES = {
     "conform": "Does a robot's code have the structure that the rules ask for?",
     "convert": "The rules in another language or reading.",
     "fmt": "The rules in their usual layout.",
-    "completion": "A script by which a shell completes commands.",
     "rules": "List and explain every finding code.",
+    "completion": "A script by which a shell completes commands.",
 }
 
 

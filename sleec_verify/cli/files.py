@@ -20,8 +20,8 @@ def write_whole(path: str, content: bytes) -> None:
     """
     target = os.path.realpath(path)
     try:
-        if os.path.lexists(target) and not os.path.isfile(target):  # a terminal, a pipe, /dev/null
-            with open(target, "wb") as stream:
+        if os.path.exists(path) and not os.path.isfile(path):  # a terminal, a pipe, /dev/null
+            with open(path, "wb") as stream:
                 stream.write(content)
         else:
             _put(target, content)
