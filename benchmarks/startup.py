@@ -36,7 +36,7 @@ def seconds(command: list[str], cache: str) -> float:
 
 
 def measure(turns: int = TURNS) -> tuple[float, float, float, float]:
-    """Median seconds of an empty process, of the check, of one that fills the cache, and of one that finds it filled."""
+    """Median seconds of an empty process, of the check, and of one that fills the cache and one that finds it so."""
     command = [str(Path(sys.executable).with_name("sleec-verify")), "check", str(RULES)]
     empty, check, first, second = [], [], [], []
     for _ in range(turns):

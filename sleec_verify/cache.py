@@ -102,7 +102,7 @@ class Cache:
         folder = os.path.dirname(path)
         if not os.path.isdir(folder):
             self._make(folder)
-        temporary = f"{path}.{os.getpid()}.tmp"
+        temporary = f"{path}.{os.urandom(8).hex()}.tmp"
         try:
             with open(temporary, "xb") as file:
                 file.write(content)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify.report.outcome import Checked, Outcome, in_short
-from sleec_verify.report.plain import described, in_project, located, troubles
+from sleec_verify.report.plain import described, in_project, troubles
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Place
@@ -25,7 +25,8 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             for path, message, place in troubles(outcome):
                 yield _annotation("error", path, place, "not a usable ruleset", message)
             continue
-        for finding, source, _ in located(outcome, {}):
+        for finding in outcome.findings:
+            source = finding.source or outcome.ruleset.source
             text = "\n".join([finding.message, *described(finding)])
             title = f"{finding.code} {finding.check}"
             yield _annotation(_COMMANDS[finding.severity], source.path, source.place(finding.span), title, text)

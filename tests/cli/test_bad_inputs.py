@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from sleec_verify.cli import run
+from sleec_verify.report import FORMATS
 
 INPUTS: dict[str, bytes] = {
     "empty": b"",
@@ -38,6 +39,9 @@ COMMANDS = (
     ["compile", "--to", "cnf"],
     ["fmt"],
     ["fmt", "--write"],
+    ["fmt", "--check"],
+    ["fmt", "--diff"],
+    *(["check", "--format", form] for form in FORMATS[3:]),
 )
 
 
