@@ -171,19 +171,26 @@ def _head(path: str, body: bytes) -> bytes:
 
 
 # Entries are written as Python writes values, and read without running anything: unlike JSON, that needs no module
-# which a check has not imported anyway, and it keeps exact numbers and tuples.
+# which a check has not imported anyway, and it keeps exact numbers and tuples. There is a line for each check and one
+# for each of its findings below it, so that thousands are read one by one: read at once, they take a hundred times
+# the memory.
 
 
 def _encoded(results: tuple[CheckResult, ...]) -> bytes:
-    return ascii([(r.name, r.seconds, r.reason, [_plain(finding) for finding in r.findings]) for r in results]).encode()
+    lines: list[object] = []
+    for result in results:
+        lines.append((result.name, result.seconds, result.reason, len(result.findings)))
+        lines += map(_plain, result.findings)
+    return "".join(f"{line!a}\n" for line in lines).encode()
 
 
 def _decoded(body: bytes) -> tuple[CheckResult, ...]:
     from ast import literal_eval
 
     results = []
-    for name, seconds, reason, plain in literal_eval(body.decode("ascii")):
-        findings = tuple(map(_finding, plain))
+    lines = (literal_eval(line.decode("ascii")) for line in body.splitlines())
+    for name, seconds, reason, number in lines:
+        findings = tuple(_finding(next(lines)) for _ in range(number))
         results.append(CheckResult(name, Refuted(findings) if findings else Proved(), seconds, reason))
     return tuple(results)
 

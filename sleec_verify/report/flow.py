@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
-from sleec_runtime.model import Atom, formulas_of, leaves, measures_of
+from sleec_runtime.model import Atom, Exclusive, formulas_of, leaves, measures_of
 from sleec_verify.report.words import listed, quoted, value_text
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Formula, Rule, Ruleset, Source, Span, Value
+    from sleec_runtime.model import Formula, Ruleset, Source, Span, Value
     from sleec_verify.finding import Finding
     from sleec_verify.timed.timeline import Moment
 
@@ -26,7 +26,10 @@ class Step(NamedTuple):
 
 def steps(ruleset: Ruleset, finding: Finding) -> list[Step]:
     """The steps to a finding that has a witness, or that code departs from a clause; the finding is the last of them.
-    None for what a look at one place shows. O(size of the rules that the finding names)."""
+    None for what a look at one place shows.
+
+    O(size of the rules that the finding names), and of the constraints where a name stands only there.
+    """
     source = finding.source or ruleset.source
     if finding.timeline is not None:
         before = [
@@ -67,10 +70,14 @@ def _happening(
 ) -> Iterator[Step]:
     """What occurs and what is the case, each where the rules of the finding first speak of it."""
     rules = [ruleset.by_label[label] for label in finding.rules if label in ruleset.by_label]
-    told = _places(ruleset, rules)
+    told = _places(formula for rule in rules for formula in formulas_of(rule))
+    for rule in rules:
+        told.setdefault(rule.trigger, rule.trigger_span)
+    if not told.keys() >= {*triggers, *conditions}:
+        # It is a constraint or an assumption that makes the others matter.
+        told = {**_places(c.formula for c in ruleset.constraints if not isinstance(c, Exclusive)), **told}
     for trigger in triggers:
-        at = next((rule.trigger_span for rule in rules if rule.trigger == trigger), told.get(trigger))
-        yield _step(ruleset, finding, at, f"{quoted(trigger)} occurs", {trigger: True})
+        yield _step(ruleset, finding, told.get(trigger), f"{quoted(trigger)} occurs", {trigger: True})
     for name, value in conditions.items():
         yield _step(ruleset, finding, told.get(name), f"{quoted(name)} is {value_text(value)}", {name: value})
 
@@ -82,13 +89,8 @@ def _step(ruleset: Ruleset, finding: Finding, span: Span | None, words: str, sta
     return Step(ruleset.source, span, words, state)
 
 
-def _places(ruleset: Ruleset, rules: Iterable[Rule]) -> dict[str, Span]:
-    """Where each name stands first: in the rules, or else in a constraint or an assumption."""
-    formulas: list[Formula] = [formula for rule in rules for formula in formulas_of(rule)]
-    for constraint in ruleset.constraints:
-        formula = getattr(constraint, "formula", None)
-        if formula is not None:
-            formulas.append(formula)
+def _places(formulas: Iterable[Formula]) -> dict[str, Span]:
+    """Where each name stands first."""
     places: dict[str, Span] = {}
     for formula in formulas:
         for leaf in leaves(formula):
