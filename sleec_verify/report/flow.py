@@ -101,10 +101,7 @@ def _places(formulas: Iterable[Formula]) -> dict[str, Span]:
 
 def _clauses(ruleset: Ruleset, finding: Finding) -> Iterator[Step]:
     for label, number in finding.clauses:
-        rule = ruleset.by_label.get(label)
-        if rule is None:
-            continue
-        clause = list(rule.clauses())[number]
+        clause = list(ruleset.by_label[label].clauses())[number]
         name = f"hedge {number} of {label}" if number else f"the default of {label}"
         due = listed(str(o) for o in clause.obligations) if clause.obligations else "nothing"
         yield Step(ruleset.source, clause.span, f"{name}: {due}", {})

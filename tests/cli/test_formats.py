@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shlex
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from pathlib import Path
@@ -18,11 +19,12 @@ import pytest
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset, Span
 from sleec_verify.checks import CHECKS, run_checks
-from sleec_verify.finding import SEVERITIES, CheckResult, Finding, Proved, Refuted, Unknown
+from sleec_verify.finding import SEVERITIES, CheckResult, Finding, Proved, Refuted, Unknown, Witness
 from sleec_verify.report import FORMATS, renderer
 from sleec_verify.report.flow import steps
 from sleec_verify.report.outcome import Checked
 from sleec_verify.report.palette import PLAIN
+from tests.cli import test_documents as documents
 from tests.cli.conftest import Cli
 
 ROOT = Path(__file__).parents[2]
@@ -245,6 +247,19 @@ def test_a_name_that_only_a_constraint_knows_stands_there() -> None:
     assert at["Night is true"] == "Night"
 
 
+def test_a_name_that_stands_nowhere_is_told_at_the_finding() -> None:
+    ruleset = parse(CLEAN, "a.sleec")
+    witness = Witness(("Flood",), {"Night": True})
+    finding = Finding("conflict", "SLEEC101", "error", "m", Span(0, 4), ("rule_1", "gone"), witness=witness)
+    way = [(step.words, step.span) for step in steps(ruleset, finding)]
+    night = CLEAN.index("Night")
+    assert way == [
+        ("Flood occurs", Span(0, 4)),
+        ("Night is true", Span(night, night + 5)),
+        ("m", Span(0, 4)),
+    ]
+
+
 def test_flow_from_a_clause_to_the_code_that_departs_from_it(cli: Cli) -> None:
     robot = (ROOT / "examples" / "household_robot.py").read_text(encoding="utf-8")
     assert "self.explain_why()" in robot
@@ -258,6 +273,28 @@ def test_flow_from_a_clause_to_the_code_that_departs_from_it(cli: Cli) -> None:
     uris = [step["location"]["physicalLocation"]["artifactLocation"]["uri"] for step in (first, last)]
     assert uris == ["rulesets/household.sleec", "robot.py"]
     assert "dress_assist" in first["location"]["message"]["text"]
+
+
+DOCUMENTS = sorted((ROOT / "tests").rglob("documents/**/*.txt"))
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: f"{path.parent.name}/{path.stem}")
+def test_what_the_documents_show_can_be_said_in_every_format(path: Path, cli: Cli) -> None:
+    _, files, given = documents.parse(path.read_text(encoding="utf-8"))
+    commands = [shlex.split(step.command)[1:] for step in given]
+    for step, command in zip(given, commands):
+        if command[0] not in ("check", "conform") or (step.code == 2 and "--format" not in command):
+            continue
+        line = [word for word in command if word not in ("--format", *FORMATS)]
+        for form in ("sarif", "junit", "github", "gitlab"):
+            ran = cli(*line, "--format", form, files=files)
+            assert ran.code == step.code
+            if form == "sarif":
+                VALIDATOR.validate(json.loads(ran.out))
+            elif form == "junit":
+                ET.fromstring(ran.out)
+            elif form == "gitlab":
+                assert all(issue["location"]["lines"]["begin"] >= 1 for issue in json.loads(ran.out))
 
 
 def test_braces_are_doubled_in_sarif() -> None:

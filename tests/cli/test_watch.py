@@ -137,6 +137,31 @@ def test_a_terminal_is_cleared(tmp_path: Path) -> None:
         os.close(leader)
 
 
+def test_in_one_process(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same without waiting: each look finds what the list says, and then comes Ctrl-C."""
+    texts: list[str | None] = [CLEAN, CLASH, None, "DOMAIN hospital\n" + CLEAN]
+    looks: list[float] = []
+
+    def look(pause: float) -> None:
+        looks.append(pause)
+        if len(looks) > len(texts):
+            raise KeyboardInterrupt
+        text = texts[len(looks) - 1]
+        path = tmp_path / "a.sleec"
+        if text is None:
+            path.unlink()
+        else:
+            path.write_text(text)
+
+    monkeypatch.setattr("time.sleep", look)
+    ran = cli("check", "--watch", "a.sleec", "--domain", "home", "--format", "concise", files={"a.sleec": CLEAN + "\n"})
+    assert ran.code == 0
+    assert ran.err.count("waiting for changes") == len(texts) + 1
+    assert ran.out.count("1 ruleset: ") == len(texts), "of an unknown domain, an error tells"
+    assert "there is no domain home" in ran.err
+    assert "error[SLEEC101]" in ran.out
+
+
 def test_standard_input_cannot_be_watched(cli: Cli) -> None:
     ran = cli("check", "--watch", "-")
     assert ran.code == 2
