@@ -83,9 +83,14 @@ def _from(output: str | None, path: str) -> str | None:
 def _create(output: str, text: str, force: bool) -> None:
     from sleec_runtime.errors import SleecError
 
+    if force:
+        from sleec_verify.cli.files import write_whole
+
+        write_whole(output, text.encode())
+        return
     try:
         # "x" also where a file has come there since it was looked for.
-        with open(output, "w" if force else "x", encoding="utf-8", newline="\n") as file:
+        with open(output, "x", encoding="utf-8", newline="\n") as file:
             file.write(text)
     except OSError as error:
         raise SleecError(f"{output} cannot be written: {error.strerror}") from None

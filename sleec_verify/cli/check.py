@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import click
 
 from sleec_verify.cli import exits, options
-from sleec_verify.cli.inputs import rulesets
-from sleec_verify.cli.output import complain, write
+from sleec_verify.cli.inputs import files, rulesets
+from sleec_verify.cli.output import complain, report
 from sleec_verify.finding import SEVERITIES, Severity
-from sleec_verify.report import FORMATS, renderer
+from sleec_verify.report import FORMATS
 from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, tally
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset
-    from sleec_verify.checks import Progress
+    from sleec_verify.cache import Cache
+    from sleec_verify.cli.progress import Progress
     from sleec_verify.finding import CheckResult
     from sleec_verify.timed.scope import Untimed
 
@@ -37,17 +37,14 @@ if TYPE_CHECKING:
     type=click.IntRange(1, 100),
     help="Ask besides: can the robot always keep the rules, if the environment acts up to N times?",
 )
-@click.option(
-    "--fail-level",
-    type=click.Choice(SEVERITIES),
-    default="error",
-    show_default=True,
-    help="Exit with 1 if there is a finding as grave as this.",
-)
-@click.option(
-    "--certify", "output", metavar="DIR", type=options.PATH, help="Write a certificate of it to this folder, too."
-)
+@options.fail_level
 @options.output_format(*FORMATS)
+@options.output
+@click.option(
+    "--certify", "certificate", metavar="DIR", type=options.PATH, help="Write a certificate of it to this folder, too."
+)
+@click.option("--no-cache", is_flag=True, help="Decide everything anew, and keep nothing of it for the next time.")
+@click.option("--watch", "watched", is_flag=True, help="Check again whenever a file changes, until Ctrl-C.")
 def command(
     paths: tuple[str, ...],
     reading: Reading | None,
@@ -55,55 +52,116 @@ def command(
     untimed: Untimed,
     realizable: int | None,
     fail_level: Severity,
-    output: str | None,
     form: str,
+    output: str | None,
+    certificate: str | None,
+    no_cache: bool,
+    watched: bool,
 ) -> int:
     """Check rulesets: files, folders of *.sleec files, or - for standard input.
 
     Every check is decided for all situations, not for examples. A finding comes with the smallest situation that shows
     it. `sleec-verify rules` tells what is looked for.
+
+    What was decided is kept: rules that did not change are not checked again. It is kept in the user's cache folder, or
+    in the folder that the environment's SLEEC_VERIFY_CACHE names; SLEEC_VERIFY_CACHE=off keeps nothing.
     """
-    from sleec_verify.checks import run_checks
-    from sleec_verify.cli.progress import Progress as Bar
-    from sleec_verify.report.palette import Palette
+    if output is not None:
+        from sleec_verify.cli.files import require_writable
+
+        require_writable(output, (path for path in files(paths) if not isinstance(path, Unusable)))
+    cache = None if no_cache else _cache()
+
+    if certificate is not None:
+        from sleec_verify.certificates.directory import check_free
+
+        if watched:
+            raise click.UsageError("--certify writes a certificate once: leave out --watch")
+        check_free(certificate, force=False)
+
+    def once() -> int:
+        found = rulesets(paths, reading, domain)
+        if certificate is not None and len(found) > 1:
+            raise click.UsageError("a certificate is of one ruleset: name one file")
+        outcomes = _outcomes(found, domain, untimed, realizable, cache, certificate)
+        report(outcomes, form, output)
+        return _exit_code(outcomes, fail_level)
+
+    if not watched:
+        return once()
+    from sleec_verify.cli.watch import watch
+
+    return watch(paths, once)
+
+
+def _cache() -> Cache | None:
+    from sleec_verify.cache import Cache
+    from sleec_verify.cli.output import note
+
+    return Cache.of_environment(note)
+
+
+def _outcomes(
+    found: Sequence[Ruleset | Unusable],
+    domain: str | None,
+    untimed: Untimed,
+    realizable: int | None,
+    cache: Cache | None,
+    certificate: str | None,
+) -> list[Outcome]:
+    from sleec_verify.cli.progress import Progress
     from sleec_verify.timed.scope import speaks_of_traces
 
     outcomes: list[Outcome] = []
-    if output is not None:
-        from sleec_verify.certificates.directory import check_free
-
-        check_free(output, force=False)
-    found = rulesets(paths, reading, domain)
-    if output is not None and len(found) > 1:
-        raise click.UsageError("a certificate is of one ruleset: name one file")
-    with Bar() as progress:
+    with Progress() as progress:
         for ruleset in found:
             if isinstance(ruleset, Unusable):
                 complain(ruleset.error)
                 outcomes.append(ruleset)
             else:
-                told = progress.on(ruleset.source.path)
-                if output is None:
-                    results = run_checks(ruleset, None, domain, told, untimed, realizable)
+                if certificate is None:
+                    results = _results(ruleset, domain, untimed, cache, progress)
                 else:
-                    results = _certified(ruleset, domain, told, untimed, output)
-                    if realizable is not None:
-                        # A strategy is no refutation: the certificate does not speak of it.
-                        results += run_checks(ruleset, (), domain, None, untimed, realizable)
+                    results = _certified(ruleset, domain, untimed, certificate, progress)
+                if realizable is not None:
+                    # A strategy is no refutation, of which certificates speak.
+                    results += _realizability(ruleset, domain, untimed, realizable, progress)
                 outcomes.append(Checked(ruleset, results, untimed if speaks_of_traces(ruleset) else None))
-    write(renderer(form)(outcomes, Palette.of(sys.stdout)))
-    return _exit_code(outcomes, fail_level)
+    return outcomes
+
+
+def _results(
+    ruleset: Ruleset, domain: str | None, untimed: Untimed, cache: Cache | None, progress: Progress
+) -> tuple[CheckResult, ...]:
+    """The results that are kept, or else new ones. What decides is imported only for these."""
+    kept = None if cache is None else cache.kept(ruleset, domain, untimed)
+    if kept is not None:
+        return kept
+    from sleec_verify.checks import run_checks
+
+    results = run_checks(ruleset, None, domain, progress.on(ruleset.source.path), untimed)
+    if cache is not None:
+        cache.keep(ruleset, domain, untimed, results)
+    return results
 
 
 def _certified(
-    ruleset: Ruleset, domain: str | None, told: Progress | None, untimed: Untimed, output: str
+    ruleset: Ruleset, domain: str | None, untimed: Untimed, certificate: str, progress: Progress
 ) -> tuple[CheckResult, ...]:
     from sleec_verify.certificates.making import certify
     from sleec_verify.cli.certify import save
 
-    made = certify(ruleset, domain, untimed, told)
-    save(made, output)
+    made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path))
+    save(made, certificate)
     return made.results
+
+
+def _realizability(
+    ruleset: Ruleset, domain: str | None, untimed: Untimed, acts: int, progress: Progress
+) -> tuple[CheckResult, ...]:
+    from sleec_verify.checks import run_checks
+
+    return run_checks(ruleset, (), domain, progress.on(ruleset.source.path), untimed, acts)
 
 
 def _exit_code(outcomes: Sequence[Outcome], fail_level: Severity) -> int:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from importlib import import_module
+from typing import TYPE_CHECKING
 
 import click
 
 from sleec_verify import __version__
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
 
 _SUMMARIES = {
     "check": "Are the rules free of conflict, and does each make sense?",
@@ -19,6 +23,7 @@ _SUMMARIES = {
     "convert": "The rules in another language or reading.",
     "fmt": "The rules in their usual layout.",
     "rules": "List and explain every finding code.",
+    "completion": "A script by which a shell completes commands.",
 }
 
 
@@ -31,6 +36,13 @@ class _Lazy(click.Group):
             return None
         command: click.Command = import_module(f"sleec_verify.cli.{cmd_name}").command
         return command
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        """What click would answer, without an import of every command."""
+        from click.shell_completion import CompletionItem
+
+        names = [CompletionItem(name, help=said) for name, said in _SUMMARIES.items() if name.startswith(incomplete)]
+        return names + click.Command.shell_complete(self, ctx, incomplete)
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

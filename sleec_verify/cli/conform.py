@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING
 
 import click
 
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
-from sleec_verify.cli.output import write
+from sleec_verify.cli.output import report
 from sleec_verify.finding import SEVERITIES, CheckResult, Severity, Unknown
-from sleec_verify.report import FORMATS, renderer
+from sleec_verify.report import FORMATS
 from sleec_verify.report.outcome import Checked
 
 if TYPE_CHECKING:
@@ -27,16 +26,17 @@ if TYPE_CHECKING:
 @click.option("--ruleset", "path", metavar="FILE", required=True, type=options.PATH, help="The rules.")
 @options.domain
 @options.reading
-@click.option(
-    "--fail-level",
-    type=click.Choice(SEVERITIES),
-    default="error",
-    show_default=True,
-    help="Exit with 1 if there is a finding as grave as this.",
-)
+@options.fail_level
 @options.output_format(*FORMATS)
+@options.output
 def command(
-    target: str, path: str, domain: str | None, reading: Reading | None, fail_level: Severity, form: str
+    target: str,
+    path: str,
+    domain: str | None,
+    reading: Reading | None,
+    fail_level: Severity,
+    form: str,
+    output: str | None,
 ) -> int:
     """Check that the code in TARGET does what the rules say, by reading it: a Python file, a folder, the name of a
     module on sys.path, or - for standard input. Nothing of it is imported or run.
@@ -47,13 +47,16 @@ def command(
     """
     from sleec_verify.conformance.structure import check_structure
     from sleec_verify.conformance.structure.target import python_files
-    from sleec_verify.report.palette import Palette
 
     if target == path == "-":
         raise click.UsageError("standard input can be TARGET or the rules, not both")
+    if output is not None:
+        from sleec_verify.cli.files import require_writable
+
+        require_writable(output, (path, target))
     ruleset = one_ruleset(path, reading, domain)
     result = check_structure(ruleset, python_files(target), domain)
-    write(renderer(form)([Checked(ruleset, (result,))], Palette.of(sys.stdout)))
+    report([Checked(ruleset, (result,))], form, output)
     return _exit_code(result, fail_level)
 
 

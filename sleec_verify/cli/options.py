@@ -7,6 +7,8 @@ from typing import Any, TypeVar
 
 import click
 
+from sleec_verify.finding import SEVERITIES
+
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 
@@ -46,6 +48,22 @@ given = click.option(
     metavar="FACTS",
     multiple=True,
     help='What is the case, separated by commas: --given "UserAsleep, not Undressed, UserAge=15". The rest is false.',
+)
+
+
+fail_level = click.option(
+    "--fail-level",
+    type=click.Choice(SEVERITIES),
+    default="error",
+    show_default=True,
+    help="Exit with 1 if there is a finding as grave as this.",
+)
+output = click.option(
+    "-o",
+    "--output",
+    metavar="FILE",
+    type=PATH,
+    help="Write to this file instead, whole or not at all. A file that is there is replaced.",
 )
 
 

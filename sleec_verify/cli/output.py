@@ -1,13 +1,34 @@
-"""Writing to the two streams."""
+"""Writing to the two streams, and to a file where one is asked for."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
+    from sleec_verify.report.outcome import Outcome
+
+
+def report(outcomes: Sequence[Outcome], form: str, output: str | None) -> None:
+    """Write the outcomes in the format `form`: to standard output, or to the file `output`, with a line on it on
+    standard error.
+
+    Raises:
+        SleecError: the file cannot be written; what was there before stays.
+    """
+    from sleec_verify.report import renderer
+    from sleec_verify.report.palette import PLAIN, Palette
+
+    if output is None:
+        write(renderer(form)(outcomes, Palette.of(sys.stdout)))
+        return
+    from sleec_verify.cli.files import write_whole
+    from sleec_verify.report.outcome import in_short
+
+    write_whole(output, "".join(renderer(form)(outcomes, PLAIN)).encode("utf-8", "surrogateescape"))
+    print(f"{output}: {in_short(outcomes)}", file=sys.stderr)
 
 
 def write(parts: Iterable[str]) -> None:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from sleec_verify.report.outcome import Outcome
     from sleec_verify.report.palette import Palette
 
-FORMATS: tuple[str, ...] = ("full", "concise", "json")
+FORMATS: tuple[str, ...] = ("full", "concise", "json", "sarif", "junit", "github", "gitlab")
 """The names that `--format` takes; each is the name of its module."""
 
 

@@ -73,6 +73,15 @@ def tally(outcomes: Sequence[Outcome]) -> dict[Severity, int]:
     return counts
 
 
+def in_short(outcomes: Sequence[Outcome]) -> str:
+    """``2 rulesets: 1 error, no warnings, no notes, 1 unknown, 1 unusable``; the last two where there are any."""
+    parts = [counted(number, severity) for severity, number in tally(outcomes).items()]
+    undecided = sum(len(outcome.undecided) for outcome in checked(outcomes))
+    unusable = sum(isinstance(outcome, Unusable) for outcome in outcomes)
+    parts += [f"{number} {word}" for number, word in ((undecided, "unknown"), (unusable, "unusable")) if number]
+    return f"{counted(len(outcomes), 'ruleset')}: {', '.join(parts)}"
+
+
 def counted(number: int, noun: str) -> str:
     """``1 rule``, ``2 rules``, ``no rules``."""
     return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"

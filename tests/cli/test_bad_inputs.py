@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from sleec_verify.cli import run
+from sleec_verify.report import FORMATS
 
 INPUTS: dict[str, bytes] = {
     "empty": b"",
@@ -40,6 +41,9 @@ COMMANDS = (
     ["fmt", "--write"],
     ["certify", "-o", "never"],
     ["check", "--certify", "never"],
+    ["fmt", "--check"],
+    ["fmt", "--diff"],
+    *(["check", "--format", form] for form in FORMATS[3:]),
 )
 
 

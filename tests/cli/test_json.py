@@ -3,153 +3,25 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
+from typing import Any
 
 import jsonschema
 import pytest
 
+from sleec_verify.checks import CHECKS
 from tests.cli.conftest import Cli
 
-SPAN = {
-    "type": "object",
-    "required": ["line", "column", "end_line", "end_column"],
-    "additionalProperties": {"type": "integer", "minimum": 1},
-}
-NAMES = {"type": "array", "items": {"type": "string"}}
-VALUE = {"type": ["boolean", "number", "string"]}
-TEXT = {"type": "string", "minLength": 1}
-FINDING = {
-    "type": "object",
-    "required": ["code", "check", "severity", "message", "rules", "clauses", "obligations", "span", "witness"],
-    "properties": {
-        "code": {"pattern": "^SLEEC[0-9]{3}$"},
-        "check": TEXT,
-        "severity": {"enum": ["error", "warning", "note"]},
-        "message": TEXT,
-        "rules": NAMES,
-        "clauses": {
-            "type": "array",
-            "items": {
-                "type": "object",
-                "required": ["rule", "clause"],
-                "properties": {"rule": TEXT, "clause": {"type": "integer", "minimum": 0}},
-                "additionalProperties": False,
-            },
-        },
-        "obligations": NAMES,
-        "span": SPAN,
-        "witness": {
-            "type": ["object", "null"],
-            "required": ["triggers", "conditions"],
-            "properties": {"triggers": NAMES, "conditions": {"type": "object", "additionalProperties": VALUE}},
-            "additionalProperties": False,
-        },
-        "domains": NAMES,
-        "related": {
-            "type": "array",
-            "items": {"type": "object", "required": ["span", "message"], "properties": {"span": SPAN}},
-        },
-        "note": {"type": ["string", "null"]},
-        "help": {"type": ["string", "null"]},
-    },
-    "additionalProperties": False,
-}
-CHECKED = {
-    "type": "object",
-    "required": ["path", "sha256", "syntax", "reading", "rules", "hedges", "checks", "findings"],
-    "properties": {
-        "path": TEXT,
-        "sha256": {"pattern": "^[0-9a-f]{64}$"},
-        "syntax": {"enum": ["english", "dsl"]},
-        "reading": {"enum": ["cascade", "priority"]},
-        "rules": {"type": "integer"},
-        "hedges": {"type": "integer"},
-        "checks": {
-            "type": "array",
-            "items": {
-                "type": "object",
-                "required": ["name", "verdict", "seconds", "reason"],
-                "properties": {
-                    "name": TEXT,
-                    "verdict": {"enum": ["proved", "refuted", "unknown"]},
-                    "seconds": {"type": "number", "minimum": 0},
-                    "reason": {"type": ["string", "null"]},
-                },
-                "additionalProperties": False,
-            },
-        },
-        "findings": {"type": "array", "items": FINDING},
-    },
-    "additionalProperties": False,
-}
-UNUSABLE = {
-    "type": "object",
-    "required": ["path", "error"],
-    "properties": {
-        "path": TEXT,
-        "error": {
-            "type": "object",
-            "required": ["message", "hint", "problems"],
-            "properties": {
-                "problems": {
-                    "type": "array",
-                    "items": {
-                        "type": "object",
-                        "required": ["message", "hint", "span"],
-                        "properties": {"message": TEXT, "span": SPAN},
-                    },
-                }
-            },
-        },
-    },
-    "additionalProperties": False,
-}
-COUNT = {"type": "integer", "minimum": 0}
-REPORT = {
-    "type": "object",
-    "required": ["tool", "rulesets", "summary"],
-    "properties": {
-        "tool": {
-            "type": "object",
-            "required": ["name", "version"],
-            "properties": {"name": {"const": "sleec-verify"}, "version": TEXT},
-            "additionalProperties": False,
-        },
-        "rulesets": {"type": "array", "items": {"oneOf": [CHECKED, UNUSABLE]}},
-        "summary": {
-            "type": "object",
-            "required": ["errors", "warnings", "notes"],
-            "additionalProperties": COUNT,
-        },
-    },
-    "additionalProperties": False,
-}
-ENTAILMENT = {
-    "type": "object",
-    "required": ["consistent", "obligations", "prohibitions", "because"],
-    "properties": {
-        "consistent": {"type": "boolean"},
-        "obligations": NAMES,
-        "prohibitions": NAMES,
-        "because": {
-            "type": "array",
-            "items": {
-                "type": "object",
-                "required": ["rule", "clause", "layer", "obligations"],
-                "properties": {
-                    "rule": TEXT,
-                    "clause": COUNT,
-                    "layer": {"type": ["string", "null"]},
-                    "obligations": NAMES,
-                },
-                "additionalProperties": False,
-            },
-        },
-        "conflicts": {"type": "array", "items": FINDING, "minItems": 1},
-        "broken_assumptions": {"type": "array", "items": SPAN, "minItems": 1},
-        "missing": {**NAMES, "minItems": 1},
-    },
-    "additionalProperties": False,
-}
+SCHEMAS = Path(__file__).parents[2] / "docs" / "schema"
+
+
+def schema(name: str) -> dict[str, Any]:
+    read: dict[str, Any] = json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator.check_schema(read)
+    return read
+
+
+REPORT, ENTAILMENT, KINDS, CASES = (schema(name) for name in ("check", "entail", "rules", "cases"))
 
 CLASH = """\
 MEASURE Pain: number
@@ -231,6 +103,7 @@ UNLESS UserDistressed IN WHICH CASE (WarnUser AND OpenCurtains)
 
 def test_rules_as_json(cli: Cli) -> None:
     listed = json.loads(cli("rules", "--format", "json").out)
+    jsonschema.validate(listed, KINDS)
     assert [kind["code"] for kind in listed] == sorted(kind["code"] for kind in listed)
     assert all(kind[key] for kind in listed for key in ("severity", "title", "explanation", "mend", "bad", "good"))
     (one,) = json.loads(cli("rules", "dead-hedge", "--format", "json").out)
@@ -255,3 +128,61 @@ def test_a_schedule_says_what_is_due_until_when(cli: Cli) -> None:
         "entail", "c.sleec", "--when", "A", "--untimed", "eventually", files={"c.sleec": "WHEN A THEN B ELSE C\n"}
     )
     assert "at some time" in later.out
+
+
+# The published schemas, on what the commands really print
+
+
+ROOT = Path(__file__).parents[2]
+TIMED = "WHEN Rung THEN Open WITHIN 5 minutes\nWHEN Rung THEN NOT Open WITHIN 10 minutes\n"
+CAUSING = "WHEN Rung THEN Open\nWHEN Open THEN Greet\nWHEN Greet THEN Open\n"
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "rulesets").glob("*.sleec")), ids=lambda path: path.stem)
+def test_reports_on_the_shipped_rulesets_fit_the_schema(path: Path, cli: Cli) -> None:
+    jsonschema.validate(json.loads(cli("check", str(path), "--format", "json").out), REPORT)
+
+
+def test_reports_on_times_fit_the_schema(cli: Cli) -> None:
+    report = json.loads(cli("check", "a.sleec", "--format", "json", files={"a.sleec": TIMED}).out)
+    jsonschema.validate(report, REPORT)
+    (ruleset,) = report["rulesets"]
+    assert ruleset["untimed"] == "at"
+    assert any("timeline" in finding for finding in ruleset["findings"])
+
+
+@pytest.mark.parametrize("code", sorted(CHECKED_CODES := {k.code: k.bad for c in CHECKS.values() for k in c.kinds}))
+def test_reports_on_every_bad_example_fit_the_schema(code: str, cli: Cli) -> None:
+    files = {"a.sleec": CHECKED_CODES[code]}
+    report = json.loads(cli("check", "a.sleec", "--realizable", "1", "--format", "json", files=files).out)
+    jsonschema.validate(report, REPORT)
+    assert code in [finding["code"] for ruleset in report["rulesets"] for finding in ruleset["findings"]]
+
+
+def test_reports_on_code_fit_the_schema(cli: Cli) -> None:
+    rules = str(ROOT / "rulesets" / "household.sleec")
+    ran = cli("conform", "empty.py", "--ruleset", rules, "--format", "json", files={"empty.py": "x = 1\n"})
+    report = json.loads(ran.out)
+    jsonschema.validate(report, REPORT)
+    assert ran.code == 1
+    assert report["rulesets"][0]["findings"]
+
+
+@pytest.mark.parametrize("rules", [TIMED, CAUSING])
+def test_entailments_with_more_to_tell_fit_the_schema(rules: str, cli: Cli) -> None:
+    ran = cli("entail", "a.sleec", "--when", "Rung", "--format", "json", files={"a.sleec": rules})
+    answer = json.loads(ran.out)
+    jsonschema.validate(answer, ENTAILMENT)
+    assert "timed" in answer or "chain" in answer
+
+
+@pytest.mark.parametrize("criterion", ["clause", "mcdc"])
+def test_cases_fit_the_schema(criterion: str, cli: Cli) -> None:
+    ran = cli("cases", "a.sleec", "--coverage", criterion, "--format", "json", files={"a.sleec": CLASH})
+    jsonschema.validate(json.loads(ran.out), CASES)
+
+
+@pytest.mark.parametrize("broken", [{"rulesets": []}, {"tool": {}, "rulesets": [{"path": "a"}], "summary": {}}])
+def test_the_schema_refuses_what_is_no_report(broken: dict[str, Any]) -> None:
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(broken, REPORT)

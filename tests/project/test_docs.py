@@ -26,6 +26,7 @@ IN_TESTS_OF_THEIR_PAGES = {
     "docs/conformance.md": {"python", "text", "toml"},
     "docs/times.md": {"text"},
     "docs/certificates.md": {"sh", "python"},
+    "docs/ci.md": {"sh", "yaml"},
     "README.md": {""},
 }
 """What is not run by commands, and what the tests of the page run in some way of their own."""

@@ -1,0 +1,68 @@
+"""``sleec-verify check --watch``: once more whenever a file changes."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Callable, Sequence
+
+import click
+
+from sleec_runtime.errors import SleecError
+from sleec_verify.cli import exits
+from sleec_verify.cli.inputs import files
+from sleec_verify.cli.output import complain
+from sleec_verify.report.outcome import Unusable
+
+PAUSE = 0.3
+"""Seconds between two looks. A look asks the system for each file's time and size, which any number of rulesets that
+people write can stand."""
+
+CLEAR = "\033[2J\033[3J\033[H"
+
+
+def watch(paths: Sequence[str], once: Callable[[], int]) -> int:
+    """Call `once` at first, and again after each change of a file that `paths` mean, new and deleted ones included,
+    until Ctrl-C, which is how this ends.
+
+    What is wrong with the input is told, and waited for to be mended.
+    """
+    if "-" in paths:
+        raise click.UsageError("standard input cannot be watched; name files or folders")
+    seen = None
+    try:
+        while True:
+            # Taken before the check: what changes while it runs is seen at the next look.
+            now = _state(paths)
+            if now != seen:
+                seen = now
+                _tell(once)
+            time.sleep(PAUSE)
+    except KeyboardInterrupt:
+        print(file=sys.stderr)  # ends the line in which a terminal shows ^C
+        return exits.HOLDS
+
+
+def _tell(once: Callable[[], int]) -> None:
+    if sys.stdout.isatty():
+        sys.stdout.write(CLEAR)
+    try:
+        once()
+    except SleecError as error:
+        complain(error)
+    sys.stdout.flush()
+    print(f"{time.strftime('%H:%M:%S')}, waiting for changes; Ctrl-C ends this", file=sys.stderr, flush=True)
+
+
+def _state(paths: Sequence[str]) -> list[tuple[object, ...]]:
+    """What tells that a file has changed."""
+    return [(path.path, "unusable") if isinstance(path, Unusable) else (path, *_stamp(path)) for path in files(paths)]
+
+
+def _stamp(path: str) -> tuple[object, ...]:
+    try:
+        known = os.stat(path)
+    except OSError as error:
+        return (error.errno,)
+    return known.st_mtime_ns, known.st_size, known.st_ino

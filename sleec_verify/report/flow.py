@@ -1,0 +1,122 @@
+"""How a finding comes about, step by step: what occurs, what is the case, which clauses decide, what is found."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+from sleec_runtime.model import Atom, Exclusive, formulas_of, leaves, measures_of
+from sleec_verify.report.words import listed, quoted, value_text
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Formula, Ruleset, Source, Span, Value
+    from sleec_verify.finding import Finding
+    from sleec_verify.games.realizability import Strategy
+    from sleec_verify.timed.timeline import Moment
+
+
+class Step(NamedTuple):
+    """One step: where it stands in which text, what happens, what is known from here on, and at which moment."""
+
+    source: Source
+    span: Span
+    words: str
+    state: Mapping[str, Value]
+    moment: int = 1
+
+
+def steps(ruleset: Ruleset, finding: Finding) -> list[Step]:
+    """The steps to a finding that has a witness, or that code departs from a clause; the finding is the last of them.
+    None for what a look at one place shows.
+
+    O(size of the rules that the finding names), and of the constraints where a name stands only there.
+    """
+    source = finding.source or ruleset.source
+    if finding.timeline is not None:
+        before = [
+            step
+            for number, moment in enumerate(finding.timeline.moments, 1)
+            for step in _of_moment(ruleset, finding, moment, number)
+        ]
+    elif finding.strategy is not None:
+        before = list(_of_strategy(ruleset, finding, finding.strategy))
+    elif finding.witness is not None:
+        happening = _happening(ruleset, finding, finding.witness.triggers, finding.witness.conditions)
+        before = [*happening, *_clauses(ruleset, finding)]
+    elif finding.source is not None:
+        before = list(_clauses(ruleset, finding))
+    else:
+        before = []
+    if not before:
+        return []
+    last = before[-1].moment
+    return [*before, Step(source, finding.span, finding.message, {}, last)]
+
+
+def _of_moment(ruleset: Ruleset, finding: Finding, moment: Moment, number: int) -> Iterator[Step]:
+    from sleec_verify.report.timeline import duration
+
+    when = "at first, " if number == 1 else f"after {duration(moment.time)}, "
+    told = {name: moment.conditions[name] for name in moment.telling}
+    for step in _happening(ruleset, finding, moment.events, told):
+        yield step._replace(words=when + step.words, moment=number)
+    for due in moment.due:
+        rule = ruleset.by_label[due.rule]
+        clause = list(rule.clauses())[due.clause]
+        verb = "forbids" if due.negated else "calls for"
+        words = f"{when}{rule.label} {verb} {due.words.removeprefix('NOT ') if due.negated else due.words}"
+        yield Step(ruleset.source, clause.span, words, {}, number)
+
+
+def _of_strategy(ruleset: Ruleset, finding: Finding, strategy: Strategy, number: int = 1) -> Iterator[Step]:
+    """The acts of the environment, the first branch of each."""
+    from sleec_verify.report.timeline import duration
+
+    act = strategy.act
+    when = "at first, " if number == 1 else f"after {duration(act.time)}, "
+    for step in _happening(ruleset, finding, act.events, act.conditions):
+        yield step._replace(words=when + step.words, moment=number)
+    for branch in strategy.branches[:1]:
+        yield from _of_strategy(ruleset, finding, branch.then, number + 1)
+
+
+def _happening(
+    ruleset: Ruleset, finding: Finding, triggers: Iterable[str], conditions: Mapping[str, Value]
+) -> Iterator[Step]:
+    """What occurs and what is the case, each where the rules of the finding first speak of it."""
+    rules = [ruleset.by_label[label] for label in finding.rules if label in ruleset.by_label]
+    told = _places(formula for rule in rules for formula in formulas_of(rule))
+    for rule in rules:
+        told.setdefault(rule.trigger, rule.trigger_span)
+    if not told.keys() >= {*triggers, *conditions}:
+        # It is a constraint or an assumption that makes the others matter.
+        told = {**_places(c.formula for c in ruleset.constraints if not isinstance(c, Exclusive)), **told}
+    for trigger in triggers:
+        yield _step(ruleset, finding, told.get(trigger), f"{quoted(trigger)} occurs", {trigger: True})
+    for name, value in conditions.items():
+        yield _step(ruleset, finding, told.get(name), f"{quoted(name)} is {value_text(value)}", {name: value})
+
+
+def _step(ruleset: Ruleset, finding: Finding, span: Span | None, words: str, state: Mapping[str, Value]) -> Step:
+    """A step at `span` of the rules; where they do not speak of it, at the finding."""
+    if span is None:
+        return Step(finding.source or ruleset.source, finding.span, words, state)
+    return Step(ruleset.source, span, words, state)
+
+
+def _places(formulas: Iterable[Formula]) -> dict[str, Span]:
+    """Where each name stands first."""
+    places: dict[str, Span] = {}
+    for formula in formulas:
+        for leaf in leaves(formula):
+            for name in (leaf.name,) if isinstance(leaf, Atom) else measures_of(leaf):
+                places.setdefault(name, leaf.span)
+    return places
+
+
+def _clauses(ruleset: Ruleset, finding: Finding) -> Iterator[Step]:
+    for label, number in finding.clauses:
+        clause = list(ruleset.by_label[label].clauses())[number]
+        name = f"hedge {number} of {label}" if number else f"the default of {label}"
+        due = listed(str(o) for o in clause.obligations) if clause.obligations else "nothing"
+        yield Step(ruleset.source, clause.span, f"{name}: {due}", {})

@@ -1,0 +1,58 @@
+"""For GitHub Actions: workflow commands, which it shows as annotations beside the lines of a pull request."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from sleec_verify.report.outcome import Checked, Outcome, in_short
+from sleec_verify.report.plain import described, in_project, troubles
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Place
+    from sleec_verify.finding import Severity
+    from sleec_verify.report.palette import Palette
+
+_COMMANDS: Mapping[Severity, str] = {"error": "error", "warning": "warning", "note": "notice"}
+
+
+def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
+    """A command for each finding, for each check without a verdict (as an error: it is not fine) and for each problem
+    of a text that cannot be read; then a line on all."""
+    del palette  # a program reads this
+    for outcome in outcomes:
+        if not isinstance(outcome, Checked):
+            for path, message, place in troubles(outcome):
+                yield _annotation("error", path, place, "not a usable ruleset", message)
+            continue
+        for finding in outcome.findings:
+            source = finding.source or outcome.ruleset.source
+            text = "\n".join([finding.message, *described(finding)])
+            title = f"{finding.code} {finding.check}"
+            yield _annotation(_COMMANDS[finding.severity], source.path, source.place(finding.span), title, text)
+        path = outcome.ruleset.source.path
+        for name, why in outcome.unlisted:
+            yield _annotation("notice", path, None, name, why)
+        for name, why in outcome.undecided:
+            yield _annotation("error", path, None, f"unknown: {name}", f"{name} is unknown: {why}")
+    yield f"{in_short(outcomes)}\n"
+
+
+def _annotation(command: str, path: str, place: Place | None, title: str, message: str) -> str:
+    where = {"file": in_project(path)}
+    if place is not None:
+        where |= {"line": str(place.line), "endLine": str(place.end_line)}
+        if place.line == place.end_line:  # columns mean something within one line only
+            where |= {"col": str(place.column), "endColumn": str(place.end_column)}
+    where["title"] = title
+    properties = ",".join(f"{name}={_property(value)}" for name, value in where.items())
+    return f"::{command} {properties}::{_data(message)}\n"
+
+
+def _data(text: str) -> str:
+    """`text` as the message of a command: no line break may end it, and start another command."""
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    return _data(text).replace(":", "%3A").replace(",", "%2C")

@@ -1,0 +1,57 @@
+"""For GitLab: a code quality report, which it shows in merge requests, new findings apart from old ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from hashlib import sha256
+from typing import TYPE_CHECKING
+
+from sleec_verify.report.json import Json, dump
+from sleec_verify.report.outcome import Checked, Outcome
+from sleec_verify.report.plain import described, in_project, located, troubles
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Place
+    from sleec_verify.finding import Severity
+    from sleec_verify.report.palette import Palette
+
+_SEVERITIES: Mapping[Severity, str] = {"error": "critical", "warning": "major", "note": "info"}
+
+
+def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
+    """A list of findings. A check without a verdict is ``critical``, a text that cannot be read a ``blocker``."""
+    del palette  # a program reads this
+    seen: dict[str, int] = {}
+    issues: list[Json] = []
+    for outcome in outcomes:
+        if not isinstance(outcome, Checked):
+            for path, message, place in troubles(outcome):
+                issues.append(_issue("unusable", "blocker", path, place, message, _hash("unusable", path, message)))
+            continue
+        for finding, source, fingerprint in located(outcome, seen):
+            text = "\n".join([f"{finding.code}: {finding.message}", *described(finding)])
+            place, severity = source.place(finding.span), _SEVERITIES[finding.severity]
+            issues.append(_issue(finding.check, severity, source.path, place, text, fingerprint))
+        path = outcome.ruleset.source.path
+        for name, why in outcome.unlisted:
+            issues.append(_issue(name, "info", path, None, why, _hash("unlisted", path, name)))
+        for name, why in outcome.undecided:
+            text = f"{name} is unknown: {why}"
+            issues.append(_issue(name, "critical", path, None, text, _hash("unknown", path, name)))
+    yield dump(issues)
+
+
+def _issue(check: str, severity: str, path: str, place: Place | None, text: str, fingerprint: str) -> Json:
+    # A place is asked for; what is about a whole file stands at its first line.
+    lines: dict[str, Json] = {"begin": 1} if place is None else {"begin": place.line, "end": place.end_line}
+    return {
+        "description": text,
+        "check_name": check,
+        "fingerprint": fingerprint,
+        "severity": severity,
+        "location": {"path": in_project(path), "lines": lines},
+    }
+
+
+def _hash(what: str, path: str, name: str) -> str:
+    return sha256(ascii((what, in_project(path), name)).encode()).hexdigest()

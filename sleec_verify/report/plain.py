@@ -1,0 +1,103 @@
+"""What the renderers for other programs share: paths, findings and errors as plain words, fingerprints."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+from sleec_verify.report.words import listed, witness_text
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Place, Source
+    from sleec_verify.finding import Finding
+    from sleec_verify.report.outcome import Checked, Unusable
+
+
+class Located(NamedTuple):
+    """A finding with the text that it is about and its fingerprint."""
+
+    finding: Finding
+    source: Source
+    fingerprint: str
+
+
+def located(outcome: Checked, seen: dict[str, int]) -> Iterator[Located]:
+    """The findings of an outcome in the order of the text.
+
+    The fingerprint is a hash of what is found in which words of which file, so that it stays where lines move. Where
+    that does not tell two findings apart, their order does; `seen` counts, over all the outcomes of a report.
+    """
+    from hashlib import sha256
+
+    for finding in outcome.findings:
+        source = finding.source or outcome.ruleset.source
+        # Labels and messages may hold numbers that change with the place: rule_3, "the NEVER of line 12".
+        spans = (finding.span, *(span for span, _ in finding.related))
+        marked = [" ".join(source.text[span.start : span.end].split()) for span in spans]
+        said = (
+            finding.code,
+            in_project(source.path),
+            [clause.clause for clause in finding.clauses],
+            finding.obligations,
+            marked,
+        )
+        name = ascii(said)
+        seen[name] = number = seen.get(name, 0) + 1
+        yield Located(finding, source, sha256(f"{name}{number}".encode()).hexdigest())
+
+
+def in_project(path: str) -> str:
+    """A path as services name the files of a project: from the working folder, with slashes, without a leading ``./``.
+    One outside of that folder stays absolute."""
+    path = os.path.normpath(path)
+    if os.path.isabs(path):
+        inside = os.path.relpath(path)
+        path = path if inside.startswith(os.pardir) else inside
+    return path.replace(os.sep, "/")
+
+
+def described(finding: Finding) -> Iterator[str]:
+    """What goes with a finding's message: the situation or timeline, the domains, the note, the help; a line each."""
+    if finding.timeline is not None:
+        from sleec_verify.report.timeline import in_words
+
+        yield "timeline:"
+        yield from (f"  {line}" for line in in_words(finding.timeline))
+    elif finding.strategy is not None:
+        from sleec_verify.report import strategy
+
+        yield "strategy of the environment:"
+        yield from (f"  {line}" for line in strategy.in_words(finding.strategy))
+    elif finding.witness is not None:
+        yield f"situation: {witness_text(finding.witness)}"
+    if finding.domains:
+        yield f"domain: {listed(finding.domains)}"
+    if finding.note is not None:
+        yield f"note: {finding.note}"
+    if finding.help is not None:
+        yield f"help: {finding.help}"
+
+
+class Trouble(NamedTuple):
+    """One thing that keeps a text from being a ruleset, and where, if that is some place in it."""
+
+    path: str
+    message: str
+    place: Place | None
+
+
+def troubles(unusable: Unusable) -> Iterator[Trouble]:
+    """What is wrong with a text that cannot be used, each with what to try."""
+    from sleec_runtime.errors import LanguageError
+
+    error = unusable.error
+    if isinstance(error, LanguageError):
+        for problem in error.problems:
+            yield Trouble(unusable.path, _hinted(problem.message, problem.hint), error.source.place(problem.span))
+    else:
+        yield Trouble(unusable.path, _hinted(error.message, error.hint), None)
+
+
+def _hinted(message: str, hint: str | None) -> str:
+    return message if hint is None else f"{message}\nhelp: {hint}"

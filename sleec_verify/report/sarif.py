@@ -1,0 +1,186 @@
+"""For code scanning: SARIF 2.1.0 (OASIS), with the way to each finding as a code flow.
+
+A check without a verdict is a result of the kind ``open``, and a notification besides; a text that cannot be read is a
+notification, and the run is then no successful one.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+from urllib.parse import quote
+
+from sleec_verify import __version__
+from sleec_verify.report.flow import steps
+from sleec_verify.report.json import Json, dump
+from sleec_verify.report.outcome import Outcome, Unusable, checked
+from sleec_verify.report.plain import Located, described, in_project, located, troubles
+from sleec_verify.report.words import value_text
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Place, Ruleset, Source, Span
+    from sleec_verify.finding import Severity
+    from sleec_verify.report.palette import Palette
+
+_Object = dict[str, Json]
+SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+_LEVELS: Mapping[Severity, str] = {"error": "error", "warning": "warning", "note": "note"}
+_FINGERPRINT = "sleecFinding/v1"
+
+
+def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
+    """A log of one run over all rulesets."""
+    del palette  # a program reads this
+    seen: dict[str, int] = {}
+    found = [(outcome, one) for outcome in checked(outcomes) for one in located(outcome, seen)]
+    open_checks = [(outcome, name, why) for outcome in checked(outcomes) for name, why in outcome.undecided]
+    descriptors = _descriptors({one.finding.code for _, one in found}, {name for _, name, _ in open_checks})
+    index = {str(descriptor["id"]): number for number, descriptor in enumerate(descriptors)}
+    results: list[Json] = [_result(outcome.ruleset, one, index) for outcome, one in found]
+    results += [_open(outcome.ruleset.source, name, why, index) for outcome, name, why in open_checks]
+    rules: list[Json] = [*descriptors]
+    run: _Object = {
+        "tool": {
+            "driver": {
+                "name": "sleec-verify",
+                "version": __version__,
+                "semanticVersion": __version__,
+                "rules": rules,
+            }
+        },
+        "invocations": [_invocation(outcomes)],
+        "artifacts": _artifacts(outcomes),
+        "columnKind": "unicodeCodePoints",
+        "results": results,
+    }
+    yield dump({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]})
+
+
+def _descriptors(codes: set[str], undecided: set[str]) -> list[_Object]:
+    """What the results are about: the kinds of finding, and the checks without a verdict."""
+    if not codes and not undecided:
+        return []
+    from sleec_verify.checks.catalogue import by_code, questions
+
+    descriptors: list[_Object] = [
+        {
+            "id": code,
+            "name": "".join(word.capitalize() for word in entry.check.split("-")),
+            "shortDescription": _message(entry.kind.title),
+            "fullDescription": _message(entry.kind.explanation),
+            "help": _message(f"{entry.kind.explanation}\n\nMore: sleec-verify rules {code}"),
+            "defaultConfiguration": {"level": _LEVELS[entry.kind.severity]},
+            "properties": {"tags": [entry.check]},
+        }
+        for code, entry in by_code().items()
+        if code in codes
+    ]
+    asked = questions()
+    descriptors += ({"id": name, "shortDescription": _message(asked[name])} for name in sorted(undecided))
+    return descriptors
+
+
+def _result(ruleset: Ruleset, one: Located, index: Mapping[str, int]) -> _Object:
+    finding, source, fingerprint = one
+    result: _Object = {
+        "ruleId": finding.code,
+        "ruleIndex": index[finding.code],
+        "kind": "fail",
+        "level": _LEVELS[finding.severity],
+        "message": _message("\n".join([finding.message, *described(finding)])),
+        "locations": [_location(source, finding.span)],
+        "partialFingerprints": {_FINGERPRINT: fingerprint},
+        "properties": {
+            "check": finding.check,
+            "rules": list(finding.rules),
+            "obligations": list(finding.obligations),
+            "domains": list(finding.domains),
+        },
+    }
+    if finding.related:
+        result["relatedLocations"] = [
+            {"id": number, **_location(source, span, word)} for number, (span, word) in enumerate(finding.related, 1)
+        ]
+    flow: list[Json] = [
+        {
+            "location": _location(step.source, step.span, step.words),
+            "executionOrder": step.moment,
+            "importance": "essential",
+            **({"state": {n: _message(value_text(v)) for n, v in step.state.items()}} if step.state else {}),
+        }
+        for step in steps(ruleset, finding)
+    ]
+    if flow:
+        result["codeFlows"] = [{"threadFlows": [{"locations": flow}]}]
+    return result
+
+
+def _open(source: Source, name: str, why: str, index: Mapping[str, int]) -> _Object:
+    """A question that was not decided. The standard has no level for it; the notification has one."""
+    return {
+        "ruleId": name,
+        "ruleIndex": index[name],
+        "kind": "open",
+        "level": "none",
+        "message": _message(f"{name} is unknown: {why}"),
+        "locations": [{"physicalLocation": {"artifactLocation": {"uri": _uri(source.path)}}}],
+    }
+
+
+def _invocation(outcomes: Sequence[Outcome]) -> _Object:
+    told: list[Json] = []
+    failed = False
+    for outcome in outcomes:
+        if isinstance(outcome, Unusable):
+            failed = True
+            told += [_notification("error", path, message, place) for path, message, place in troubles(outcome)]
+            continue
+        path = outcome.ruleset.source.path
+        told += [_notification("note", path, f"{name}: {why}", None) for name, why in outcome.unlisted]
+        for name, why in outcome.undecided:
+            failed = True
+            told.append(_notification("error", path, f"{name} is unknown: {why}", None))
+    return {"executionSuccessful": not failed, "toolExecutionNotifications": told}
+
+
+def _notification(level: str, path: str, message: str, place: Place | None) -> _Object:
+    physical: _Object = {"artifactLocation": {"uri": _uri(path)}}
+    if place is not None:
+        physical["region"] = _region(place)
+    return {"level": level, "message": _message(message), "locations": [{"physicalLocation": physical}]}
+
+
+def _artifacts(outcomes: Sequence[Outcome]) -> list[Json]:
+    hashes = {outcome.ruleset.source.path: outcome.ruleset.source.sha256 for outcome in checked(outcomes)}
+    return [
+        {"location": {"uri": _uri(path)}, **({} if known is None else {"hashes": {"sha-256": known}})}
+        for path, known in hashes.items()
+    ]
+
+
+def _location(source: Source, span: Span, word: str | None = None) -> _Object:
+    physical: _Object = {"artifactLocation": {"uri": _uri(source.path)}, "region": _region(source.place(span))}
+    return {"physicalLocation": physical, **({} if word is None else {"message": _message(word)})}
+
+
+def _region(place: Place) -> _Object:
+    return {
+        "startLine": place.line,
+        "startColumn": place.column,
+        "endLine": place.end_line,
+        "endColumn": place.end_column,
+    }
+
+
+def _uri(path: str) -> str:
+    """A file's path as a URI: of its own if it is absolute, else from the folder in which the command ran."""
+    path = in_project(path)
+    # The bytes of the name, whatever they mean: a name need not be UTF-8.
+    quoted = quote(os.fsencode(path))
+    return f"file://{quoted}" if os.path.isabs(path) else quoted
+
+
+def _message(text: str) -> _Object:
+    """A message object; braces, which stand for arguments there, are doubled (SARIF 2.1.0, 3.11.5)."""
+    return {"text": text.replace("{", "{{").replace("}", "}}")}
