@@ -51,8 +51,8 @@ class TooLarge(Exception):
 class Part:
     """What a situation says of some names that go together: `ways` many things.
 
-    `names` is one name, or numbers that are compared with one another. `cuts` are the bounds between the regions of each
-    number, in their order; `orders` the pairs that are compared.
+    `names` is one name, or numbers that are compared with one another. `cuts` are the bounds between the regions of
+    each number, in their order; `orders` the pairs that are compared.
     """
 
     names: tuple[Name, ...]
@@ -186,7 +186,7 @@ class Diagram:
         """The node of ``a ∧ b``. O(nodes of a · nodes of b)."""
         if a == FALSE or b == FALSE:
             return FALSE
-        if a == TRUE or a == b:
+        if a in (TRUE, b):
             return b
         if b == TRUE:
             return a

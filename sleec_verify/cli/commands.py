@@ -16,6 +16,7 @@ _SUMMARIES = {
     "cases": "Few situations that reach every clause, for trials.",
     "conform": "Does a robot's code have the structure that the rules ask for?",
     "convert": "The rules in another language or reading.",
+    "diff": "What changes between two versions of the rules?",
     "fmt": "The rules in their usual layout.",
     "rules": "List and explain every finding code.",
 }

@@ -16,7 +16,6 @@ from sleec_verify.compare.conflicts import conflict_changes
 from sleec_verify.compare.names import name_changes
 from sleec_verify.compare.obligations import changes
 from sleec_verify.compare.result import (
-    Assertion,
     Change,
     ConflictChange,
     Deciding,
@@ -35,7 +34,6 @@ from sleec_verify.compare.world import World
 from sleec_verify.timed.scope import Untimed, speaks_of_traces
 
 __all__ = [
-    "Assertion",
     "Change",
     "ConflictChange",
     "Deciding",
@@ -50,7 +48,7 @@ __all__ = [
     "relation",
 ]
 
-_Told = TypeVar("_Told", Change, ConflictChange, SituationChange)
+_Told = TypeVar("_Told", bound=Union[Change, ConflictChange, SituationChange])
 _Any = Union[Change, ConflictChange, SituationChange, Undecidable]
 
 
@@ -59,8 +57,8 @@ def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Unti
 
     Each ruleset is read in its own reading. `untimed` is what a response without a window means where rules speak of
     time. Nothing is missed and nothing invented, but for what `Difference.undecided` names. O(size of the rules) for
-    those that are equal; for each of the others, questions about the rules of its trigger (NP-hard, as all satisfiability
-    is, and small), and a count that is given up past the bounds of `sleec_verify.diagram`.
+    those that are equal; for each of the others, questions about the rules of its trigger (NP-hard, as all
+    satisfiability is, and small), and a count that is given up past the bounds of `sleec_verify.diagram`.
     """
     whole = World(old, new, untimed)
     shared = Difference(
@@ -71,7 +69,7 @@ def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Unti
         renamed=tuple(whole.aligned.renamed),
         reordered=whole.aligned.reordered,
         same=len(whole.aligned.same),
-        notes=tuple(_notes(old, new)),
+        notes=tuple(_notes(whole)),
     )
     if domain is not None:
         domains: Sequence[str] = (domain,)
@@ -119,15 +117,13 @@ def _conditions_that_are_measures(world: World) -> Iterator[Undecidable]:
 
 def _merged(found: Sequence[_Told]) -> tuple[_Told, ...]:
     """Equal findings of several domains as one."""
-    merged: list[_Told] = []
-    for one in found:
-        for at, other in enumerate(merged) if one.domains else ():
-            if replace(other, domains=one.domains) == one:
-                merged[at] = replace(other, domains=(*other.domains, *one.domains))
-                break
-        else:
-            merged.append(one)
-    return tuple(merged)
+    merged: dict[str, _Told] = {}
+    for number, one in enumerate(found):
+        # Only what several domains say can be the same twice.
+        key = repr(replace(one, domains=())) if one.domains else str(number)
+        known = merged.get(key)
+        merged[key] = one if known is None else replace(one, domains=(*known.domains, *one.domains))
+    return tuple(merged.values())
 
 
 def _rewritten(world: World, difference: Difference) -> tuple[tuple[str, ...], ...]:
@@ -158,10 +154,16 @@ def _not_comparable(old: Ruleset, new: Ruleset) -> Iterator[Undecidable]:
         for relation_ in one:
             if relation_ not in others:
                 name = relation_name(relation_)
-                yield Undecidable(f"the relation {name}", f"it is {word}, and what it says of the course of events is not compared")
+                yield Undecidable(
+                    f"the relation {name}", f"it is {word}, and what it says of the course of events is not compared"
+                )
 
 
-def _notes(old: Ruleset, new: Ruleset) -> Iterator[str]:
+def _notes(world: World) -> Iterator[str]:
+    old, new = world.sides["old"].stated, world.sides["new"].stated
+    if world.vocabulary.whole and old.syntax != new.syntax:
+        names = ", ".join(world.vocabulary.whole)
+        yield f"the numbers of the DSL are whole, so that only whole values of {names} are compared"
     if speaks_of_traces(old) or speaks_of_traces(new):
         yield (
             "what the rules call for is compared moment by moment; conflicts that take time to come about, and what is "

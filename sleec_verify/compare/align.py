@@ -38,7 +38,8 @@ def _labelled(old: Rule, new: Rule) -> bool:
 
 
 def align(old: Sequence[Rule], new: Sequence[Rule], cancels: Callable[[Rule], bool]) -> Alignment:
-    """Match the rules of two rulesets. `cancels` says of a rule that stands on both sides whether it means the same there.
+    """Match the rules of two rulesets. `cancels` says of a rule that stands on both sides whether it means the same on
+    both.
 
     First by label, then by what they say, then rules of one label that differ, then, in their order, rules of one
     trigger. O(size of the rules).

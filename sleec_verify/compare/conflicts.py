@@ -38,11 +38,9 @@ def conflict_changes(world: World) -> Iterator[Union[ConflictChange, Undecidable
 
 
 def _on(world: World, which: Which, way: Way) -> Iterator[Union[ConflictChange, Undecidable]]:
-    tried = 0
     seen: dict[frozenset[Obligation], list[tuple[frozenset[int], Formula]]] = {}
-    for clash, rows in _causes(world, which):
-        tried += 1
-        if tried > MOST:
+    for tried, (clash, rows) in enumerate(_causes(world, which)):
+        if tried >= MOST:
             yield Undecidable("conflicts", f"only the first {MOST:,} sets of rules that might clash were tried")
             return
         within = [region for smaller, region in seen.get(clash.literals, ()) if smaller < rows]
@@ -163,5 +161,3 @@ def _found(
         said["new"],
         extent,
     )
-
-

@@ -1,4 +1,4 @@
-"""What rules oblige on one side and not on the other, in the situations that both sides allow and neither conflicts in."""
+"""What rules oblige on one side and not on the other, in situations that both allow and in which neither conflicts."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ Found = Union[Change, Undecidable]
 def changes(world: World) -> Iterator[Found]:
     """For each rule that is not the same on both sides, the changes that it makes.
 
-    Complete: where a situation has a literal due on one side only, some clause of this side obliges it there, whose rule
-    is not the same on both sides. Exact: each change is shown by a situation, replayed.
+    Complete: where a situation has a literal due on one side only, some clause of this side obliges it there, whose
+    rule is not the same on both sides. Exact: each change is shown by a situation, replayed.
     """
     for pair, places in world.changed:
         label = next(rule.label for rule in (pair.new, pair.old) if rule is not None)
@@ -64,7 +64,9 @@ def _of_pair(world: World, pair: Pair, places: dict[Which, int]) -> Iterator[Fou
                 continue
             elsewhere = world.due(rows, other(which), literal)
             mine = world.obliges(row, which, literal.__eq__)
-            found.append(_Candidate(which, literal, all_of([mine, Not(elsewhere)]) if elsewhere != Truth(False) else mine))
+            found.append(
+                _Candidate(which, literal, all_of([mine, Not(elsewhere)]) if elsewhere != Truth(False) else mine)
+            )
     if not found:
         return
     conflicts = [world.conflict(rows, which) for which in SIDES]
@@ -87,9 +89,8 @@ def _grouped(
     world: World, pair: Pair, found: list[_Candidate], conflicts: list[Formula], triggers: set[str]
 ) -> list[_Group]:
     """The candidates that some situation shows, together where the same situations do."""
-    own = conditions_of(
-        world.sides[which].plain(rule) for which, rule in (("old", pair.old), ("new", pair.new)) if rule is not None
-    )
+    both = zip(SIDES, (pair.old, pair.new))
+    own = conditions_of(world.sides[which].plain(rule) for which, rule in both if rule is not None)
     regions = [one.region for one in found]
     everything = [*own, *regions, *conflicts]
     counting = Counting(everything, world.in_force(all_of(everything)), triggers, world.measures)

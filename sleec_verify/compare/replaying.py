@@ -1,4 +1,4 @@
-"""Every situation that a comparison shows is replayed: the evaluator must find in it, on both sides, what is said of it."""
+"""Every situation that a comparison shows is replayed: the evaluator must find in it what is said of both sides."""
 
 from __future__ import annotations
 

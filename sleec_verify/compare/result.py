@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Obligation, Ruleset, Source, Span
+    from sleec_runtime.model import Obligation, Ruleset, Span
     from sleec_verify.diagram import Part
     from sleec_verify.finding import Witness
 
@@ -114,8 +114,8 @@ class Undecidable(NamedTuple):
 class Difference:
     """What differs between two rulesets.
 
-    `renamed` are labels of rules that say the same, `rewritten` those of rules that are written otherwise and oblige the
-    same; `same` counts the rules that are equal. `notes` says what was left out of the comparison, and why that is right.
+    `renamed` are labels of rules that say the same, `rewritten` those of rules that are written otherwise and oblige
+    the same; `same` counts the rules that are equal. `notes` says what is left out of the comparison, and why.
     """
 
     old: Ruleset
@@ -158,21 +158,8 @@ def relation(more: bool, less: bool, conflicts: bool, undecided: bool) -> Relati
     return "laxer" if less else "equivalent"
 
 
-@dataclass(frozen=True)
-class Assertion:
-    """A property that is asked of rules: in every situation that makes `when` true, never all of `literals` are called
-    for, or always each of them is."""
-
-    text: str
-    source: Source = field(compare=False)
-    span: Span = field(compare=False)
-
-
 def by_obligation(changes: tuple[Change, ...]) -> Iterator[tuple[Change, Obligation, Way]]:
     """Each obligation that some change adds or removes."""
     for change in changes:
         yield from ((change, obligation, "added") for obligation in change.added)
         yield from ((change, obligation, "removed") for obligation in change.removed)
-
-
-Domains = Mapping[str, tuple[str, ...]]

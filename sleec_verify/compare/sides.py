@@ -1,4 +1,4 @@
-"""Two rulesets brought to one vocabulary: what each takes for granted of situations, and one set of measures for both."""
+"""Two rulesets brought to one vocabulary: what each takes for granted of situations, and measures for both."""
 
 from __future__ import annotations
 
@@ -140,7 +140,9 @@ def common(old: Ruleset, new: Ruleset) -> Vocabulary:
         if one.kind == other.kind and one.values == other.values:
             continue
         if (one.kind == "scale") != (other.kind == "scale"):
-            found.clashes.append(Undecidable(name, f"{name} is {_kind(one)} in the one text, {_kind(other)} in the other"))
+            found.clashes.append(
+                Undecidable(name, f"{name} is {_kind(one)} in the one text, {_kind(other)} in the other")
+            )
         elif one.kind == "scale":
             values = (*other.values, *(value for value in one.values if value not in other.values))
             found.measures[name] = found.scales[name] = replace(other, values=values)
@@ -158,7 +160,9 @@ def _kind(measure: Measure) -> str:
 
 def side(ruleset: Ruleset, vocabulary: Vocabulary) -> Side:
     """A ruleset as one side of a comparison."""
-    found = Side(ruleset, [], [], {name: ruleset.measures[name].values for name in vocabulary.scales}, vocabulary.measures)
+    found = Side(
+        ruleset, [], [], {name: ruleset.measures[name].values for name in vocabulary.scales}, vocabulary.measures
+    )
     for constraint in ruleset.constraints:
         if isinstance(constraint, Assume):
             found.given.append(_assumed(found, constraint.formula, "ASSUME"))

@@ -70,7 +70,9 @@ def _keeps(world: World, which: Which, given: Given, context: object) -> bool:
 
 
 def _fractions(world: World) -> Iterator[SituationChange]:
-    """Numbers that one side takes for whole ones."""
+    """Numbers that one side takes for whole ones. The DSL has only these: between the languages it is a note."""
+    if world.sides["old"].stated.syntax != world.sides["new"].stated.syntax:
+        return
     for name in world.vocabulary.whole:
         old = world.sides["old"].stated.measures[name].kind
         way: Way = "added" if old == "integer" else "removed"

@@ -88,8 +88,8 @@ class World:
         return self.sides[which].plain(rule)
 
     def _cones(self, rules: Iterable[Rule], given: Iterable[Formula]) -> Cones:
-        statements = (*self.vocabulary.measures.values(), *map(Assume, dict.fromkeys(given)), *rules)
-        return Cones(Ruleset(statements))
+        assumed = [Assume(formula) for formula in dict.fromkeys(given)]
+        return Cones(Ruleset((*self.vocabulary.measures.values(), *assumed, *rules)))
 
     @property
     def measures(self) -> dict[str, Measure]:
@@ -169,7 +169,8 @@ class World:
         return disjunction([formula for formula in found if formula != Truth(False)])
 
     def conflict(self, rows: Sequence[int], which: Which) -> Formula:
-        """Where what these rules oblige at once cannot all be done. Raises `Undecided` for constraints too entangled."""
+        """Where what these rules oblige at once cannot all be done. Raises `Undecided` where constraints are too
+        entangled."""
         key = which, tuple(rows)
         found = self._conflicts.get(key)
         if found is None:

@@ -4,11 +4,12 @@ the counts exact."""
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 
-from sleec_runtime.model import Assume, Rule, Ruleset
+from sleec_runtime.model import Assume, Never, Rule, Ruleset
 from sleec_verify.compare import compare, relation
 from tests import brute
 from tests.verify.edits import edited
@@ -52,13 +53,13 @@ def every(old: Ruleset, new: Ruleset) -> list[Seen]:
     )
     free = replace(both, statements=tuple(s for s in both.statements if not isinstance(s, Assume)))
     # The names of assumptions are looked at all the same.
-    names = Ruleset((*free.statements, *(brute.Never(s.formula) for s in both.constraints if isinstance(s, Assume))))
+    names = Ruleset((*free.statements, *(Never(s.formula) for s in both.constraints if isinstance(s, Assume))))
     return [Seen(old, new, context) for context in brute.contexts(names)]
 
 
 def projected(extent, seen: Seen, ruleset: Ruleset):
     """What a context says of the names that an extent counts over."""
-    said = []
+    said: list[Any] = []
     for part in extent.over:
         for kind, name in part.names:
             if kind == "trigger":
@@ -87,7 +88,7 @@ def agree(old: Ruleset, new: Ruleset) -> None:
             for literal in literals:
                 assert (side, label, literal) not in told
                 told[side, label, literal] = change
-    expected: dict = {}
+    expected: dict[tuple[int, str, Any], list[Seen]] = {}
     for seen in contexts:
         if seen.compared:
             for side in (0, 1):
@@ -119,7 +120,8 @@ def agree(old: Ruleset, new: Ruleset) -> None:
             id(one): {
                 id(s)
                 for s in where
-                if set(one.literals) <= _due_by(s, side, one.rules) and brute.clash(sides[side], s.context, one.literals)
+                if set(one.literals) <= _due_by(s, side, one.rules)
+                and brute.clash(sides[side], s.context, one.literals)
             }
             for one in entries
         }
@@ -131,34 +133,36 @@ def agree(old: Ruleset, new: Ruleset) -> None:
             rest = fires[id(one)].difference(*(fires[id(other)] for other in smaller))
             assert rest
             if sum(other.literals == one.literals and other.rules == one.rules for other in entries) == 1:
-                there = {projected(one.extent, s, new) for s in where if id(s) in rest}
-                assert one.extent.affected == len(there)
+                projections = {projected(one.extent, s, new) for s in where if id(s) in rest}
+                assert one.extent.affected == len(projections)
             shown = Seen(old, new, one.witness.context())
             assert all(shown.allowed)
             assert [shown.clash[side], shown.clash[1 - side]] == [True, False]
 
     # Situations.
     for side, way in ((1, "removed"), (0, "added")):
-        entries = [one for one in found.situations if one.way == way]
+        ruled_out = [one for one in found.situations if one.way == way]
         where = [s for s in contexts if s.allowed[1 - side] and not s.allowed[side]]
-        assert bool(entries) == bool(where)
-        for one in entries:
-            shown = Seen(old, new, one.witness.context())
+        assert bool(ruled_out) == bool(where)
+        for situation in ruled_out:
+            assert situation.witness is not None
+            shown = Seen(old, new, situation.witness.context())
             assert shown.allowed[1 - side]
             assert not shown.allowed[side]
-        if len(entries) == 1:
-            (one,) = entries
+        if len(ruled_out) == 1:
+            there = ruled_out[0].extent
+            assert there is not None
             own = {c.formula for c in sides[side].constraints if isinstance(c, Assume)}
             theirs = {c.formula for c in sides[1 - side].constraints if isinstance(c, Assume)}
             if len(own - theirs) == 1:
-                assert one.extent.affected == len({projected(one.extent, s, new) for s in where})
+                assert there.affected == len({projected(there, s, new) for s in where})
 
     more = any(side == 1 for side, *_ in expected) or any(s.way == "added" for s in found.situations)
     less = any(side == 0 for side, *_ in expected) or any(s.way == "removed" for s in found.situations)
     assert found.relation == relation(more, less, bool(found.conflicts), bool(found.undecided))
 
 
-def _due_by(seen: Seen, side: int, rules) -> set:
+def _due_by(seen: Seen, side: int, rules) -> set[Any]:
     return {o for label, _, clause in seen.active[side] if label in rules for o in clause.obligations}
 
 
