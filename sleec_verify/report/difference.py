@@ -80,13 +80,12 @@ _ROLES: Mapping[Relation, str] = {
 
 
 def _full(report: Report, palette: Palette) -> Iterator[str]:
-    for one in report.compared:
-        if one.difference is not None:
-            yield from (line + "\n" for line in _on(one.difference, palette))
-            yield "\n"
-    yield from (line + "\n" for line in _on_assertions(report.asked, palette))
+    parts = [list(_on(found, palette)) for found in report.differences]
+    if report.asked:
+        parts.append(list(_on_assertions(report.asked, palette)))
     if len(report.compared) + report.unchanged > 1:
-        yield _in_all(report, palette) + "\n"
+        parts.append([_in_all(report, palette)])
+    yield "\n".join("".join(f"{line}\n" for line in part) for part in parts)
 
 
 def _on(found: Difference, palette: Palette) -> Iterator[str]:
@@ -114,7 +113,10 @@ def _called(old: Ruleset, new: Ruleset) -> str:
 
 def _why(found: Difference) -> str:
     if found.relation == "incomparable" and found.conflicts and not (found.more and found.less):
-        return "the rules contradict one another in situations in which only one side's do"
+        return "one side contradicts itself in situations in which the other does not"
+    if found.relation in ("stricter", "laxer") and not found.changes:
+        more = "more" if found.relation == "stricter" else "fewer"
+        return f"the new rules speak of {more} situations, and oblige the same in those of both"
     return WORDS[found.relation]
 
 
@@ -138,19 +140,37 @@ def _rule(change: Change) -> str:
 def _so(change: Change) -> str:
     """``OpenCurtains is no longer due, WarnUser is now due and LeaveRoom is now forbidden``"""
     parts = []
-    for literals, now, then in ((change.added, "now due", "now forbidden"), (change.removed, *_NO_LONGER)):
-        due = [_phrase(o) for o in literals if not o.negated]
-        forbidden = [_phrase(o) for o in literals if o.negated]
-        parts += [f"{listed(due)} {_is(due)} {now}"] if due else []
-        parts += [f"{listed(forbidden)} {_is(forbidden)} {then}"] if forbidden else []
+    moved = [o for o in (*change.added, *change.removed) if _other_time(change, o) is not None]
+    for o in moved:
+        times = _when(o), _when(_other_time(change, o) or o)
+        now, before = times if o in change.added else times[::-1]
+        role = "forbidden" if o.negated else "due"
+        parts.append(f"{quoted(o.name)} is now {role} {now} and no longer {before}")
+    for literals, word in ((change.added, "now"), (change.removed, "no longer")):
+        for negated, role in ((False, "due"), (True, "forbidden")):
+            names = [_phrase(o) for o in literals if o.negated == negated and o not in moved]
+            parts += [f"{listed(names)} {'is' if len(names) == 1 else 'are'} {word} {role}"] if names else []
     return listed(parts)
 
 
-_NO_LONGER = ("no longer due", "no longer forbidden")
+def _other_time(change: Change, obligation: Obligation) -> Obligation | None:
+    """What the rule itself says on the other side of the same thing, at another time."""
+    added = obligation in change.added
+    rule, deciding = (change.old_rule, change.before) if added else (change.new_rule, change.after)
+    return next(
+        (
+            o
+            for one in deciding
+            if one.rule == rule
+            for o in one.obligations
+            if (o.name, o.negated) == (obligation.name, obligation.negated) and o.timing != obligation.timing
+        ),
+        None,
+    )
 
 
-def _is(names: Sequence[str]) -> str:
-    return "is" if len(names) == 1 else "are"
+def _when(obligation: Obligation) -> str:
+    return "at once" if obligation.timing is None else str(obligation.timing)
 
 
 def _phrase(obligation: Obligation) -> str:
@@ -291,8 +311,6 @@ def _on_assertions(asked: Sequence[Asked], palette: Palette) -> Iterator[str]:
             yield from (f"    {line}" for line in lines or ["no rule says anything"])
         else:
             yield f"{palette('unknown', 'unknown')}: {assertion.text} ({path}): {answer}"
-    if asked:
-        yield ""
 
 
 def _in_all(report: Report, palette: Palette) -> str:
@@ -329,7 +347,7 @@ def _concise(report: Report, palette: Palette) -> Iterator[str]:
     for assertion, ruleset, answer in report.asked:
         if isinstance(answer, Broken):
             broken = f"{palette('error', 'broken')} {assertion.text}"
-            yield f"{ruleset.source.path}: {broken} {_short_witness(answer.witness)}\n"
+            yield f"{ruleset.source.path}: {broken}: {_short_witness(answer.witness)}\n"
         elif answer is not None:
             yield f"{ruleset.source.path}: {palette('unknown', 'unknown')} {assertion.text}: {answer}\n"
     if len(report.compared) + report.unchanged > 1:
