@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_verify.compare.result import by_obligation, relation
 from sleec_verify.report.outcome import counted
-from sleec_verify.report.words import given, listed, occurring, quoted, value_text
+from sleec_verify.report.words import given, in_short, listed, occurring, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     )
     from sleec_verify.diagram import Part
     from sleec_verify.finding import Witness
-    from sleec_verify.report.json import Json
     from sleec_verify.report.palette import Palette
 
 
@@ -332,7 +331,7 @@ def _concise(report: Report, palette: Palette) -> Iterator[str]:
         path = found.new.source.path
         for change, obligation, way in by_obligation(found.changes):
             sign = palette("good", "+") if way == "added" else palette("error", "-")
-            yield f"{path}: {sign} {_in_short(obligation)} {_short_cause(change)}\n"
+            yield f"{path}: {sign} {in_short(obligation)} {_short_cause(change)}\n"
         for conflict in found.conflicts:
             sign = palette("error", "+ conflict") if conflict.way == "added" else palette("good", "- conflict")
             at_odds = ", ".join(map(str, conflict.literals)) or "constraints"
@@ -354,10 +353,6 @@ def _concise(report: Report, palette: Palette) -> Iterator[str]:
         yield f"{counted(len(report.compared) + report.unchanged, 'ruleset')}: {report.relation}\n"
 
 
-def _in_short(obligation: Obligation) -> str:
-    return f"{obligation}{'' if obligation.timing is None else f' {obligation.timing}'}"
-
-
 def _short_cause(one: Change | ConflictChange) -> str:
     count = "" if one.extent.affected is None else f" ({one.extent.affected:,}/{one.extent.possible:,})"
     return f"[{'/'.join(one.rules)}] {_short_witness(one.witness)}{count}"
@@ -368,157 +363,10 @@ def _short_witness(witness: Witness) -> str:
     return f"when {', '.join(facts)}"
 
 
-# For programs ---------------------------------------------------------------------------------------------
-
-
 def _json(report: Report, palette: Palette) -> Iterator[str]:
-    from sleec_verify import __version__
-    from sleec_verify.report.json import dump
+    from sleec_verify.report.difference_json import render
 
-    del palette  # a program reads this
-    found = report.differences
-    yield dump(
-        {
-            "tool": {"name": "sleec-verify", "version": __version__},
-            "relation": report.relation,
-            "changes": [
-                {
-                    "obligation": str(obligation),
-                    "change": way,
-                    **({} if obligation.timing is None else {"when": str(obligation.timing)}),
-                    **_cause(one, change),
-                }
-                for one in found
-                for change, obligation, way in by_obligation(one.changes)
-            ],
-            "conflicts": [
-                {
-                    "change": conflict.way,
-                    "obligations": [str(o) for o in conflict.literals],
-                    **_cause(one, conflict),
-                }
-                for one in found
-                for conflict in one.conflicts
-            ],
-            "situations": [_situation_json(one, situation) for one in found for situation in one.situations],
-            "names": [
-                {"change": name.way, "kind": name.kind, "name": name.name, "ruleset": one.new.source.path}
-                for one in found
-                for name in one.names
-            ],
-            "unknown": [
-                {"what": what, "why": why, "ruleset": one.new.source.path}
-                for one in found
-                for what, why in one.undecided
-            ],
-            "rulesets": [_compared_json(one) for one in report.compared],
-            "assertions": [_asked_json(one) for one in report.asked],
-            "summary": {
-                "rulesets": len(report.compared) + report.unchanged,
-                "unchanged": report.unchanged,
-                "added": sum(len(change.added) for one in found for change in one.changes),
-                "removed": sum(len(change.removed) for one in found for change in one.changes),
-                "new_conflicts": sum(conflict.way == "added" for one in found for conflict in one.conflicts),
-            },
-        }
-    )
-
-
-def _cause(found: Difference, one: Change | ConflictChange) -> dict[str, Json]:
-    from sleec_verify.report.json import witness_json
-
-    return {
-        "rules": list(one.rules),
-        "witness": witness_json(one.witness),
-        "before": _deciding_json(one.before, found.old),
-        "after": _deciding_json(one.after, found.new),
-        "situations": _extent_json(one.extent),
-        "domains": list(one.domains),
-        "ruleset": found.new.source.path,
-    }
-
-
-def _deciding_json(deciding: Sequence[Deciding], ruleset: Ruleset) -> Json:
-    from sleec_verify.report.json import span_json
-
-    return [
-        {
-            "rule": one.rule,
-            "clause": one.clause,
-            "obligations": [_in_short(o) for o in one.obligations],
-            "span": span_json(one.span, ruleset.source),
-        }
-        for one in deciding
-    ]
-
-
-def _extent_json(extent: Extent) -> Json:
-    return {
-        "affected": extent.affected,
-        "possible": extent.possible,
-        "given": list(extent.given),
-        "over": [{"names": [name for _, name in part.names], "ways": part.ways} for part in extent.over],
-        "reason": extent.why,
-    }
-
-
-def _situation_json(found: Difference, one: SituationChange) -> Json:
-    from sleec_verify.report.json import witness_json
-
-    return {
-        "change": one.way,
-        "granted": one.what,
-        "witness": None if one.witness is None else witness_json(one.witness),
-        "situations": None if one.extent is None else _extent_json(one.extent),
-        "domains": list(one.domains),
-        "ruleset": found.new.source.path,
-    }
-
-
-def _compared_json(one: Compared) -> Json:
-    from sleec_verify.report.json import error_json
-
-    if one.difference is None:
-        return {"path": one.path, "errors": [error_json(error) for error in one.errors]}
-    found = one.difference
-    return {
-        "path": one.path,
-        "relation": found.relation,
-        "old": _ruleset_json(found.old),
-        "new": _ruleset_json(found.new),
-        "same": found.same,
-        "renamed": [{"old": old, "new": new} for old, new in found.renamed],
-        "rewritten": [labels[-1] for labels in found.rewritten],
-        "reordered": found.reordered,
-        "notes": list(found.notes),
-    }
-
-
-def _ruleset_json(ruleset: Ruleset) -> Json:
-    return {
-        "path": ruleset.source.path,
-        "sha256": ruleset.source.sha256,
-        "syntax": ruleset.syntax,
-        "reading": ruleset.reading,
-        "rules": len(ruleset.rules),
-    }
-
-
-def _asked_json(asked: Asked) -> Json:
-    from sleec_verify.assertions import Broken
-    from sleec_verify.report.json import witness_json
-
-    assertion, ruleset, answer = asked
-    broken = answer if isinstance(answer, Broken) else None
-    return {
-        "assertion": assertion.text,
-        "holds": None if isinstance(answer, str) else broken is None,
-        "reason": answer if isinstance(answer, str) else None,
-        "witness": None if broken is None else witness_json(broken.witness),
-        "because": [] if broken is None else _deciding_json(broken.deciding, ruleset),
-        "domain": None if broken is None else broken.domain,
-        "ruleset": ruleset.source.path,
-    }
+    yield from render(report, palette)
 
 
 RENDERERS: Mapping[str, Callable[[Report, Palette], Iterator[str]]] = {

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Context, Value
+    from sleec_runtime.model import Context, Obligation, Value
     from sleec_verify.finding import Witness
 
 
@@ -36,6 +36,11 @@ def quoted(name: str) -> str:
 def shortened(text: str) -> str:
     """What someone typed, cut as the messages of the language cut it, so that a message stays one."""
     return f"{text[:37]}..." if len(text) > 40 else text
+
+
+def in_short(obligation: Obligation) -> str:
+    """A literal with when it is due, if that is said: ``NOT Speak within 5 minutes``"""
+    return f"{obligation}{'' if obligation.timing is None else f' {obligation.timing}'}"
 
 
 def witness_text(witness: Witness) -> str:
