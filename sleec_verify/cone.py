@@ -181,7 +181,7 @@ class Cones:
         return any(kind == "trigger" for kind, _ in self._assumptions_by_name)
 
     @cached_property
-    def _always(self) -> frozenset[str]:
+    def always(self) -> frozenset[str]:
         """The triggers of assumptions that do not hold where none of their triggers occurs: some of these occur in
         every situation."""
         from sleec_verify.question import Question
@@ -206,7 +206,7 @@ class Cones:
         assumptions tie to it or to the conditions of such rules, or force in any case. In the order of the text."""
         if not self._triggers_assumed:
             return self.by_trigger.get(trigger, [])
-        triggers = {trigger, *self._always}
+        triggers = {trigger, *self.always}
         rules = {position for t in triggers for position in self.by_trigger.get(t, ())}
         while True:
             names = {("trigger", t) for t in triggers}

@@ -117,9 +117,7 @@ class Measures:
         return self._cut(name, Cut(rank, False))
 
     def _below_number(self, name: str, measure: Measure, value: Rational, inclusive: bool) -> int:
-        if measure.kind == "integer":
-            return self._cut(name, _integer_cut(value, inclusive))
-        return self._cut(name, Cut(value, inclusive))
+        return self._cut(name, cut_at(measure, value, inclusive))
 
     def _below_other_scale(self, name: str, other: str, size: int, inclusive: bool) -> int:
         # x < y where some cut has x below it and y not; x <= y where no cut has y below it and x not.
@@ -274,7 +272,10 @@ def _shortest_decimal(low: Fraction, high: Fraction) -> Fraction:
         scale *= 10
 
 
-def _integer_cut(value: Rational, inclusive: bool) -> Cut:
+def cut_at(measure: Measure, value: Rational, inclusive: bool) -> Cut:
+    """The cut of ``measure < value`` (``<=`` if inclusive); one that no whole number tells from another is the same."""
+    if measure.kind != "integer":
+        return Cut(value, inclusive)
     from math import ceil, floor
 
     return Cut(floor(value) if inclusive else ceil(value) - 1, True)

@@ -25,9 +25,18 @@ def read_source(path: str | Path) -> Source:
     Raises:
         UnreadableFile: the file is missing, a folder or forbidden, is not UTF-8, or holds a NUL byte.
     """
+    name, data = _read_bytes(path)
+    return source_of(name, data)
+
+
+def source_of(name: str, data: bytes) -> Source:
+    """The text that these bytes are, by the name that messages call it.
+
+    Raises:
+        UnreadableFile: they are not UTF-8, or hold a NUL byte.
+    """
     from hashlib import sha256
 
-    name, data = _read_bytes(path)
     return Source(name, _decode(data, name), sha256(data).hexdigest())
 
 

@@ -21,6 +21,7 @@ _SUMMARIES = {
     "certify": "Proofs of what a check found, for others to check.",
     "conform": "Does a robot's code have the structure that the rules ask for?",
     "convert": "The rules in another language or reading.",
+    "diff": "What changes between two versions of the rules?",
     "fmt": "The rules in their usual layout.",
     "rules": "List and explain every finding code.",
     "completion": "A script by which a shell completes commands.",

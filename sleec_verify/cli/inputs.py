@@ -63,7 +63,7 @@ def rulesets(paths: Iterable[str], reading: Reading | None, domain: str | None) 
     if domain is not None:
         named = {name for one in found if not isinstance(one, Unusable) for name in one.domains}
         if named and domain not in named:
-            raise _unknown_domain(domain, sorted(named))
+            raise unknown_domain(domain, sorted(named))
         if not named and any(not isinstance(one, Unusable) for one in found):
             _note_no_domains(domain)
     return found
@@ -78,7 +78,7 @@ def one_ruleset(path: str, reading: Reading | None, domain: str | None) -> Rules
     """
     ruleset = load(path)
     if domain is not None and ruleset.domains and domain not in ruleset.domains:
-        raise _unknown_domain(domain, ruleset.domains)
+        raise unknown_domain(domain, ruleset.domains)
     if domain is not None and not ruleset.domains:
         _note_no_domains(domain)
     return ruleset if reading is None else ruleset.read_as(reading)
@@ -101,7 +101,8 @@ def _load(path: str, reading: Reading | None) -> Ruleset | Unusable:
         return Unusable("<stdin>" if path == "-" else path, error)
 
 
-def _unknown_domain(domain: str, named: Sequence[str]) -> UnknownDomain:
+def unknown_domain(domain: str, named: Sequence[str]) -> UnknownDomain:
+    """The error of a domain that none of those `named` is."""
     near = nearest(domain, named)
     hint = f"did you mean {near}?" if near else f"there are {', '.join(named)}"
     return UnknownDomain(f"there is no domain {shortened(domain)}", hint)

@@ -81,7 +81,7 @@ def finding_json(finding: Finding, source: Source) -> dict[str, Json]:
         "clauses": [{"rule": clause.rule, "clause": clause.clause} for clause in finding.clauses],
         "obligations": list(finding.obligations),
         "span": span_json(finding.span, source),
-        "witness": None if finding.witness is None else _witness(finding.witness),
+        "witness": None if finding.witness is None else witness_json(finding.witness),
         **({} if finding.timeline is None else {"timeline": _timeline(finding.timeline)}),
         **({} if finding.strategy is None else {"strategy": _strategy(finding.strategy)}),
         "domains": list(finding.domains),
@@ -110,7 +110,8 @@ def span_json(span: Span, source: Source) -> dict[str, Json]:
     return dict(source.place(span)._asdict())
 
 
-def _witness(witness: Witness) -> Json:
+def witness_json(witness: Witness) -> Json:
+    """A situation: what occurs, and what is the case."""
     return {"triggers": list(witness.triggers), "conditions": values_json(witness.conditions)}
 
 

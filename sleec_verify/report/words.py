@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Context, Value
+    from sleec_runtime.model import Context, Obligation, Value
     from sleec_verify.finding import Witness
 
 
@@ -38,23 +38,29 @@ def shortened(text: str) -> str:
     return f"{text[:37]}..." if len(text) > 40 else text
 
 
+def in_short(obligation: Obligation) -> str:
+    """A literal with when it is due, if that is said: ``NOT Speak within 5 minutes``"""
+    return f"{obligation}{'' if obligation.timing is None else f' {obligation.timing}'}"
+
+
 def witness_text(witness: Witness) -> str:
     """``When A and B occur, C is true and Age is 15 (the rest does not matter)``"""
-    occurs = f"When {_occurring(witness.triggers)}" if witness.triggers else "Whatever occurs"
-    return f"{', '.join([occurs, *_given(witness.conditions)])} (the rest does not matter)"
+    occurs = f"When {occurring(witness.triggers)}" if witness.triggers else "Whatever occurs"
+    return f"{', '.join([occurs, *given(witness.conditions)])} (the rest does not matter)"
 
 
 def context_text(context: Context) -> str:
     """``When A occurs, C is true (and all else is false)``"""
-    occurs = f"When {_occurring(sorted(context.triggers)) if context.triggers else 'nothing occurs'}"
-    return f"{', '.join([occurs, *_given(context.conditions)])} (and all else is false)"
+    occurs = f"When {occurring(sorted(context.triggers)) if context.triggers else 'nothing occurs'}"
+    return f"{', '.join([occurs, *given(context.conditions)])} (and all else is false)"
 
 
-def _occurring(triggers: Sequence[str]) -> str:
+def occurring(triggers: Sequence[str]) -> str:
+    """``A occurs``, ``A and B occur``"""
     return f"{listed(map(quoted, triggers))} {'occurs' if len(triggers) == 1 else 'occur'}"
 
 
-def _given(conditions: Mapping[str, Value]) -> list[str]:
+def given(conditions: Mapping[str, Value]) -> list[str]:
     """The facts as one phrase, or none."""
     facts = [f"{quoted(name)} is {value_text(value)}" for name, value in conditions.items()]
     return [listed(facts)] if facts else []

@@ -1,0 +1,238 @@
+"""``sleec-verify diff``."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal
+
+import click
+
+from sleec_runtime.errors import SleecError
+from sleec_verify.cli import exits, options
+from sleec_verify.cli.output import complain, note, write
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Reading, Ruleset, Source
+    from sleec_verify.assertions import Asked
+    from sleec_verify.compare import Difference
+    from sleec_verify.report.difference import Compared, Report
+    from sleec_verify.revisions import Place, Versions
+    from sleec_verify.timed.scope import Untimed
+
+FailOn = Literal["change", "loss", "conflict", "nothing"]
+_READINGS = click.Choice(("cascade", "priority"))
+
+
+@click.command(
+    "diff",
+    short_help="What changes between two versions of the rules?",
+    epilog="Example: sleec-verify diff rulesets/hospital.sleec rulesets/household.sleec",
+)
+@click.argument("paths", metavar="OLD NEW | PATH…", nargs=-1, type=options.PATH)
+@click.option(
+    "--git",
+    "revision",
+    metavar="REV",
+    help="Compare the files at or below PATH with those of this revision; OLD..NEW compares two revisions, OLD...NEW "
+    "the newer one with what both have in common.",
+)
+@click.option(
+    "--assert",
+    "assertions",
+    metavar="TEXT",
+    multiple=True,
+    help='What must hold of the new rules in every situation: "never RefuseRequest when MedicalEmergency", '
+    '"always CallNurse when FallDetected".',
+)
+@click.option(
+    "--assertions", "file", metavar="FILE", type=options.PATH, help="A file of such properties, one a line; # comments."
+)
+@options.domain
+@options.reading
+@click.option("--old-reading", type=_READINGS, help="Read the old rules this way.")
+@click.option("--new-reading", type=_READINGS, help="Read the new rules this way.")
+@options.untimed
+@click.option(
+    "--missing-as-empty",
+    is_flag=True,
+    help="Compare a file that only one side has with no rules at all; else it is an error.",
+)
+@click.option(
+    "--fail-on",
+    type=click.Choice(("change", "loss", "conflict", "nothing")),
+    default="change",
+    show_default=True,
+    help="Exit with 1 if what is obliged changes; if an obligation is lost or a conflict is new; only if a conflict is "
+    "new; or never for what changes. An assertion that does not hold is always 1.",
+)
+@options.output_format("full", "concise", "json")
+def command(
+    paths: tuple[str, ...],
+    revision: str | None,
+    assertions: tuple[str, ...],
+    file: str | None,
+    domain: str | None,
+    reading: Reading | None,
+    old_reading: Reading | None,
+    new_reading: Reading | None,
+    untimed: Untimed,
+    missing_as_empty: bool,
+    fail_on: FailOn,
+    form: str,
+) -> int:
+    """Compare what two versions of rules mean, not how they are written: two files, two folders, or with --git what is
+    below PATH (. if none is said) with what a revision has there.
+
+    For every obligation that some situation gains or loses, the smallest situation is shown, before and after, with the
+    clauses that decide, and the number of situations that it concerns.
+    """
+    from sleec_verify.report.difference import RENDERERS, Report
+    from sleec_verify.report.palette import Palette
+
+    asserting = bool(assertions or file)
+    try:
+        versions, names = _versions(paths, revision)
+        said = None if file is None else _source(file)
+    except SleecError as error:
+        complain(error)
+        return exits.UNUSABLE
+    # What is the same on both sides need not be read, unless it is asked about.
+    left = [one for one in versions if asserting or len(versions) == 1 or not one.unchanged]
+    readings = (old_reading or reading, new_reading or reading)
+    compared, rulesets = [], []
+    for one in left:
+        found = _compared(one, names, readings, missing_as_empty, domain, untimed)
+        compared.append(found)
+        if found.difference is not None:
+            rulesets.append(found.difference)
+    _check_domain(domain, rulesets)
+    asked = _asked(assertions, said, rulesets, domain) if asserting else ()
+    if asked is None:
+        return exits.UNUSABLE
+    report = Report(tuple(compared), len(versions) - len(left), asked)
+    write(RENDERERS[form](report, Palette.of(sys.stdout)))
+    return _exit_code(report, fail_on)
+
+
+def _versions(paths: Sequence[str], revision: str | None) -> tuple[list[Versions], tuple[str, str]]:
+    """The rulesets on both sides, and what the sides are called."""
+    from sleec_verify.revisions import Repository, of_paths
+
+    if revision is None:
+        if len(paths) != 2:
+            raise click.UsageError(
+                "two files or two folders are compared: name the old and the new one, or say --git REV"
+            )
+        return of_paths(*paths), (paths[0], paths[1])
+    repository = Repository()
+    old, new = repository.range(revision)
+    return repository.versions(old, new, paths or (".",)), (old[0], new[0])
+
+
+def _source(path: str) -> Source:
+    from sleec_runtime.language.source import read_source
+
+    return read_source(path)
+
+
+def _compared(
+    versions: Versions,
+    names: tuple[str, str],
+    readings: tuple[Reading | None, Reading | None],
+    missing_as_empty: bool,
+    domain: str | None,
+    untimed: Untimed,
+) -> Compared:
+    from sleec_verify.compare import compare
+    from sleec_verify.report.difference import Compared
+
+    errors: list[SleecError] = []
+    one_sided = None if missing_as_empty else versions.one_sided(*names)
+    if one_sided is not None:
+        errors.append(one_sided)
+    sides = [_read(place, reading, errors) for place, reading in zip((versions.old, versions.new), readings)]
+    for error in errors:
+        complain(error)
+    old, new = sides
+    if errors or (old is None and new is None):
+        return Compared(versions.path, None, tuple(errors))
+    if old is None:
+        assert new is not None
+        old = _empty(new, names[0], versions.path)
+    if new is None:
+        new = _empty(old, names[1], versions.path)
+    return Compared(versions.path, compare(old, new, domain, untimed))
+
+
+def _read(place: Place | None, reading: Reading | None, errors: list[SleecError]) -> Ruleset | None:
+    from sleec_runtime.language import parse_source
+
+    if place is None:
+        return None
+    try:
+        ruleset = parse_source(place.read())
+    except SleecError as error:
+        errors.append(error)
+        return None
+    return ruleset if reading is None else ruleset.read_as(reading)
+
+
+def _empty(other: Ruleset, side: str, path: str) -> Ruleset:
+    """No rules at all, on the side that has no such file."""
+    from sleec_runtime.model import Source
+
+    return replace(other, statements=(), inferred=(), defects=(), source=Source(f"{side}: no {path}", ""))
+
+
+def _check_domain(domain: str | None, found: Sequence[Difference]) -> None:
+    named = sorted({name for one in found for ruleset in (one.old, one.new) for name in ruleset.domains})
+    if domain is None or domain in named:
+        return
+    from sleec_verify.cli.inputs import unknown_domain
+
+    if named:
+        raise unknown_domain(domain, named)
+    note(f"no rule has a domain, so all of them count in {domain}")
+
+
+def _asked(
+    texts: Sequence[str], said: Source | None, found: Sequence[Difference], domain: str | None
+) -> tuple[Asked, ...] | None:
+    """The answers to all assertions, of all new rulesets; None where some are none, which is told."""
+    from sleec_verify.assertions import Vocabulary, ask, read_assertion, read_assertions
+
+    known = Vocabulary(ruleset for one in found for ruleset in (one.new, one.old))
+    assertions, wrong = [], False
+    for text in texts:
+        try:
+            assertions.append(read_assertion(text, known))
+        except SleecError as error:
+            complain(error)
+            wrong = True
+    if said is not None:
+        try:
+            assertions += read_assertions(said, known)
+        except SleecError as error:
+            complain(error)
+            wrong = True
+    if wrong:
+        return None
+    return tuple(ask(one.new, assertion, domain, known) for one in found for assertion in assertions)
+
+
+def _exit_code(report: Report, fail_on: FailOn) -> int:
+    if any(one.errors for one in report.compared):
+        return exits.UNUSABLE
+    if any(isinstance(one.answer, tuple) for one in report.asked):
+        return exits.FINDINGS
+    found = report.differences
+    new_conflict = any(conflict.way == "added" for one in found for conflict in one.conflicts)
+    lost = new_conflict or any(one.less for one in found)
+    changed = lost or any(one.more or one.conflicts for one in found)
+    if {"change": changed, "loss": lost, "conflict": new_conflict, "nothing": False}[fail_on]:
+        return exits.FINDINGS
+    if any(one.undecided for one in found) or any(isinstance(one.answer, str) for one in report.asked):
+        return exits.UNKNOWN
+    return exits.HOLDS

@@ -1,0 +1,223 @@
+"""Two rulesets in one domain, as formulas over the situations that both allow.
+
+What is asked about a rule concerns the rules of the triggers that its own trigger brings along (`rows_with`): any other
+trigger need not occur, and where it does not, its rules oblige nothing and conflict with nothing. So whatever differs
+anywhere differs in a situation in which nothing else occurs, and it is looked for only there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cached_property
+from typing import Literal, NamedTuple
+
+from sleec_runtime.model import (
+    Assume,
+    Atom,
+    Context,
+    Exclusive,
+    Formula,
+    Measure,
+    Never,
+    Not,
+    Obligation,
+    Rule,
+    Ruleset,
+    Truth,
+    leaves,
+)
+from sleec_verify.clashes import Clash, clashes, opposite
+from sleec_verify.compare.align import Pair, align, depends_on_reading
+from sleec_verify.compare.sides import Side, common, mentions, side
+from sleec_verify.compare.times import implies
+from sleec_verify.cone import Cones, obligations_in
+from sleec_verify.equation import Implication, conjunction, disjunction, implications
+from sleec_verify.timed.scope import Untimed
+
+Which = Literal["old", "new"]
+SIDES: tuple[Which, Which] = ("old", "new")
+
+
+def other(which: Which) -> Which:
+    return "new" if which == "old" else "old"
+
+
+class Row(NamedTuple):
+    """A rule on one side, or one that is equal on both."""
+
+    old: Rule | None
+    new: Rule | None
+
+    def on(self, which: Which) -> Rule | None:
+        return self.old if which == "old" else self.new
+
+
+class World:
+    """The rules of both sides, aligned, and what is due, contradictory and possible, as formulas."""
+
+    def __init__(self, old: Ruleset, new: Ruleset, untimed: Untimed) -> None:
+        self.untimed = untimed
+        self.vocabulary = common(old, new)
+        self.sides: dict[Which, Side] = {"old": side(old, self.vocabulary), "new": side(new, self.vocabulary)}
+        same_reading, scales = old.reading == new.reading, self.vocabulary.scales
+
+        def cancels(rule: Rule) -> bool:
+            if not same_reading and depends_on_reading(rule):
+                return False
+            return not (scales and mentions(rule, scales))
+
+        self.aligned = align(old.rules, new.rules, cancels)
+        self.rows = [Row(one, other) for one, other in self.aligned.same]
+        self.changed: list[tuple[Pair, dict[Which, int]]] = []
+        for pair in self.aligned.changed:
+            places: dict[Which, int] = {}
+            for which, rule in (("old", pair.old), ("new", pair.new)):
+                if rule is not None:
+                    places["old" if which == "old" else "new"] = len(self.rows)
+                    self.rows.append(Row(rule, None) if which == "old" else Row(None, rule))
+            self.changed.append((pair, places))
+        self._guards: dict[tuple[int, Which], list[Implication]] = {}
+        self._conflicts: dict[tuple[Which, tuple[int, ...]], Formula] = {}
+        given = [one.formula for which in SIDES for one in self.sides[which].given]
+        self.cones = self._cones([self._plain(row) for row in self.rows], given)
+
+    def _plain(self, row: Row) -> Rule:
+        which: Which = "new" if row.new is not None else "old"
+        rule = row.on(which)
+        assert rule is not None
+        return self.sides[which].plain(rule)
+
+    def _cones(self, rules: Iterable[Rule], given: Iterable[Formula]) -> Cones:
+        assumed = [Assume(formula) for formula in dict.fromkeys(given)]
+        return Cones(Ruleset((*self.vocabulary.measures.values(), *assumed, *rules)))
+
+    @property
+    def measures(self) -> dict[str, Measure]:
+        return self.vocabulary.measures
+
+    def situations_of(self, which: Which) -> Cones:
+        """The assumptions of one side alone."""
+        return self._cones((), [one.formula for one in self.sides[which].given])
+
+    @cached_property
+    def _constraints(self) -> dict[Which, Cones]:
+        return {which: Cones(Ruleset(tuple(self.sides[which].constraints))) for which in SIDES}
+
+    @cached_property
+    def _situations_forbidden(self) -> dict[Which, list[Exclusive | Never]]:
+        """The constraints that speak of no obligation: they come true whatever is done."""
+        return {which: [c for c in self.sides[which].constraints if not any(obligations_in(c))] for which in SIDES}
+
+    def constraints_about(self, which: Which, names: Iterable[str]) -> list[Exclusive | Never]:
+        if not self.sides[which].constraints:
+            return []
+        return self._constraints[which].constraints_about(names) + self._situations_forbidden[which]
+
+    # The cone ----------------------------------------------------------------------------------------------
+
+    def rows_with(self, triggers: Iterable[str]) -> list[int]:
+        """The rows that may have to be active where these triggers occur, by assumptions or because a constraint on
+        what is due then speaks of their trigger."""
+        wanted = {*triggers, *self.cones.always} if self.cones.assumptions else set(triggers)
+        while True:
+            found = {row for trigger in wanted for row in self.cones.together_with(trigger)}
+            reached = {self._plain(self.rows[row]).trigger for row in found} | self._triggers_of_constraints(found)
+            if reached <= wanted:
+                return sorted(found)
+            wanted |= reached
+
+    def _triggers_of_constraints(self, rows: Iterable[int]) -> set[str]:
+        return {
+            leaf.name
+            for which in SIDES
+            for constraint in self.constraints_about(which, {o.name for row in rows for o in self.literals(row, which)})
+            if isinstance(constraint, Never)
+            for leaf in leaves(constraint.formula)
+            if isinstance(leaf, Atom) and leaf.kind == "trigger"
+        }
+
+    # Formulas ----------------------------------------------------------------------------------------------
+
+    def guards(self, row: int, which: Which) -> list[Implication]:
+        """Equation 1 of a rule on one side; nothing where it is not there."""
+        key = row, which
+        found = self._guards.get(key)
+        if found is None:
+            rule, of = self.rows[row].on(which), self.sides[which]
+            found = [] if rule is None else implications(of.plain(rule), of.stated.reading)
+            self._guards[key] = found
+        return found
+
+    def literals(self, row: int, which: Which) -> list[Obligation]:
+        """All that a rule obliges on one side, each once, in the order of the text."""
+        rule = self.rows[row].on(which)
+        return [] if rule is None else list(dict.fromkeys(o for clause in rule.clauses() for o in clause.obligations))
+
+    def obliges(self, row: int, which: Which, wanted: Callable[[Obligation], object]) -> Formula:
+        """Where the rule obliges a literal that is `wanted`."""
+        return disjunction(
+            [guard for _, guard, clause in self.guards(row, which) if any(wanted(o) for o in clause.obligations)]
+        )
+
+    def due(self, rows: Iterable[int], which: Which, literal: Obligation) -> Formula:
+        """Where one of these rules obliges the literal, or one that asks for at least as much."""
+
+        def enough(one: Obligation) -> bool:
+            return implies(one, literal, self.untimed) is True
+
+        found = (self.obliges(row, which, enough) for row in rows if self.rows[row].on(which) is not None)
+        return disjunction([formula for formula in found if formula != Truth(False)])
+
+    def conflict(self, rows: Sequence[int], which: Which) -> Formula:
+        """Where what these rules oblige at once cannot all be done. Raises `Undecided` where constraints are too
+        entangled."""
+        key = which, tuple(rows)
+        found = self._conflicts.get(key)
+        if found is None:
+            found = self._conflicts[key] = self._conflicting(rows, which)
+        return found
+
+    def _conflicting(self, rows: Sequence[int], which: Which) -> Formula:
+        at_once = {o for row in rows for o in self.literals(row, which) if o.timing is None}
+        parts = []
+        for clash in self.clashes(which, at_once):
+            due = [self._due_exactly(rows, which, literal) for literal in sorted(clash.literals, key=str)]
+            parts.append(conjunction([*due, *sorted(clash.labels, key=repr)]))
+        return disjunction(parts)
+
+    def clashes(self, which: Which, literals: set[Obligation]) -> list[Clash]:
+        """The minimal sets of these literals that cannot all be due on one side."""
+        direct = [
+            Clash(frozenset((one, opposite(one)))) for one in sorted(literals, key=str) if opposite(one) in literals
+        ]
+        declared = self.constraints_about(which, {literal.name for literal in literals})
+        return list(dict.fromkeys(direct)) + (clashes(declared, literals) if declared else [])
+
+    def _due_exactly(self, rows: Iterable[int], which: Which, literal: Obligation) -> Formula:
+        return disjunction([self.obliges(row, which, literal.__eq__) for row in rows])
+
+    def in_force(self, formula: Formula) -> list[Formula]:
+        """The assumptions of both sides that share names with a formula, directly or through one another."""
+        from sleec_verify.cone import names_in
+
+        return [assumption.formula for assumption in self.cones.assumptions_about(names_in(formula))]
+
+    # Places ------------------------------------------------------------------------------------------------
+
+    def label(self, row: int, which: Which) -> str:
+        rule = self.rows[row].on(which)
+        assert rule is not None, "asked of a rule that this side has"
+        return rule.label
+
+
+def not_both(conflicts: Iterable[Formula]) -> list[Formula]:
+    """That none of these comes true; nothing for those that never do."""
+    return [Not(formula) for formula in conflicts if formula != Truth(False)]
+
+
+def triggered(world: World, which: Which, context: Context, rows: Iterable[int]) -> Iterator[Rule]:
+    """The rules of one side, as they stand in its text, whose trigger occurs."""
+    for row in rows:
+        rule = world.rows[row].on(which)
+        if rule is not None and rule.trigger in context.triggers:
+            yield rule

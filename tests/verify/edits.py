@@ -1,0 +1,84 @@
+"""Random edits to random rulesets: what people do to rules, and what they do by mistake."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from hypothesis import strategies as st
+
+from sleec_runtime.model import Assume, Exclusive, Never, Not, Rule, Ruleset
+
+
+@st.composite
+def edited(draw, rulesets):
+    """A ruleset and the same after one to three edits, with parts of another ruleset."""
+    old, donor = draw(rulesets), draw(rulesets)
+    new = old
+    for _ in range(draw(st.integers(1, 3))):
+        new = draw(st.sampled_from(EDITS))(draw, new, donor)
+    return old, new
+
+
+def _with_rules(ruleset: Ruleset, rules) -> Ruleset:
+    return replace(ruleset, statements=(*(s for s in ruleset.statements if not isinstance(s, Rule)), *rules))
+
+
+def _drop_rule(draw, ruleset, donor):
+    if len(ruleset.rules) == 1:
+        return ruleset
+    gone = draw(st.integers(0, len(ruleset.rules) - 1))
+    return _with_rules(ruleset, [rule for at, rule in enumerate(ruleset.rules) if at != gone])
+
+
+def _add_rule(draw, ruleset, donor):
+    rule = draw(st.sampled_from(donor.rules))
+    return _with_rules(ruleset, [*ruleset.rules, replace(rule, label=f"n{len(ruleset.rules)}")])
+
+
+def _change_rule(draw, ruleset, donor):
+    at = draw(st.integers(0, len(ruleset.rules) - 1))
+    rule, other = ruleset.rules[at], draw(st.sampled_from(donor.rules))
+    what = draw(st.sampled_from(("guard", "default", "hedges", "trigger", "negate", "last")))
+    if what == "negate":
+        if rule.guard is None:
+            return ruleset
+        changed = replace(rule, guard=Not(Not(rule.guard)))
+    elif what == "last":
+        changed = replace(rule, hedges=rule.hedges[:-1])
+    else:
+        changed = replace(rule, **{what: getattr(other, what)})
+    return _with_rules(ruleset, [changed if n == at else r for n, r in enumerate(ruleset.rules)])
+
+
+def _rename(draw, ruleset, donor):
+    at = draw(st.integers(0, len(ruleset.rules) - 1))
+    renamed = replace(ruleset.rules[at], label=f"m{at}_{len(ruleset.rules)}")
+    return _with_rules(ruleset, [renamed if n == at else r for n, r in enumerate(ruleset.rules)])
+
+
+def _reorder(draw, ruleset, donor):
+    return _with_rules(ruleset, draw(st.permutations(ruleset.rules)))
+
+
+def _read_otherwise(draw, ruleset, donor):
+    return replace(ruleset, reading="priority" if ruleset.reading == "cascade" else "cascade")
+
+
+def _constrain(draw, ruleset, donor):
+    """Other constraints, or other assumptions."""
+    kinds = draw(st.sampled_from(((Exclusive, Never), (Assume,))))
+    kept = [s for s in ruleset.statements if not isinstance(s, kinds)]
+    return replace(ruleset, statements=(*kept, *(s for s in donor.statements if isinstance(s, kinds))))
+
+
+EDITS = (
+    _drop_rule,
+    _add_rule,
+    _change_rule,
+    _change_rule,
+    _change_rule,
+    _rename,
+    _reorder,
+    _read_otherwise,
+    _constrain,
+)
