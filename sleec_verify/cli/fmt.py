@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 
 import click
@@ -64,7 +63,9 @@ def _safely(path: str, ruleset: Ruleset, laid_out: str) -> None:
     """Replace the file's text, once more than the printer's tests show that the rules say the same."""
     if parse(laid_out) != ruleset:
         raise AssertionError(f"the layout of {path} would change what its rules say")
-    _replace(path, laid_out)
+    from sleec_verify.cli.files import write_whole
+
+    write_whole(path, laid_out)
 
 
 def _laid_out(ruleset: Ruleset) -> str:
@@ -85,23 +86,3 @@ def _show(path: str, ruleset: Ruleset, laid_out: str, mode: str) -> None:
         before, after = (text.splitlines(keepends=True) for text in (ruleset.source.text, laid_out))
         for line in unified_diff(before, after, name, name):
             write_data((line if line.endswith("\n") else line + "\n\\ No newline at end of file\n",))
-
-
-def _replace(path: str, text: str) -> None:
-    """Put `text` in place of the file's, whole or not at all. A link stays a link, and the rights stay as they are."""
-    from shutil import copymode
-    from tempfile import NamedTemporaryFile
-
-    target = os.path.realpath(path)
-    try:
-        with NamedTemporaryFile("wb", dir=os.path.dirname(target), prefix=".", suffix=".tmp", delete=False) as file:
-            try:
-                file.write(text.encode())
-                file.close()
-                copymode(target, file.name)
-                os.replace(file.name, target)
-            except BaseException:
-                os.unlink(file.name)
-                raise
-    except OSError as error:
-        raise SleecError(f"{path} cannot be written: {error.strerror}", "nothing of it was changed") from None
