@@ -41,6 +41,8 @@ def test_version(cli: Cli) -> None:
 def test_help_shows_an_example_that_works(
     name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    if name == "gate" and not (ROOT / ".git").exists():
+        pytest.skip("the example asks git, and this is no repository")
     monkeypatch.chdir(ROOT)
     assert run([name, "--help"]) == 0
     shown = " ".join(capsys.readouterr().out.split())
