@@ -156,9 +156,12 @@ class Repository:
         return f"in CI, fetch it first: git fetch origin {revision}" if revision else "name a branch, a tag or a commit"
 
     def merge_base(self, one: str, other: str) -> str:
-        """The newest commit that two have in common. Raises `GitError`."""
-        done = _git("merge-base", one, other)
-        if done.returncode:
+        """The newest commit that two revisions have in common. Raises `GitError`."""
+        done = None if one.startswith("-") or not one else _git("merge-base", one, other)
+        if done is None or done.returncode:
+            # Only now does it matter whether one of them is no revision.
+            self.commit(one)
+            self.commit(other)
             raise GitError(f"{one} and {other} have no commit in common", "in CI, fetch the whole history")
         return done.stdout.decode().strip()
 

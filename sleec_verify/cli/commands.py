@@ -22,6 +22,7 @@ _SUMMARIES = {
     "conform": "Does a robot's code have the structure that the rules ask for?",
     "convert": "The rules in another language or reading.",
     "diff": "What changes between two versions of the rules?",
+    "gate": "May this change to the rules go in?",
     "fmt": "The rules in their usual layout.",
     "rules": "List and explain every finding code.",
     "completion": "A script by which a shell completes commands.",

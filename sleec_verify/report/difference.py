@@ -79,15 +79,16 @@ _ROLES: Mapping[Relation, str] = {
 
 
 def _full(report: Report, palette: Palette) -> Iterator[str]:
-    parts = [list(_on(found, palette)) for found in report.differences]
+    parts = [list(on_difference(found, palette)) for found in report.differences]
     if report.asked:
-        parts.append(list(_on_assertions(report.asked, palette)))
+        parts.append(list(on_assertions(report.asked, palette)))
     if len(report.compared) + report.unchanged > 1:
         parts.append([_in_all(report, palette)])
     yield "\n".join("".join(f"{line}\n" for line in part) for part in parts)
 
 
-def _on(found: Difference, palette: Palette) -> Iterator[str]:
+def on_difference(found: Difference, palette: Palette) -> Iterator[str]:
+    """The lines on one ruleset."""
     word = palette(_ROLES[found.relation], found.relation)
     yield f"{_called(found.old, found.new)}: {word}: {_why(found)}"
     for change in found.changes:
@@ -134,6 +135,21 @@ def _rule(change: Change) -> str:
     if new is None:
         return f"{old} (gone)"
     return new if old == new else f"{new} (was {old})"
+
+
+def change_in_words(change: Change) -> str:
+    """``dress_assist: OpenCurtains is no longer due``"""
+    return f"{_rule(change)}: {_so(change)}"
+
+
+def conflict_in_words(conflict: ConflictChange) -> str:
+    """``new conflict: a and b: o is now due and forbidden at once``"""
+    head = "new conflict" if conflict.way == "added" else "conflict gone"
+    return f"{head}: {_conflicting(conflict)}: {_at_odds(conflict)}"
+
+
+def _conflicting(conflict: ConflictChange) -> str:
+    return listed(conflict.rules) if conflict.rules else "the constraints"
 
 
 def _so(change: Change) -> str:
@@ -188,9 +204,7 @@ def _before_and_after(
 
 
 def _due(one: Deciding) -> str:
-    from sleec_runtime.model_time import described
-
-    return " AND ".join(described(o) for o in one.obligations) or "nothing"
+    return " AND ".join(map(in_short, one.obligations)) or "nothing"
 
 
 def _clause(one: Deciding) -> str:
@@ -242,11 +256,10 @@ def _conflict(found: Difference, conflict: ConflictChange, palette: Palette) -> 
     added = conflict.way == "added"
     ruleset = found.new if added else found.old
     head = palette("error", "new conflict") if added else palette("good", "conflict gone")
-    rules = listed(conflict.rules) if conflict.rules else "the constraints"
     lines = sorted({ruleset.source.place(span).line for span in conflict.origins})
     by = f", by the constraint{'s' if len(lines) > 1 else ''} of line {listed(map(str, lines))}" if lines else ""
     yield ""
-    yield f"  {head}: {rules}: {_at_odds(conflict)}{by}"
+    yield f"  {head}: {_conflicting(conflict)}: {_at_odds(conflict)}{by}"
     yield f"    {witness_text(conflict.witness)}:"
     yield from _before_and_after(found, conflict.before, conflict.after, palette)
     yield f"    {extent_text(conflict.extent)}{_in_domains(conflict.domains)}"
@@ -296,7 +309,10 @@ def _same_meaning(found: Difference, palette: Palette) -> Iterator[str]:
         yield f"  {palette('strong', 'readings')}: {found.old.reading} before, {found.new.reading} after"
 
 
-def _on_assertions(asked: Sequence[Asked], palette: Palette) -> Iterator[str]:
+def on_assertions(asked: Sequence[Asked], palette: Palette) -> Iterator[str]:
+    """The lines on all assertions."""
+    if not asked:
+        return
     from sleec_verify.assertions import Broken
 
     for assertion, ruleset, answer in asked:

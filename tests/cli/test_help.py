@@ -41,9 +41,14 @@ def test_version(cli: Cli) -> None:
 def test_help_shows_an_example_that_works(
     name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    for folder in ("rulesets", "examples"):
-        (tmp_path / folder).symlink_to(ROOT / folder)
-    monkeypatch.chdir(tmp_path)  # some examples write files
+    if name == "gate":
+        if not (ROOT / ".git").exists():
+            pytest.skip("the example asks git, and this is no repository")
+        monkeypatch.chdir(ROOT)
+    else:
+        for folder in ("rulesets", "examples"):
+            (tmp_path / folder).symlink_to(ROOT / folder)
+        monkeypatch.chdir(tmp_path)  # some examples write files
     assert run([name, "--help"]) == 0
     shown = " ".join(capsys.readouterr().out.split())
     match = re.search(r"Example: sleec-verify (.+)$", shown)

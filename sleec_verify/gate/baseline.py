@@ -1,0 +1,73 @@
+"""Findings that were there when a team began: a file of them, so that only new ones block.
+
+A finding is known again by its ruleset, its code, and the rules, clauses and obligations that it names; lines may move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from sleec_verify.gate.config import ConfigError
+
+if TYPE_CHECKING:
+    from sleec_verify.finding import Finding
+
+Key = tuple[str, str, tuple[str, ...], tuple[tuple[str, int], ...], tuple[str, ...]]
+_VERSION = 1
+
+
+def key(path: str, finding: Finding) -> Key:
+    """What a finding is known by."""
+    clauses = tuple((clause.rule, clause.clause) for clause in finding.clauses)
+    return path, finding.code, finding.rules, clauses, finding.obligations
+
+
+def read_baseline(path: str) -> set[Key]:
+    """The findings of a baseline file.
+
+    Raises:
+        ConfigError: it is not there, or is none.
+    """
+    import json
+
+    try:
+        with open(path, encoding="utf-8") as file:
+            table = json.load(file)
+        if table["version"] != _VERSION:
+            raise ConfigError(f"{path} is a baseline of version {table['version']!r}", _RENEW)
+        return {_key(entry) for entry in table["findings"]}
+    except FileNotFoundError:
+        raise ConfigError(f"there is no baseline {path}", "make it: sleec-verify gate --write-baseline …") from None
+    except OSError as error:
+        raise ConfigError(f"{path} cannot be read: {error.strerror}") from None
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        raise ConfigError(f"{path} is no baseline", _RENEW) from None
+
+
+_RENEW = "make it anew: sleec-verify gate --write-baseline …"
+
+
+def _key(entry: Mapping[str, Any]) -> Key:
+    texts = [entry["ruleset"], entry["code"], *entry["rules"], *entry["obligations"]]
+    clauses = tuple((str(clause["rule"]), int(clause["clause"])) for clause in entry["clauses"])
+    if not all(isinstance(text, str) for text in texts):
+        raise TypeError("names are texts")
+    return entry["ruleset"], entry["code"], tuple(entry["rules"]), clauses, tuple(entry["obligations"])
+
+
+def baseline_text(keys: Iterable[Key]) -> str:
+    """A baseline file of these findings, sorted, so that versions of it can be compared."""
+    findings = [
+        {
+            "ruleset": path,
+            "code": code,
+            "rules": list(rules),
+            "clauses": [{"rule": rule, "clause": clause} for rule, clause in clauses],
+            "obligations": list(obligations),
+        }
+        for path, code, rules, clauses, obligations in sorted(set(keys))
+    ]
+    import json
+
+    return json.dumps({"version": _VERSION, "findings": findings}, indent=2) + "\n"

@@ -1,0 +1,221 @@
+"""What a team has set: ``sleec-verify.toml``, or ``[tool.sleec-verify]`` of pyproject.toml.
+
+Every key is checked, because a misspelt one would let through what it was meant to block.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any, Literal
+
+from sleec_runtime.errors import SleecError
+from sleec_verify.finding import SEVERITIES, Severity
+
+OWN = "sleec-verify.toml"
+SHARED = "pyproject.toml"
+TABLE = "sleec-verify"
+
+
+class ConfigError(SleecError):
+    """A configuration that cannot be used: missing, no TOML, or with a key or value that there is not."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """A robot's code, and the rules whose structure it is to have. Paths are from the folder of the configuration."""
+
+    code: str
+    rules: str
+    domain: str | None = None
+
+
+@dataclass(frozen=True)
+class Policy:
+    """What blocks.
+
+    `findings`: findings of `check` and `conform` at least as grave as this; "never" for none. `new_conflicts`:
+    situations that conflict now and did not in the base. `lost_obligations`: patterns (``Call*``, ``NOT Speak``) of
+    obligations that some situation loses. `dead_hedges`: a hedge that decides nowhere. `unknown`: whatever is not
+    decided. `unused_suppressions`: a suppression that nothing needs. `clause_coverage`: fewer clauses than this, in
+    percent, reached by the cases beside a ruleset; None asks nothing.
+    """
+
+    findings: Severity | Literal["never"] = "error"
+    new_conflicts: bool = True
+    lost_obligations: tuple[str, ...] = ()
+    dead_hedges: bool = False
+    unknown: bool = True
+    unused_suppressions: bool = False
+    clause_coverage: float | None = None
+
+
+@dataclass(frozen=True)
+class Config:
+    """All settings. `path` is where they were read, None where there are none; `folder` is what paths are from."""
+
+    path: str | None = None
+    folder: str = "."
+    rulesets: tuple[str, ...] = (".",)
+    base: str | None = None
+    baseline: str | None = None
+    assertions: tuple[str, ...] = ()
+    targets: tuple[Target, ...] = ()
+    block: Policy = Policy()
+
+    def at(self, path: str) -> str:
+        """A path of the configuration, from the current folder."""
+        return os.path.normpath(os.path.join(self.folder, path))
+
+
+def find_config(folder: str = ".") -> Config:
+    """The settings of the nearest folder, from `folder` upwards, that has any; the defaults where none has.
+
+    Raises:
+        ConfigError: what is found cannot be used.
+    """
+    here = os.path.abspath(folder)
+    while True:
+        own, shared = (os.path.join(here, name) for name in (OWN, SHARED))
+        if os.path.lexists(own):
+            return read_config(own)
+        if os.path.isfile(shared):
+            table = _table(shared).get("tool", {})
+            if isinstance(table, dict) and TABLE in table:
+                return read_config(shared)
+        above = os.path.dirname(here)
+        if above == here:
+            return Config()
+        here = above
+
+
+def read_config(path: str) -> Config:
+    """The settings in one file. Raises `ConfigError`."""
+    shown = os.path.relpath(path)
+    table: object = _table(path)
+    where = ""
+    if os.path.basename(path) == SHARED:
+        where = f"[tool.{TABLE}] "
+        for key in ("tool", TABLE):
+            table = table.get(key) if isinstance(table, dict) else None
+        if table is None:
+            raise ConfigError(f"{shown} has no table [tool.{TABLE}]", f"write one, or name a {OWN}")
+    reader = _Reader(shown, where)
+    settings = reader.read(table, _SETTINGS, "")
+    return Config(path=shown, folder=os.path.relpath(os.path.dirname(os.path.abspath(path))), **settings)
+
+
+def _table(path: str) -> dict[str, Any]:
+    toml = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+    shown = os.path.relpath(path)
+    try:
+        with open(path, "rb") as file:
+            table: dict[str, Any] = toml.loads(file.read().decode("utf-8-sig"))
+    except FileNotFoundError:
+        raise ConfigError(f"there is no file {shown}", "check the spelling of its name and folder") from None
+    except OSError as error:
+        raise ConfigError(f"{shown} cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise ConfigError(f"{shown} is not UTF-8", "save it as UTF-8") from None
+    except (ValueError, RecursionError) as error:
+        raise ConfigError(f"{shown} is no TOML: {error}") from None
+    return table
+
+
+class _Reader:
+    """Reads tables, and says of what does not fit where it stands."""
+
+    def __init__(self, path: str, where: str) -> None:
+        self._path = path
+        self._where = where
+
+    def read(self, table: object, keys: Mapping[str, _Read], at: str) -> dict[str, Any]:
+        if not isinstance(table, dict):
+            self.fail(at or "the table", table, "a table of keys and values")
+        assert isinstance(table, dict)
+        found = {}
+        for key, value in table.items():
+            name = f"{at}.{key}" if at else key
+            if key not in keys:
+                from sleec_runtime.language.suggest import nearest
+
+                near = nearest(key, sorted(keys))
+                hint = f"did you mean {near}?" if near else f"there are {', '.join(sorted(keys))}"
+                raise ConfigError(f"{self._path}: {self._where}has an unknown key {name}", hint)
+            found[key.replace("-", "_")] = keys[key](self, name, value)
+        return found
+
+    def fail(self, name: str, value: object, wanted: str) -> Any:
+        shown = repr(value)
+        shown = f"{shown[:37]}..." if len(shown) > 40 else shown
+        raise ConfigError(f"{self._path}: {self._where}{name} is {shown}", f"it is {wanted}")
+
+
+_Read = Callable[[_Reader, str, object], Any]
+
+
+def _text(reader: _Reader, name: str, value: object) -> str:
+    return value if isinstance(value, str) and value else str(reader.fail(name, value, "a text"))
+
+
+def _truth(reader: _Reader, name: str, value: object) -> bool:
+    return value if isinstance(value, bool) else bool(reader.fail(name, value, "true or false"))
+
+
+def _texts(reader: _Reader, name: str, value: object) -> tuple[str, ...]:
+    if isinstance(value, str) and value:
+        return (value,)
+    if not isinstance(value, list) or not all(isinstance(one, str) and one for one in value):
+        reader.fail(name, value, "a list of texts")
+    return tuple(value)  # type: ignore[arg-type]
+
+
+def _severity(reader: _Reader, name: str, value: object) -> str:
+    allowed = (*SEVERITIES, "never")
+    return str(value) if value in allowed else str(reader.fail(name, value, f"one of {', '.join(allowed)}"))
+
+
+def _percent(reader: _Reader, name: str, value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value <= 100:
+        reader.fail(name, value, "a number from 0 to 100")
+    return float(value)  # type: ignore[arg-type]
+
+
+def _targets(reader: _Reader, name: str, value: object) -> tuple[Target, ...]:
+    tables: Sequence[object] = value if isinstance(value, list) else [value]
+    found = []
+    for number, table in enumerate(tables, 1):
+        at = f"{name} {number}" if len(tables) > 1 else name
+        settings = reader.read(table, {"code": _text, "rules": _text, "domain": _text}, at)
+        for key in ("code", "rules"):
+            if key not in settings:
+                raise ConfigError(f"{reader._path}: {reader._where}{at} has no {key}", "code and rules belong together")
+        found.append(Target(**settings))
+    return tuple(found)
+
+
+def _policy(reader: _Reader, name: str, value: object) -> Policy:
+    return Policy(**reader.read(value, _POLICIES, name))
+
+
+_POLICIES: Mapping[str, _Read] = {
+    "findings": _severity,
+    "new-conflicts": _truth,
+    "lost-obligations": _texts,
+    "dead-hedges": _truth,
+    "unknown": _truth,
+    "unused-suppressions": _truth,
+    "clause-coverage": _percent,
+}
+
+_SETTINGS: Mapping[str, _Read] = {
+    "rulesets": _texts,
+    "base": _text,
+    "baseline": _text,
+    "assertions": _texts,
+    "targets": _targets,
+    "block": _policy,
+}

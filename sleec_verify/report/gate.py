@@ -1,0 +1,209 @@
+"""What `gate` says: on the terminal, for programs, and as a summary in Markdown for a pull request."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from sleec_verify.report.difference import WORDS, change_in_words, conflict_in_words, extent_text, witness_text
+from sleec_verify.report.outcome import counted
+from sleec_verify.report.words import in_short, listed
+
+if TYPE_CHECKING:
+    from sleec_verify.compare import Change, ConflictChange, Deciding, Difference
+    from sleec_verify.gate.result import Block, Examined, Gated, Status
+    from sleec_verify.report.json import Json
+    from sleec_verify.report.palette import Palette
+
+MARK = "<!-- written by sleec-verify gate -->"
+"""The first line of every summary: only a file that begins with it is replaced by the next."""
+
+VERDICTS: Mapping[Status, str] = {
+    "passed": "passed",
+    "blocked": "blocked",
+    "unknown": "not decided",
+    "unusable": "something cannot be read",
+}
+_ROLES: Mapping[Status, str] = {"passed": "good", "blocked": "error", "unknown": "unknown", "unusable": "error"}
+
+
+# In full --------------------------------------------------------------------------------------------------
+
+
+def _full(found: Gated, palette: Palette) -> Iterator[str]:
+    from sleec_verify.report.difference import on_assertions, on_difference
+    from sleec_verify.report.full import finding_lines
+
+    for one in found.examined:
+        if one.difference is not None:
+            yield from (line + "\n" for line in on_difference(one.difference, palette))
+            yield "\n"
+        for finding in one.findings:
+            assert one.ruleset is not None, "only what was read has findings"
+            source = finding.source or one.ruleset.source
+            yield from (line + "\n" for line in finding_lines(finding, source, palette))
+            yield "\n"
+        yield from (line + "\n" for line in _set_aside(one, palette))
+    for conformed in found.conformed:
+        for finding in conformed.findings:
+            if finding.source is not None or conformed.ruleset is not None:
+                source = finding.source or conformed.ruleset.source  # type: ignore[union-attr]
+                yield from (line + "\n" for line in finding_lines(finding, source, palette))
+                yield "\n"
+    yield from (line + "\n" for line in on_assertions(found.asked, palette))
+    yield from (f"{palette('error', 'blocks')}: {_line(block)}\n" for block in found.blocks)
+    yield from (f"{palette('unknown', 'unknown')}: {_line(block)}\n" for block in found.unknown)
+    if found.stale:
+        word = "entry of the baseline is" if found.stale == 1 else "entries of the baseline are"
+        yield f"{palette('note', 'note')}: {found.stale} {word} found no more; renew it with --write-baseline\n"
+    yield f"{palette(_ROLES[found.status], VERDICTS[found.status])}: {_in_short(found)}\n"
+
+
+def _line(block: Block) -> str:
+    return f"{block.policy}: {block.where}: {block.what}"
+
+
+def _set_aside(one: Examined, palette: Palette) -> Iterator[str]:
+    for finding, suppression in one.allowed:
+        what = f"{finding.code} {finding.message}, because {suppression.reason}"
+        yield f"{one.path}: {palette('faint', 'allowed')}: {what}"
+    if one.known:
+        yield f"{one.path}: {palette('faint', 'baseline')}: {counted(len(one.known), 'finding')} that the baseline has"
+    for unused in one.unused:
+        what = f"line {one.line(unused.span)} allows {listed(unused.allowed)}, and there is no such finding"
+        yield f"{one.path}: {palette('warning', 'unused suppression')}: {what}"
+
+
+def _in_short(found: Gated) -> str:
+    parts = [f"{counted(len(found.examined), 'ruleset')} examined, {found.unchanged} the same as in {found.base}"]
+    if found.blocks:
+        parts.append(f"{counted(len(found.blocks), 'reason')} to block")
+    if found.unknown:
+        parts.append(f"{len(found.unknown)} unknown")
+    return "; ".join(parts)
+
+
+# For programs ---------------------------------------------------------------------------------------------
+
+
+def _json(found: Gated, palette: Palette) -> Iterator[str]:
+    from sleec_verify import __version__
+    from sleec_verify.report.json import dump
+
+    del palette  # a program reads this
+    yield dump(
+        {
+            "tool": {"name": "sleec-verify", "version": __version__},
+            "base": found.base,
+            "status": found.status,
+            "blocks": [dict(block._asdict()) for block in found.blocks],
+            "unknown": [dict(block._asdict()) for block in found.unknown],
+            "rulesets": [_examined_json(one) for one in found.examined],
+            "unchanged": found.unchanged,
+            "stale": found.stale,
+        }
+    )
+
+
+def _examined_json(one: Examined) -> Json:
+    from sleec_verify.report.json import error_json, finding_json
+
+    ruleset = one.ruleset
+    reached = one.coverage
+    return {
+        "path": one.path,
+        "relation": None if one.difference is None else one.difference.relation,
+        "findings": []
+        if ruleset is None
+        else [finding_json(finding, finding.source or ruleset.source) for finding in one.findings],
+        "allowed": [
+            {"code": finding.code, "rules": list(finding.rules), "reason": suppression.reason}
+            for finding, suppression in one.allowed
+        ],
+        "baseline": len(one.known),
+        "unused_suppressions": [
+            {"line": one.line(unused.span), "allowed": list(unused.allowed)} for unused in one.unused
+        ],
+        "coverage": None
+        if reached is None or reached.why is not None
+        else {"reached": reached.reached, "clauses": reached.clauses, "missed": list(reached.missed)},
+        "errors": [error_json(error) for error in one.errors],
+    }
+
+
+# For a pull request ---------------------------------------------------------------------------------------
+
+
+def markdown(found: Gated) -> str:
+    """The summary. Names and messages are escaped, so that none of them is taken for Markdown or HTML."""
+    return "\n".join(_markdown(found)) + "\n"
+
+
+def _markdown(found: Gated) -> Iterator[str]:
+    yield MARK
+    yield f"## SLEEC rules: {VERDICTS[found.status]}"
+    yield ""
+    yield f"Compared with {_code(found.base)}: {_plain(_in_short(found))}."
+    for title, blocks in (("What blocks", found.blocks), ("What is not decided", found.unknown)):
+        if blocks:
+            yield from ("", f"### {title}", "")
+            yield from (f"- **{block.policy}**, {_code(block.where)}: {_plain(block.what)}" for block in blocks)
+    if found.unusable:
+        yield from ("", "### What cannot be read", "")
+        errors = [(one.path, error) for one in found.examined for error in one.errors]
+        errors += [(one.target.code, one.error) for one in found.conformed if one.error is not None]
+        yield from (f"- {_code(path)}: {_plain(str(error).splitlines()[0])}" for path, error in errors)
+    if found.examined:
+        yield from ("", "| ruleset | change | findings |", "| --- | --- | --- |")
+        yield from (_row(one) for one in found.examined)
+    for one in found.examined:
+        if one.difference is not None and (one.difference.changes or one.difference.conflicts):
+            yield from ("", f"### What changes in {_code(one.path)}", "")
+            yield from _changes(one.difference)
+
+
+def _row(one: Examined) -> str:
+    change = "cannot be read"
+    if one.difference is not None:
+        change = f"{one.difference.relation}: {WORDS[one.difference.relation]}"
+    counts = [counted(len(one.findings), "finding")]
+    counts += [f"{len(one.allowed)} allowed"] if one.allowed else []
+    counts += [f"{len(one.known)} in the baseline"] if one.known else []
+    counts += [f"{counted(len(one.unused), 'unused suppression')}"] if one.unused else []
+    if one.coverage is not None and one.coverage.why is None:
+        counts.append(f"{one.coverage.reached} of {one.coverage.clauses} clauses reached")
+    return f"| {_code(one.path)} | {_plain(change)} | {', '.join(counts)} |"
+
+
+def _changes(difference: Difference) -> Iterator[str]:
+    for change in difference.changes:
+        yield from _change(f"**{_plain(change_in_words(change))}**", change)
+    for conflict in difference.conflicts:
+        yield from _change(f"**{_plain(conflict_in_words(conflict))}**", conflict)
+
+
+def _change(head: str, one: Change | ConflictChange) -> Iterator[str]:
+    yield f"- {head}, {_plain(extent_text(one.extent))}"
+    yield f"  {_plain(witness_text(one.witness))}:"
+    yield f"  before {_deciding(one.before)}; after {_deciding(one.after)}"
+
+
+def _deciding(deciding: tuple[Deciding, ...]) -> str:
+    said = [f"{_plain(', '.join(map(in_short, one.obligations)) or 'nothing')} ({_code(one.rule)})" for one in deciding]
+    return listed(said) if said else "nothing"
+
+
+_SPECIAL = str.maketrans({character: f"\\{character}" for character in "\\`*_{}[]<>#|~"} | {"\n": " ", "\r": " "})
+
+
+def _plain(text: str) -> str:
+    return text.translate(_SPECIAL).replace("&", "&amp;").replace("@", "@\u200b")
+
+
+def _code(text: str) -> str:
+    """As code, which nothing in it can end or turn into a cell of a table."""
+    cleaned = text.replace("`", "'").replace("|", "¦").replace("\n", " ").replace("\r", " ")
+    return f"`{cleaned}`"
+
+
+RENDERERS: Mapping[str, Callable[[Gated, Palette], Iterator[str]]] = {"full": _full, "json": _json}

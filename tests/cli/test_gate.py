@@ -1,0 +1,391 @@
+"""`gate` from end to end, in real repositories: every policy passes once and blocks once."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.cli.conftest import Cli, Ran
+from tests.cli.repository import Repository
+
+pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
+
+OLD = "RULE a\nWHEN t THEN o\nUNLESS c IN WHICH CASE p\n"
+CLASH = OLD + "RULE b\nWHEN t THEN NOT o\n"
+DEAD = OLD + "UNLESS NOT c IN WHICH CASE q\n"
+LOST = "RULE a\nWHEN t THEN o\n"
+TIMED = "RULE a\nWHEN t THEN o WITHIN 1 minute OTHERWISE p\n"
+TIMED_ELSE = TIMED.replace("OTHERWISE p", "OTHERWISE q")
+CASES = '[[case]]\nwhen = ["t"]\nobligations = ["o"]\n'
+BOTH = CASES + '[[case]]\nwhen = ["t"]\ngiven = { c = true }\nobligations = ["p"]\n'
+
+
+@pytest.fixture
+def repository(tmp_path: Path) -> Repository:
+    made = Repository(tmp_path)
+    made.commit(a_sleec=OLD)
+    return made
+
+
+def config(repository: Repository, *lines: str, block: str = "") -> None:
+    """A configuration with these lines, and those of what blocks."""
+    blocks = f"[tool.sleec-verify.block]\n{block}\n" if block else ""
+    repository.put("pyproject.toml", "\n".join(["[tool.sleec-verify]", *lines, blocks]))
+
+
+def gated(cli: Cli, *arguments: str) -> tuple[int, dict[str, Any]]:
+    ran = cli("gate", "--base", "main", "--format", "json", *arguments)
+    assert ran.err == "", ran.err
+    return ran.code, json.loads(ran.out)
+
+
+def policies(said: dict[str, Any]) -> set[str]:
+    return {block["policy"] for block in said["blocks"]}
+
+
+# Policies -------------------------------------------------------------------------------------------------
+
+
+def test_nothing_changed(cli: Cli, repository: Repository) -> None:
+    ran = cli("gate", "--base", "main")
+    assert ran == Ran(0, "passed: no rulesets examined, 1 the same as in main\n", "")
+
+
+@pytest.mark.parametrize(
+    ("policy", "new", "blocking", "passing"),
+    [
+        ("findings", CLASH, 'findings = "error"\nnew-conflicts = false', 'findings = "never"\nnew-conflicts = false'),
+        ("findings", DEAD, 'findings = "warning"', 'findings = "error"'),
+        ("new-conflicts", CLASH, 'findings = "never"', 'findings = "never"\nnew-conflicts = false'),
+        ("lost-obligations", LOST, 'lost-obligations = ["p*"]', 'lost-obligations = ["q*"]'),
+        ("dead-hedges", DEAD, "dead-hedges = true", "dead-hedges = false"),
+        ("clause-coverage", LOST, "clause-coverage = 1", "clause-coverage = 0"),
+    ],
+)
+def test_policies_block_and_let_pass(
+    cli: Cli, repository: Repository, policy: str, new: str, blocking: str, passing: str
+) -> None:
+    repository.write(a_sleec=new)
+    config(repository, block=blocking)
+    code, said = gated(cli)
+    assert (code, said["status"]) == (1, "blocked")
+    assert policies(said) == {policy}
+    config(repository, block=passing)
+    code, said = gated(cli)
+    assert (code, said["status"], said["blocks"]) == (0, "passed", [])
+
+
+def test_unknown_is_exit_3_unless_it_may_pass(cli: Cli, repository: Repository) -> None:
+    repository.commit(a_sleec=TIMED)
+    repository.write(a_sleec=TIMED_ELSE)
+    config(repository, block="findings = 'never'")
+    code, said = gated(cli)
+    assert (code, said["status"]) == (3, "unknown")
+    assert "otherwise" in said["unknown"][0]["what"]
+    config(repository, block="findings = 'never'\nunknown = false")
+    assert gated(cli)[0] == 0
+
+
+@pytest.mark.parametrize(("cases", "percent"), [(CASES, 50), (BOTH, 100)])
+def test_clause_coverage_counts_the_clauses_that_cases_reach(
+    cli: Cli, repository: Repository, cases: str, percent: int
+) -> None:
+    repository.write(a_sleec=OLD + "\n", a_cases_toml=cases)
+    config(repository, block=f"clause-coverage = {percent}")
+    assert gated(cli)[0] == 0
+    config(repository, block=f"clause-coverage = {percent + 0.5}" if percent < 100 else "clause-coverage = 100")
+    code, said = gated(cli)
+    assert code == (1 if percent < 100 else 0)
+    assert said["rulesets"][0]["coverage"]["reached"] == percent // 50
+
+
+def test_coverage_of_rules_with_times_is_unknown(cli: Cli, repository: Repository) -> None:
+    repository.write(a_sleec=TIMED)
+    config(repository, block="clause-coverage = 50")
+    code, said = gated(cli)
+    assert code == 3
+    assert any("clause coverage" in block["what"] for block in said["unknown"])
+
+
+def test_cases_that_are_none(cli: Cli, repository: Repository) -> None:
+    repository.write(a_sleec=LOST, a_cases_toml="[[case]]\nwehn = 1\n")
+    config(repository, block="clause-coverage = 50")
+    ran = cli("gate", "--base", "main")
+    assert ran.code == 2
+    assert "did you mean when?" in ran.err
+
+
+def test_assertions(cli: Cli, repository: Repository) -> None:
+    repository.put("must.txt", "never p when not c\n")
+    config(repository, 'assertions = ["must.txt", "always o when t and not c"]')
+    assert gated(cli)[0] == 0
+    code, said = gated(cli, "--assert", "never p")
+    assert code == 1
+    assert policies(said) == {"assertions"}
+    ran = cli("gate", "--base", "main", "--assert", "never pp")
+    assert ran.code == 2
+    assert "the rules do not know pp" in ran.err
+
+
+def test_the_code_of_targets(cli: Cli, repository: Repository) -> None:
+    root = Path(__file__).parents[2]
+    robot = (root / "examples" / "household_robot.py").read_text(encoding="utf-8")
+    repository.put("rules/household.sleec", (root / "rulesets" / "household.sleec").read_text(encoding="utf-8"))
+    repository.put("robot.py", robot)
+    repository.commit()
+    target = '[[tool.sleec-verify.targets]]\ncode = "robot.py"\nrules = "rules/household.sleec"'
+    config(repository, target)
+    assert gated(cli)[0] == 0
+    assert "self.refuse_request()" in robot
+    repository.put("robot.py", robot.replace("self.refuse_request()", "self.open_curtains()", 1))
+    code, said = gated(cli)
+    assert code == 1
+    assert {block["where"] for block in said["blocks"]} == {"robot.py"}
+    repository.put("robot.py", None)
+    ran = cli("gate", "--base", "main")
+    assert ran.code == 2
+    assert "robot.py" in ran.err
+
+
+# The base -------------------------------------------------------------------------------------------------
+
+
+def test_the_base_is_what_both_have_in_common(cli: Cli, repository: Repository) -> None:
+    repository.git("checkout", "-q", "-b", "feature")
+    repository.git("checkout", "-q", "main")
+    repository.commit(a_sleec=LOST)
+    repository.git("checkout", "-q", "feature")
+    assert gated(cli)[1]["unchanged"] == 1
+
+
+def test_only_what_changed_is_examined(cli: Cli, repository: Repository) -> None:
+    repository.commit(b_sleec=CLASH)
+    repository.write(a_sleec=OLD + "\n// the same\n")
+    code, said = gated(cli)
+    assert (code, [one["path"] for one in said["rulesets"]], said["unchanged"]) == (0, ["a.sleec"], 1)
+    code, said = gated(cli, "--all")
+    assert (code, len(said["rulesets"])) == (1, 2)
+
+
+def test_added_and_deleted_files(cli: Cli, repository: Repository) -> None:
+    repository.write(a_sleec=None, b_sleec=OLD)
+    config(repository, block='lost-obligations = ["o"]')
+    code, said = gated(cli)
+    assert code == 1
+    assert [(block["policy"], block["where"]) for block in said["blocks"]] == [("lost-obligations", "a.sleec")]
+    assert [one["relation"] for one in said["rulesets"]] == ["laxer", "stricter"]
+
+
+def test_the_base_and_rulesets_of_the_configuration(
+    cli: Cli, repository: Repository, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    repository.put("rules/b.sleec", OLD)
+    config(repository, 'base = "main"', 'rulesets = ["rules"]')
+    repository.commit()
+    repository.put("rules/b.sleec", CLASH)
+    repository.put("a.sleec", "no rules")
+    (repository.folder / "rules" / "deep").mkdir()
+    monkeypatch.chdir(repository.folder / "rules" / "deep")
+    ran = cli("gate", "--format", "json")
+    assert ran.code == 1
+    assert [one["path"] for one in json.loads(ran.out)["rulesets"]] == ["rules/b.sleec"]
+
+
+# Suppressions and the baseline ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        DEAD.replace("UNLESS NOT c", "// sleec: allow SLEEC202 because it comes next year\nUNLESS NOT c"),
+        DEAD.replace("CASE q", "CASE q  # sleec: allow dead-hedge because it comes next year"),
+        "# sleec: allow SLEEC202, SLEEC401 because it comes next year\n" + DEAD,
+    ],
+)
+def test_suppressions_with_a_reason(cli: Cli, repository: Repository, text: str) -> None:
+    repository.write(a_sleec=text)
+    config(repository, block="dead-hedges = true")
+    code, said = gated(cli)
+    assert code == 0
+    (ruleset,) = said["rulesets"]
+    assert {"code": "SLEEC202", "rules": ["a"], "reason": "it comes next year"} in ruleset["allowed"]
+    assert not ruleset["unused_suppressions"]
+
+
+def test_a_suppression_elsewhere_allows_nothing_and_is_reported(cli: Cli, repository: Repository) -> None:
+    text = DEAD + "# sleec: allow SLEEC202 because it is not here\nRULE b\nWHEN u THEN x\n"
+    repository.write(a_sleec=text)
+    config(repository, block="dead-hedges = true")
+    code, said = gated(cli)
+    assert (code, policies(said)) == (1, {"dead-hedges"})
+    assert said["rulesets"][0]["unused_suppressions"] == [{"line": 5, "allowed": ["SLEEC202"]}]
+    assert "unused suppression: line 5 allows SLEEC202" in cli("gate", "--base", "main").out
+
+
+@pytest.mark.parametrize(("setting", "code"), [("true", 1), ("false", 0)])
+def test_unused_suppressions_can_block(cli: Cli, repository: Repository, setting: str, code: int) -> None:
+    repository.write(a_sleec="# sleec: allow SLEEC101 because of history\n" + OLD)
+    config(repository, block=f"unused-suppressions = {setting}")
+    found, said = gated(cli)
+    assert found == code
+    assert policies(said) == ({"unused-suppressions"} if code else set())
+
+
+@pytest.mark.parametrize(
+    ("comment", "message"),
+    [
+        ("# sleec: allow SLEEC202", "a suppression needs a reason"),
+        ("# sleec: allow SLEEC202 because", "a suppression needs a reason"),
+        ("# sleec: alow SLEEC202 because x", "allows nothing"),
+        ("# sleec: allow SLEEC22 because x", "did you mean SLEEC"),
+        ("# sleec: allow ded-hedge because x", "did you mean dead-hedge?"),
+    ],
+)
+def test_suppressions_that_are_none(cli: Cli, repository: Repository, comment: str, message: str) -> None:
+    repository.write(a_sleec=f"{comment}\n{DEAD}")
+    code, said = gated(cli)
+    assert (code, policies(said)) == (1, {"suppressions"})
+    assert message in said["blocks"][0]["what"]
+    assert "line 1" in said["blocks"][0]["what"]
+
+
+def test_a_suppressed_conflict_is_no_new_one(cli: Cli, repository: Repository) -> None:
+    repository.write(a_sleec=CLASH.replace("RULE b", "# sleec: allow SLEEC101 because the nurse decides\nRULE b"))
+    assert gated(cli)[0] == 0
+
+
+def test_a_baseline_lets_old_findings_pass_and_blocks_new_ones(cli: Cli, repository: Repository) -> None:
+    config(repository, 'baseline = "known.json"')
+    repository.write(a_sleec=CLASH)
+    assert cli("gate", "--write-baseline") == Ran(0, "", "known.json: 1 finding\n")
+    assert gated(cli)[0] == 0
+    repository.write(a_sleec="// moved\n\n" + CLASH)
+    assert gated(cli)[1]["rulesets"][0]["baseline"] == 1
+    repository.write(a_sleec=CLASH + "RULE d\nWHEN u THEN x AND NOT x\n")
+    code, said = gated(cli)
+    assert code == 1
+    assert not any("a and" in block["what"] for block in said["blocks"])
+    repository.write(a_sleec=OLD + "// no conflict\n")
+    assert gated(cli)[1]["stale"] == 1
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"version": 2}', '{"version": 1, "findings": [{}]}', "\udcff"])
+def test_a_baseline_that_is_none(cli: Cli, repository: Repository, text: str) -> None:
+    (repository.folder / "known.json").write_bytes(text.encode("utf-8", "surrogateescape"))
+    ran = cli("gate", "--base", "main", "--baseline", "known.json")
+    assert ran.code == 2
+    assert "baseline" in ran.err
+    before = (repository.folder / "known.json").read_bytes()
+    assert cli("gate", "--write-baseline", "--baseline", "known.json").code == 2
+    assert (repository.folder / "known.json").read_bytes() == before
+
+
+# Bad input ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "message", "hint"),
+    [
+        ("[tool.sleec-verify]\nblok = {}", "has an unknown key blok", "did you mean block?"),
+        (
+            "[tool.sleec-verify.block]\nnew-conflict = true",
+            "has an unknown key block.new-conflict",
+            "did you mean new-conflicts?",
+        ),
+        ("[tool.sleec-verify.block]\nzzz = true", "has an unknown key block.zzz", "there are clause-coverage"),
+        ("[tool.sleec-verify]\nbase = 3", "base is 3", "it is a text"),
+        ("[tool.sleec-verify]\nrulesets = [3]", "rulesets is [3]", "it is a list of texts"),
+        ("[tool.sleec-verify.block]\nunknown = 1", "block.unknown is 1", "true or false"),
+        ("[tool.sleec-verify.block]\nfindings = 'bad'", "block.findings is 'bad'", "one of error"),
+        ("[tool.sleec-verify.block]\nclause-coverage = 101", "block.clause-coverage is 101", "0 to 100"),
+        ("[tool.sleec-verify.block]\nclause-coverage = true", "block.clause-coverage is True", "0 to 100"),
+        ("[tool]\nsleec-verify = 3", "the table is 3", "a table"),
+        ("[[tool.sleec-verify.targets]]\ncode = 'robot.py'", "targets has no rules", "belong together"),
+        ("[[tool.sleec-verify.targets]]\ncod = 'robot.py'", "has an unknown key targets.cod", "did you mean code?"),
+    ],
+)
+def test_configurations_that_are_none(cli: Cli, repository: Repository, text: str, message: str, hint: str) -> None:
+    repository.put("pyproject.toml", text)
+    ran = cli("gate", "--base", "main")
+    assert ran.code == 2
+    assert f"error: pyproject.toml: [tool.sleec-verify] {message}" in ran.err
+    assert hint in ran.err
+
+
+def test_its_own_file_comes_first(cli: Cli, repository: Repository) -> None:
+    config(repository, "nonsense = 1")
+    repository.put("sleec-verify.toml", 'base = "main"\n')
+    assert cli("gate").code == 0
+    repository.put("sleec-verify.toml", "bse = 1\n")
+    ran = cli("gate")
+    assert ran.code == 2
+    assert "sleec-verify.toml: has an unknown key bse" in ran.err.replace("toml: ", "toml: ", 1)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "say which revision"),
+        (["--base", "mian"], "did you mean main?"),
+        (["--base", "main", "--config", "nothing.toml"], "there is no file nothing.toml"),
+        (["--base", "main", "--config", "broken.toml"], "is no TOML"),
+        (["--base", "main", "--baseline", "nothing.json"], "there is no baseline nothing.json"),
+        (["--base", "main", "--summary", "a.sleec"], "is there already, and is no summary"),
+        (["--base", "main", "nothing.sleec"], "there is no .sleec file at or below nothing.sleec"),
+        (["--write-baseline"], "say where"),
+    ],
+)
+def test_bad_usage(cli: Cli, repository: Repository, arguments: list[str], message: str) -> None:
+    repository.put("broken.toml", "= 3")
+    ran = cli("gate", *arguments)
+    assert ran.code == 2
+    assert message in ran.err
+    assert (repository.folder / "a.sleec").read_text() == OLD
+
+
+def test_a_ruleset_that_is_none_now(cli: Cli, repository: Repository) -> None:
+    repository.write(a_sleec="WHEN", b_sleec=CLASH)
+    ran = cli("gate", "--base", "main", "--summary", "out.md")
+    assert ran.code == 2
+    assert "a.sleec:1:5: error" in ran.err
+    assert "new conflict: a and b" in ran.out  # the others are examined all the same
+    assert "### What cannot be read" in (repository.folder / "out.md").read_text()
+
+
+def test_a_ruleset_that_was_none_before(cli: Cli, repository: Repository) -> None:
+    repository.commit(a_sleec="WHEN")
+    repository.write(a_sleec=OLD)
+    ran = cli("gate", "--base", "main")
+    assert ran.code == 2
+    assert "main:a.sleec:1:5: error" in ran.err
+
+
+# The summary ----------------------------------------------------------------------------------------------
+
+
+def test_the_summary(cli: Cli, repository: Repository, monkeypatch: pytest.MonkeyPatch) -> None:
+    repository.write(a_sleec=CLASH)
+    step = repository.folder / "step.md"
+    step.write_text("what other steps say\n")
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(step))
+    assert cli("gate", "--base", "main", "--summary", "out.md").code == 1
+    text = (repository.folder / "out.md").read_text(encoding="utf-8")
+    assert step.read_text() == "what other steps say\n" + text
+    assert text.startswith("<!-- written by sleec-verify gate -->\n## SLEEC rules: blocked\n")
+    assert "- **new-conflicts**, `a.sleec`: a and b now conflict over o" in text
+    assert "| `a.sleec` | incomparable: " in text
+    repository.write(a_sleec=OLD)
+    assert cli("gate", "--base", "main", "--summary", "out.md").code == 0
+    assert "passed" in (repository.folder / "out.md").read_text()
+
+
+def test_nothing_in_the_summary_is_taken_for_markdown(cli: Cli, repository: Repository) -> None:
+    repository.write(a_sleec="RULE a_b\nWHEN t_x THEN o_z\nUNLESS d < 3 IN WHICH CASE p\n")
+    assert cli("gate", "--base", "main", "--summary", "out.md").code == 0
+    text = (repository.folder / "out.md").read_text()
+    assert "o\\_z" in text
+    assert "o_z" not in text.replace("\\_", "")
