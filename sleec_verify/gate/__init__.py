@@ -108,6 +108,10 @@ def _examine(
             from sleec_verify.gate.coverage import coverage
 
             found.coverage = coverage(found.ruleset, found.errors)
+        if config.block.certificates:
+            from sleec_verify.gate.certification import without_certificate
+
+            found.uncertified = without_certificate(found.ruleset)
     if not found.errors:
         new = found.ruleset
         found.difference = compare(

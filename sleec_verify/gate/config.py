@@ -41,7 +41,8 @@ class Policy:
     situations that conflict now and did not in the base. `lost_obligations`: patterns (``Call*``, ``NOT Speak``) of
     obligations that some situation loses. `dead_hedges`: a hedge that decides nowhere. `unknown`: whatever is not
     decided. `unused_suppressions`: a suppression that nothing needs. `clause_coverage`: fewer clauses than this, in
-    percent, reached by the cases beside a ruleset; None asks nothing.
+    percent, reached by the cases beside a ruleset; None asks nothing. `certificates`: a ruleset without one beside it
+    that holds.
     """
 
     findings: Severity | Literal["never"] = "error"
@@ -51,6 +52,7 @@ class Policy:
     unknown: bool = True
     unused_suppressions: bool = False
     clause_coverage: float | None = None
+    certificates: bool = False
 
 
 @dataclass(frozen=True)
@@ -209,6 +211,7 @@ _POLICIES: Mapping[str, _Read] = {
     "unknown": _truth,
     "unused-suppressions": _truth,
     "clause-coverage": _percent,
+    "certificates": _truth,
 }
 
 _SETTINGS: Mapping[str, _Read] = {

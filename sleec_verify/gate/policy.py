@@ -48,6 +48,8 @@ def _on_ruleset(one: Examined, policy: Policy) -> Iterator[Block]:
     if policy.new_conflicts:
         yield from _new_conflicts(one)
     yield from _lost(one, policy.lost_obligations)
+    if one.uncertified is not None:
+        yield Block("certificates", one.path, one.uncertified)
     if policy.clause_coverage is not None and one.coverage is not None and one.coverage.why is None:
         reached = one.coverage
         if reached.percent < policy.clause_coverage:

@@ -44,7 +44,7 @@ class Examined:
 
     `ruleset` is what it is now; None where it is gone or cannot be read. `findings` count; `allowed` are suppressed,
     with the suppression, and `known` stand in the baseline. `unused` suppressions meet nothing, `problems` are
-    suppressions that are none.
+    suppressions that are none. `uncertified` says why there is no certificate that holds, where one is asked for.
     """
 
     path: str
@@ -57,6 +57,7 @@ class Examined:
     unused: list[Suppression] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list)
     coverage: Coverage | None = None
+    uncertified: str | None = None
     errors: list[SleecError] = field(default_factory=list)
 
     def line(self, span: Span) -> int:

@@ -79,6 +79,20 @@ def test_policies_block_and_let_pass(
     assert (code, said["status"], said["blocks"]) == (0, "passed", [])
 
 
+def test_a_certificate_beside_the_rules_can_be_asked_for(cli: Cli, repository: Repository) -> None:
+    repository.write(a_sleec=LOST)
+    config(repository, block="certificates = true")
+    code, said = gated(cli)
+    assert (code, policies(said)) == (1, {"certificates"})
+    assert "there is no a.certificate beside it" in said["blocks"][0]["what"]
+    assert cli("certify", "a.sleec", "-o", "a.certificate").code == 0
+    assert gated(cli)[0] == 0
+    repository.write(a_sleec=LOST + "\n")
+    code, said = gated(cli)
+    assert (code, policies(said)) == (1, {"certificates"})
+    assert "a.certificate is refused: " in said["blocks"][0]["what"]
+
+
 def test_unknown_is_exit_3_unless_it_may_pass(cli: Cli, repository: Repository) -> None:
     repository.commit(a_sleec=TIMED)
     repository.write(a_sleec=TIMED_ELSE)
@@ -296,7 +310,7 @@ def test_a_baseline_that_is_none(cli: Cli, repository: Repository, text: str) ->
             "has an unknown key block.new-conflict",
             "did you mean new-conflicts?",
         ),
-        ("[tool.sleec-verify.block]\nzzz = true", "has an unknown key block.zzz", "there are clause-coverage"),
+        ("[tool.sleec-verify.block]\nzzz = true", "has an unknown key block.zzz", "there are certificates, clause-coverage"),
         ("[tool.sleec-verify]\nbase = 3", "base is 3", "it is a text"),
         ("[tool.sleec-verify]\nrulesets = [3]", "rulesets is [3]", "it is a list of texts"),
         ("[tool.sleec-verify.block]\nunknown = 1", "block.unknown is 1", "true or false"),
