@@ -4,7 +4,8 @@
 
 From Sleec Require
   Evaluation Equation Entailment Instance Readings Nested Linear
-  Clauses Cnf Propagation Clashes Conflict Question Checks Proposition1 Cone Dispatch.
+  Clauses Cnf Propagation Constraints Clashes Conflict ConflictClauses
+  Question Checks Proposition1 Cone Dispatch.
 
 Print Assumptions Evaluation.algorithm_1_as_printed_with_hedges.
 Print Assumptions Evaluation.algorithm_1_as_printed_without_hedges.
@@ -26,6 +27,7 @@ Print Assumptions Instance.due_executed.
 Print Assumptions Instance.executed_due.
 Print Assumptions Instance.executed_iff_due.
 Print Assumptions Instance.layers_exist.
+Print Assumptions Instance.empty_hedge_suppresses.
 
 Print Assumptions Readings.readings_differ_iff.
 Print Assumptions Readings.to_cascade_preserves.
@@ -59,7 +61,7 @@ Print Assumptions Propagation.refutes_iff_inconsistent.
 Print Assumptions Propagation.derived_iff_due.
 Print Assumptions Propagation.entails_by_unit_propagation_correct.
 
-Print Assumptions Clashes.exclusive_meaning.
+Print Assumptions Constraints.exclusive_meaning.
 Print Assumptions Clashes.clashes_decide.
 
 Print Assumptions Conflict.clash_here_spec.
@@ -68,12 +70,13 @@ Print Assumptions Conflict.compatible_or_conflicts.
 Print Assumptions Conflict.compatible_by_table_correct.
 Print Assumptions Conflict.compatible_without_constraints.
 Print Assumptions Conflict.compatible_consistent.
+Print Assumptions Conflict.positive_rules_never_conflict.
 Print Assumptions Conflict.conflict_formula_spec.
 Print Assumptions Conflict.conflict_check.
-Print Assumptions Conflict.clash_clauses_spec.
-Print Assumptions Conflict.conflict_clauses_spec.
-Print Assumptions Conflict.conflict_free_iff_unsatisfiable.
-Print Assumptions Conflict.conflict_free_in_parts.
+Print Assumptions ConflictClauses.clash_clauses_spec.
+Print Assumptions ConflictClauses.conflict_clauses_spec.
+Print Assumptions ConflictClauses.conflict_free_iff_unsatisfiable.
+Print Assumptions ConflictClauses.conflict_free_in_parts.
 
 Print Assumptions Question.question_spec.
 Print Assumptions Question.question_answered_no.

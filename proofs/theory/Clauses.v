@@ -34,9 +34,6 @@ Proof. reflexivity. Qed.
 Lemma negate_involutive l : negate (negate l) = l.
 Proof. destruct l as [b x]. unfold negate. simpl. rewrite negb_involutive. reflexivity. Qed.
 
-Lemma negate_different l : negate l <> l.
-Proof. destruct l as [[|] x]; discriminate. Qed.
-
 Definition lit_eq_dec (l m : lit) : {l = m} + {l <> m}.
 Proof. decide equality; [apply Pos.eq_dec|apply bool_dec]. Defined.
 
@@ -135,9 +132,6 @@ Proof.
   pose proof (derives_sound f l a D H) as X. pose proof (derives_sound f _ a E H) as Y.
   rewrite lit_true_negate, X in Y. discriminate.
 Qed.
-
-Lemma derives_incl f g l : incl f g -> derives f l -> derives g l.
-Proof. intros I D. induction D as [c l C L _ IH]. exact (unit_clause g c l (I _ C) L IH). Qed.
 
 Lemma derives_unit f l : In [l] f -> derives f l.
 Proof.

@@ -79,11 +79,6 @@ Qed.
 
 (** * Nor does the rest of the context matter *)
 
-Lemma satisfies_on_atoms chi psi c :
-  (forall f, In f (atoms_of (situation_of c)) -> chi f = psi f) ->
-  satisfies chi c = satisfies psi c.
-Proof. intro H. rewrite <- !eval_situation_of. apply eval_on_atoms, H. Qed.
-
 Lemma due_of_on_facts r chi psi R :
   (forall f, In f (facts_of_rule R) -> chi f = psi f) -> due_of r chi R = due_of r psi R.
 Proof.

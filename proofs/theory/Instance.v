@@ -155,3 +155,19 @@ Proof.
   apply filter_In in F. apply in_flat_map. exists R. split; [tauto|].
   rewrite returned_active. apply in_map, in_clause_numbers, active_bound.
 Qed.
+
+(** A hedge without a response has a layer like any other, and where it is active its
+    rule does nothing: the base variant does not run in its place. *)
+Theorem empty_hedge_suppresses r method G chi R k :
+  In R G -> triggered chi R = true -> active r chi R = S k -> clause R (S k) = [] ->
+  In (Layer (label R) (S k)) (layer_manager (gamma r method G) chi) /\
+  In (Layer (label R) (S k)) (layers (gamma r method G)) /\
+  due_of r chi R = [].
+Proof.
+  intros I T A C.
+  assert (L : In (Layer (label R) (S k)) (layer_manager (gamma r method G) chi)).
+  { cbn [gamma translation layer_manager]. apply in_map_iff. exists R.
+    rewrite returned_active, A, filter_In. auto. }
+  split; [exact L|]. split; [apply layers_exist in L; exact L|].
+  unfold due_of. rewrite T, A. exact C.
+Qed.

@@ -140,13 +140,6 @@ Lemma cascade_truths_active r chi R :
   longest_prefix (cascade_truths r chi R) = active r chi R.
 Proof. destruct r; [reflexivity|]. apply cascade_of_suffixes. Qed.
 
-Lemma cascade_truths_length r chi R :
-  length (cascade_truths r chi R) = length (hedges R).
-Proof.
-  assert (H : length (truths chi R) = length (hedges R)) by apply map_length.
-  destruct r; simpl; [exact H|]. rewrite suffixes_true_length. exact H.
-Qed.
-
 Lemma suffixes_true_nth bs : map (fun j => existsb id (skipn j bs)) (seq 0 (length bs))
                              = suffixes_true bs.
 Proof.

@@ -7,12 +7,6 @@ Import ListNotations.
 
 (** * Where they choose different clauses *)
 
-Lemma prefix_at_most_last bs : longest_prefix bs <= last_true bs.
-Proof.
-  induction bs as [|[|] bs IH]; simpl; auto with arith.
-  destruct (last_true bs); lia.
-Qed.
-
 (** If the last true condition is not in the true prefix, one between is false. *)
 Lemma prefix_or_gap bs :
   longest_prefix bs = last_true bs \/ S (longest_prefix bs) < last_true bs.
