@@ -1,10 +1,10 @@
 """Rules whose conditions are names: comparisons of measures become conditions, and their order assumptions.
 
-The theory has no numbers. ``UserAge < 18`` is a condition there, named by its text. That one cut lies below another is an
-`Assume` for each pair of neighbours, and so is what orders measures that are compared with one another. All of these are
-true of every value, so a context of the rules is one of these rules, and what holds of these in all contexts holds of the
-rules. The other way round it holds but for whole numbers that are compared with one another, whose order may leave no
-room (`sleec_verify.measures`). Measures have values here, as they have in all checks.
+The theory has no numbers. ``UserAge < 18`` is a condition there, named by its text. That one cut lies below another is
+an `Assume` for each pair of neighbours, and so is what orders measures that are compared with one another. All of these
+are true of every value, so a context of the rules is one of these rules, and what holds of these in all contexts holds
+of the rules. The other way round it holds but for whole numbers that are compared with one another, whose order may
+leave no room (`sleec_verify.measures`). Measures have values here, as they have in all checks.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ from sleec_verify.measures import Measures
 
 
 class Boolean:
-    """`ruleset` is the rules without comparisons, the order of the cuts among its constraints. O(size of the rules), but
-    for measures compared with one another, where it is that of their order."""
+    """`ruleset` is the rules without comparisons, the order of the cuts among its constraints. O(size of the rules),
+    but for measures compared with one another, where it is that of their order."""
 
     def __init__(self, ruleset: Ruleset) -> None:
         self._meanings: dict[int, Formula] = {}

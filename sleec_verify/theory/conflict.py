@@ -1,7 +1,8 @@
 """That no context conflicts, from the rules to the verdict by what is proved: the theory's clauses, refuted.
 
-The clauses are those of `conflict_clauses` in `proofs/theory/ConflictClauses.v`, made by the oracle; `certified` judges the
-steps that refute them. What is found here (by a solver, and by `sleec_verify.certificates.elaboration`) is not trusted.
+The clauses are those of `conflict_clauses` in `proofs/theory/ConflictClauses.v`, made by the oracle; `certified` judges
+the steps that refute them. What is found here (by a solver, and by `sleec_verify.certificates.elaboration`) is not
+trusted.
 """
 
 from __future__ import annotations
@@ -52,9 +53,7 @@ def steps_for(program: Path, numbered: Numbered, seconds: float | None = None) -
         raise NotRefuted("the clauses that the theory makes of the rules are not refuted") from None
     # Clauses are numbered from 1 there, from 0 here.
     first = len(clauses) + 1
-    steps = [
-        (first + place, step.literals, tuple(hint + 1 for hint in step.hints)) for place, step in enumerate(found)
-    ]
+    steps = [(first + place, step.literals, tuple(hint + 1 for hint in step.hints)) for place, step in enumerate(found)]
     return [*steps, (first + len(found), (), tuple(hint + 1 for hint in answer.hints))]
 
 

@@ -11,7 +11,6 @@ from typing import Literal
 
 from sleec_runtime.model import (
     And,
-    Assume,
     Atom,
     Clause,
     Constraint,
@@ -50,9 +49,7 @@ class Numbered:
     def question(self, word: str, facts: Iterable[Atom]) -> str:
         """A question of the oracle about the context in which these facts, and no others, are true."""
         known = [f for f in dict.fromkeys(facts) if f.name in self._numbers[f.kind]]
-        return f"{word} {len(known)}" + "".join(
-            f" {LETTERS[f.kind]} {self._numbers[f.kind][f.name]}" for f in known
-        )
+        return f"{word} {len(known)}" + "".join(f" {LETTERS[f.kind]} {self._numbers[f.kind][f.name]}" for f in known)
 
     def literal(self, number: int) -> Obligation:
         """What a number stands for in an answer of the oracle."""
@@ -156,9 +153,7 @@ class Numbered:
         return f"(Truth {str(formula.value).lower()})"
 
 
-def _chain(
-    default: Clause, hedges: Sequence[Clause]
-) -> tuple[tuple[Obligation, ...], list[tuple[Formula, Clause]]]:
+def _chain(default: Clause, hedges: Sequence[Clause]) -> tuple[tuple[Obligation, ...], list[tuple[Formula, Clause]]]:
     """What the theory's chain obliges, and its members with their conditions."""
     members = [(hedge.condition, hedge) for hedge in hedges if hedge.condition is not None]
     if default.hedges and hedges:
