@@ -10,13 +10,14 @@ INSTALLED := $(VENV)/installed
 # Where the index lacks a folder that pip was told of, pip says so once for each package.
 PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input
 
-.PHONY: help setup demo test lint types check-tests long proofs bench mutants lock clean
+.PHONY: help setup demo test lint types check-tests long proofs theorems bench mutants lock clean
 
 help:
 	@echo 'make demo     check the shipped rulesets and ask one question of them'
 	@echo 'make test     lint, types, and every test but the long ones'
 	@echo 'make long     the long tests'
-	@echo 'make proofs   the theory of the rules, checked by Coq (needs coq and ocaml-findlib)'
+	@echo 'make proofs   all that is proved, checked by Coq, and the programs extracted from it (needs coq and ocaml-findlib)'
+	@echo 'make theorems writes the theorems about the shipped rulesets anew, after a change of them'
 	@echo 'make bench    the measurements of benchmarks/'
 	@echo 'make mutants  mutation testing of the core'
 	@echo 'make lock     renew requirements-dev.lock from pyproject.toml'
@@ -69,6 +70,11 @@ long: $(INSTALLED)
 # Needs no Python; where Coq is missing, it says in one line how to get it.
 proofs:
 	@$(MAKE) --no-print-directory -C proofs check
+
+# After a change of rulesets/: the theorems about them, in Coq.
+theorems: $(INSTALLED)
+	@$(MAKE) --no-print-directory -C proofs oracle-alone
+	$(BIN)/python -m sleec_verify.theory.theorems rulesets/*.sleec -o proofs/rulesets
 
 bench: $(INSTALLED)
 	$(BIN)/python -m benchmarks

@@ -128,7 +128,7 @@ class Numbered:
             f"({self._coq_formula(condition, '{number}')}, {self._coq_chain(*_member(clause), indent + '  ')})"
             for condition, clause in inner
         )
-        return f"(Chain [{obliged}] {_listed(indent, members)})"
+        return f"(Chain [{obliged}]{_listed(indent, members)})"
 
     def _coq_constraint(self, constraint: Constraint) -> str:
         if isinstance(constraint, Exclusive):
@@ -170,4 +170,4 @@ def _member(clause: Clause) -> tuple[Clause, Sequence[Clause]]:
 
 def _listed(indent: str, items: Iterable[str]) -> str:
     written = list(items)
-    return f"\n{indent}[ " + f";\n{indent}  ".join(written) + " ]" if written else "[]"
+    return f"\n{indent}[ " + f";\n{indent}  ".join(written) + " ]" if written else " []"
