@@ -9,21 +9,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from sleec_runtime.errors import SleecError
 from sleec_runtime.model import Ruleset
 from sleec_verify.certificates.elaboration import NotFollowing
 from sleec_verify.certificates.refutation import refute
 from sleec_verify.theory.boolean import Boolean
 from sleec_verify.theory.numbered import Numbered
-from sleec_verify.theory.oracle import answers
+from sleec_verify.theory.oracle import NotRefuted, answers
 from sleec_verify.timed.scope import speaks_of_traces
 
 Step = tuple[int, tuple[int, ...], tuple[int, ...]]
 """The number of a clause, its literals, and the clauses that it follows from."""
-
-
-class NotRefuted(SleecError):
-    """The theory's clauses of a ruleset have a model."""
 
 
 def not_modelled(ruleset: Ruleset) -> str | None:

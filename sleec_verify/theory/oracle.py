@@ -17,6 +17,10 @@ class NoAnswer(SleecError):
     """The oracle did not answer."""
 
 
+class NotRefuted(SleecError):
+    """That the theory's clauses of a ruleset are unsatisfiable is not shown."""
+
+
 def built() -> Path | None:
     """The oracle, if it is built."""
     return BUILT if os.access(BUILT, os.X_OK) else None
