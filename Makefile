@@ -11,14 +11,15 @@ DOCS_LOCKED := $(VENV)/docs-lock-$(firstword $(shell cksum <requirements-docs.lo
 # Where the index lacks a folder that pip was told of, pip says so once for each package.
 PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input
 
-.PHONY: help setup demo test lint types check-tests site long proofs bench mutants lock clean
+.PHONY: help setup demo test lint types check-tests site long proofs theorems bench mutants lock clean
 
 help:
 	@echo 'make demo     check the shipped rulesets and ask one question of them'
 	@echo 'make test     lint, types, and every test but the long ones'
 	@echo 'make site     the docs as a site, in site/'
 	@echo 'make long     the long tests'
-	@echo 'make proofs   the theory of the rules and the checker of refutations, by Coq (needs coq and ocaml-findlib)'
+	@echo 'make proofs   all that is proved, checked by Coq, and the programs extracted from it (needs coq and ocaml-findlib)'
+	@echo 'make theorems writes the theorems about the shipped rulesets anew, after a change of them'
 	@echo 'make bench    the measurements of benchmarks/'
 	@echo 'make mutants  mutation testing of the core'
 	@echo 'make lock     renew the locks from pyproject.toml'
@@ -83,6 +84,11 @@ long: $(INSTALLED)
 proofs:
 	@$(MAKE) --no-print-directory -C proofs check
 	@$(MAKE) --no-print-directory -C proofs/checker
+
+# After a change of rulesets/: the theorems about them, in Coq.
+theorems: $(INSTALLED)
+	@$(MAKE) --no-print-directory -C proofs oracle-alone
+	$(BIN)/python -m sleec_verify.theory.theorems rulesets/*.sleec -o proofs/rulesets
 
 bench: $(INSTALLED)
 	$(BIN)/python -m benchmarks

@@ -18,8 +18,9 @@ from sleec_verify import __version__
 from sleec_verify.certificates.making import Rebuilt, rebuild
 from sleec_verify.certificates.manifest import check_json, manifest
 from sleec_verify.cone import Cones
-from sleec_verify.finding import Witness
+from sleec_verify.finding import Proved, Witness
 from sleec_verify.replay import replays
+from sleec_verify.theory.oracle import NoAnswer, NotRefuted
 from sleec_verify.timed.scope import speaks_of_traces
 
 if TYPE_CHECKING:
@@ -38,14 +39,24 @@ class Problem(NamedTuple):
 
 
 @dataclass(frozen=True)
+class Tied:
+    """Whether it is proved, from the rules as they are read, that no context conflicts; if not, why that was not
+    looked at."""
+
+    proved: bool
+    reason: str | None = None
+
+
+@dataclass(frozen=True)
 class Confirmed:
-    """A certificate that holds: of the ruleset, in the reading that it is for; who judged its refutations; and whether
-    there is a signature."""
+    """A certificate that holds: of the ruleset, in the reading that it is for; who judged its refutations; whether
+    there is a signature; and what `tied` the verdict of `conflict` to the rules, if it is `proved`."""
 
     ruleset: Ruleset
     shown: tuple[Shown, ...]
     checker: Checker
     signed: bool
+    tied: Tied | None = None
 
 
 def check_certificate(
@@ -56,11 +67,13 @@ def check_certificate(
     domain: str | None = None,
     reading: str | None = None,
     key: str | None = None,
+    oracle: Path | None = None,
     progress: Callable[[str, int, int], None] | None = None,
 ) -> Confirmed:
     """Check the certificate in `folder` against a ruleset: its bytes, its verdicts, computed again, the formulas, built
     again, the refutations of these, judged by `judge`, and the witnesses, replayed. `domain` and `reading`, if they
-    are given, and the public `key` must be those of the certificate.
+    are given, and the public `key` must be those of the certificate. Where no context conflicts, the `oracle`, if there
+    is one, makes the formula of it once more, by what is proved, and judges its refutation.
 
     Raises CertificateRefused with all the reasons that are found.
     """
@@ -79,9 +92,33 @@ def check_certificate(
     read = ruleset if claimed.reading == ruleset.reading else ruleset.read_as(cast("Reading", claimed.reading))
     examined = _Examined(read, claimed, Path(folder), judge)
     problems = [*examined.files(), *examined.contents(progress)]
+    tied = None
+    if not problems and examined.never_conflicts:
+        try:
+            tied = _tie(read, claimed.domain, oracle)
+        except NotRefuted as error:
+            problems.append(Problem("theory", f"the verdict of conflict is not what is proved of the rules: {error}"))
     if problems:
         raise CertificateRefused(problems, _hint(claimed))
-    return Confirmed(read, tuple(examined.shown), judge, (Path(folder) / SIGNATURE).exists())
+    return Confirmed(read, tuple(examined.shown), judge, (Path(folder) / SIGNATURE).exists(), tied)
+
+
+def _tie(ruleset: Ruleset, domain: str | None, oracle: Path | None) -> Tied:
+    """Have the oracle prove, in each domain, that no context conflicts. Raises NotRefuted where it does not."""
+    from sleec_verify.theory.conflict import never_conflicts, not_modelled
+
+    if oracle is None:
+        return Tied(False, "the oracle is not built (make proofs)")
+    domains = ruleset.domains if domain is None else (domain,)
+    for part in [ruleset.in_domain(name) for name in domains] or [ruleset]:
+        reason = not_modelled(part)
+        if reason is not None:
+            return Tied(False, reason)
+        try:
+            never_conflicts(oracle, part, MOST_SECONDS)
+        except NoAnswer as error:
+            return Tied(False, str(error.message))
+    return Tied(True)
 
 
 def _check_options(ruleset: Ruleset, claimed: Manifest, domain: str | None, reading: str | None) -> None:
@@ -121,6 +158,11 @@ class _Examined:
         self._judge = judge
         self._cones: dict[str, Cones] = {}
         self.shown: list[Shown] = []
+
+    @property
+    def never_conflicts(self) -> bool:
+        """Whether the check `conflict` is proved."""
+        return any(one.result.name == "conflict" and isinstance(one.result.verdict, Proved) for one in self.shown)
 
     # Files ----------------------------------------------------------------------------------------------------
 
@@ -244,6 +286,9 @@ class _Examined:
             self._cones[domain] = Cones(self._ruleset.in_domain(domain) if domain else self._ruleset)
         return self._cones[domain]
 
+
+MOST_SECONDS = 60.0
+"""How long the oracle may take over one question; its clauses are quadratic in the obligations that are at odds."""
 
 _WITNESS = ("witness", "timeline")
 _FRACTION = re.compile(r"-?[0-9]{1,200}/[0-9]{1,200}")

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from sleec_runtime.errors import CertificateRefused
     from sleec_runtime.model import Ruleset
     from sleec_verify.certificates.checker import Checker
+    from sleec_verify.certificates.checking import Tied
     from sleec_verify.certificates.manifest import Shown
 
 SHOWN_BY = {
@@ -24,10 +25,18 @@ SHOWN_BY = {
 }
 
 
-def told(form: str, ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge: Checker | None) -> Iterator[str]:
-    """That a certificate was written, or (`judge`) that it holds."""
+def told(
+    form: str,
+    ruleset: Ruleset,
+    folder: str,
+    shown: Sequence[Shown],
+    judge: Checker | None,
+    tied: Tied | None = None,
+) -> Iterator[str]:
+    """That a certificate was written, or (`judge`) that it holds, and what ties its verdict of `conflict` to the
+    rules."""
     if form == "json":
-        yield dump(_json(ruleset, folder, shown, judge))
+        yield dump(_json(ruleset, folder, shown, judge, tied))
         return
     path = ruleset.source.path
     if judge is None:
@@ -43,6 +52,14 @@ def told(form: str, ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge
         else:
             more = ", which is proved correct" if judge.proved else ""
         yield f"proofs checked by {judge.name}{more}\n"
+    if tied is not None:
+        yield f"{_tied(tied)}\n"
+
+
+def _tied(tied: Tied) -> str:
+    if tied.proved:
+        return "conflict: proved of the rules as they were read, by what is extracted from the theory in Coq"
+    return f"conflict: that the formula is that of the rules is not proved: {tied.reason}"
 
 
 def _shown_by(one: Shown) -> str:
@@ -52,7 +69,7 @@ def _shown_by(one: Shown) -> str:
     return f"{asked}: {', '.join(one.files)}"
 
 
-def _json(ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge: Checker | None) -> Json:
+def _json(ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge: Checker | None, tied: Tied | None) -> Json:
     checks: list[Json] = [
         {
             "name": one.result.name,
@@ -68,6 +85,7 @@ def _json(ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge: Checker 
         "sha256": ruleset.source.sha256,
         "reading": ruleset.reading,
         **({} if judge is None else {"holds": True, "checker": {"name": judge.name, "proved": judge.proved}}),
+        **({} if tied is None else {"theory": {"conflict": tied.proved, "reason": tied.reason}}),
         "checks": checks,
     }
 

@@ -145,6 +145,7 @@ def _check(
     from sleec_verify.certificates.telling import refused, told
     from sleec_verify.cli.output import complain
     from sleec_verify.cli.progress import Progress
+    from sleec_verify.theory.oracle import built
 
     judge = chosen(checker)
     try:
@@ -157,6 +158,7 @@ def _check(
                 domain=domain,
                 reading=reading,
                 key=public,
+                oracle=built(),
                 progress=progress.on(ruleset.source.path),
             )
     except CertificateRefused as refusal:
@@ -167,7 +169,7 @@ def _check(
         return exits.UNUSABLE
     if public is None and confirmed.signed:
         note("the certificate is signed; whether by whom it should be, --key PUB tells")
-    write(told(form, confirmed.ruleset, checked, confirmed.shown, judge))
+    write(told(form, confirmed.ruleset, checked, confirmed.shown, judge, confirmed.tied))
     return _exit_code([one.result for one in confirmed.shown], fail_level)
 
 

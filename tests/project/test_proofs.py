@@ -11,8 +11,14 @@ from pathlib import Path
 import pytest
 
 PROOFS = Path(__file__).parents[2] / "proofs"
-THEORY = PROOFS / "theory"
-FILES = sorted(THEORY.glob("*.v"))
+FILES = sorted(
+    path
+    for folder in ("theory", "oracle")
+    for path in (PROOFS / folder).glob("*.v")
+    if path.name not in ("Assumptions.v", "Extract.v")
+)
+BY_NAME = {path.name: path for path in FILES}
+GENERATED = sorted((PROOFS / "rulesets").glob("*.v"))
 
 PROVED = re.compile(r"^ *(?:Theorem|Lemma|Corollary) (\w+)", re.MULTILINE)
 DEFINED = re.compile(r"^ *(?:Definition|Fixpoint|Inductive|Record|Example) (\w+)", re.MULTILINE)
@@ -35,13 +41,14 @@ def table() -> list[tuple[str, str]]:
 
 def asked() -> set[tuple[str, str]]:
     """(file, name) for every theorem whose assumptions `make proofs` asks for."""
-    found = re.findall(r"^Print Assumptions (\w+)\.(\w+)\.$", code(THEORY / "Assumptions.v"), re.MULTILINE)
+    texts = (code(PROOFS / folder / "Assumptions.v") for folder in ("theory", "oracle"))
+    found = (pair for text in texts for pair in re.findall(r"^Print Assumptions (\w+)\.(\w+)\.$", text, re.MULTILINE))
     return {(f"{module}.v", name) for module, name in found}
 
 
 @pytest.mark.parametrize("file", sorted({file for file, _ in table()}))
 def test_every_name_in_the_guide_stands_in_its_file(file: str) -> None:
-    text = code(THEORY / file)
+    text = code(BY_NAME[file])
     standing = set(PROVED.findall(text)) | set(DEFINED.findall(text))
     # Constructors and fields stand inside their types.
     missing = [n for f, n in table() if f == file and n not in standing]
@@ -63,7 +70,7 @@ def test_every_theorem_is_asked_for() -> None:
     assert {(path.name, name) for path in FILES for name in main.findall(code(path))} - asked() == set()
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", [*FILES, *GENERATED], ids=lambda path: path.name)
 def test_nothing_is_only_claimed(path: Path) -> None:
     # A section's variables become arguments; make proofs would show what of them is left open.
     allowed = {"Gates.v": {"Variable", "Hypothesis"}, "Linear.v": {"Variable"}}.get(path.name, set())
@@ -71,5 +78,5 @@ def test_nothing_is_only_claimed(path: Path) -> None:
 
 
 def test_every_file_is_built() -> None:
-    built = set(re.findall(r"^theory/(\w+\.v)$", (PROOFS / "_CoqProject").read_text("utf-8"), re.MULTILINE))
-    assert built | {"Assumptions.v"} == {path.name for path in FILES}
+    project = (PROOFS / "_CoqProject").read_text("utf-8")
+    assert set(re.findall(r"^(?:theory|oracle)/(\w+\.v)$", project, re.MULTILINE)) == set(BY_NAME)

@@ -1,0 +1,91 @@
+(** From rules to a verdict, with no step between that is not proved: the clauses of
+    the theory's conflict check, refuted by steps that the checker follows.
+
+    Whoever makes the steps is not trusted.  [certified] runs inside Coq, where the
+    theorems of [rulesets/] are proved by it, and is extracted. *)
+
+From Coq Require Import List Bool PArith.
+From Sleec Require Import
+  Model Evaluation Nested Clauses Constraints Clashes Conflict ConflictClauses.
+From Checker Require Formula Checker Soundness.
+Import ListNotations.
+
+(** * Rules as texts have them, with chains inside chains *)
+
+Definition flat (r : reading) (Rs : list nested_rule) : ruleset := flat_map (flatten r) Rs.
+
+(** What all of them oblige, by the walk of the text. *)
+Definition all_due (r : reading) (chi : context) (Rs : list nested_rule) : list literal :=
+  flat_map (nested_due r chi) Rs.
+
+(** In every context that can be, something can be done that keeps all that is due
+    and all constraints. *)
+Definition never_conflicts (r : reading) (Rs : list nested_rule) (Ks : list constraint) : Prop :=
+  forall chi, possible Ks chi = true -> jointly_possible Ks chi (all_due r chi Rs).
+
+Lemma flat_due r chi Rs l : In l (due r (flat r Rs) chi) <-> In l (all_due r chi Rs).
+Proof.
+  unfold due, flat, all_due. rewrite !in_flat_map. split.
+  - intros [S [I H]]. apply in_flat_map in I. destruct I as [R [I J]].
+    exists R. split; [exact I|]. apply flatten_due.
+    unfold due. apply in_flat_map. eauto.
+  - intros [R [I H]]. apply flatten_due in H. unfold due in H.
+    apply in_flat_map in H. destruct H as [S [J H]].
+    exists S. split; [apply in_flat_map; eauto|exact H].
+Qed.
+
+Theorem flat_conflict_free r Rs Ks :
+  conflict_free r (flat r Rs) Ks -> never_conflicts r Rs Ks.
+Proof.
+  intros F chi P. destruct (F chi P) as [v [A [T K]]]. exists v.
+  split; [exact A|]. split; [|exact K]. intros l I. apply T, flat_due, I.
+Qed.
+
+(** A default with a chain of its own is written as a first hedge under [true]. *)
+Theorem default_as_hedge r chi c hs :
+  chain_due r chi (Chain [] ((Truth true, c) :: hs)) =
+  nth (decides r (map (fun h => satisfies chi (fst h)) hs))
+      (chain_due r chi c :: map (fun h => chain_due r chi (snd h)) hs) [].
+Proof.
+  cbn [chain_due map fst snd]. change (satisfies chi (Truth true)) with true.
+  destruct r; cbn [decides longest_prefix last_true].
+  - reflexivity.
+  - destruct (last_true _); reflexivity.
+Qed.
+
+(** * The formula, as the checker has it *)
+
+Definition lit_for (l : lit) : Formula.literal :=
+  if fst l then Formula.Pos (snd l) else Formula.Neg (snd l).
+
+Definition formula_for (f : cnf) : Formula.formula := map (map lit_for) f.
+
+Lemma lit_for_true a l : Formula.true_in a (lit_for l) = lit_true a l.
+Proof. destruct l as [[|] x]; unfold lit_true; simpl; destruct (a x); reflexivity. Qed.
+
+Lemma formula_for_unsatisfiable f :
+  Formula.unsatisfiable (formula_for f) -> unsatisfiable f.
+Proof.
+  intros U a. apply not_true_is_false. intro T. apply (U a). intros c C.
+  apply in_map_iff in C. destruct C as [d [<- D]].
+  rewrite cnf_true_spec in T. specialize (T d D). apply clause_true_spec in T.
+  destruct T as [l [L T]]. exists (lit_for l). split; [apply in_map, L|].
+  rewrite lit_for_true. exact T.
+Qed.
+
+(** What is to be refuted. *)
+Definition to_refute (r : reading) (Rs : list nested_rule) (Ks : list constraint)
+  : Formula.formula := formula_for (dense (conflict_clauses r (flat r Rs) Ks)).
+
+Definition certified (r : reading) (Rs : list nested_rule) (Ks : list constraint)
+    (steps : list Checker.step) : bool :=
+  match Checker.check (to_refute r Rs Ks) steps with Checker.Verified => true | _ => false end.
+
+(** Whoever made the steps: if they are accepted, no context conflicts. *)
+Theorem certified_never_conflicts r Rs Ks steps :
+  certified r Rs Ks steps = true -> never_conflicts r Rs Ks.
+Proof.
+  unfold certified. intro C. apply flat_conflict_free, conflict_free_iff_unsatisfiable.
+  apply dense_unsatisfiable, formula_for_unsatisfiable, (Soundness.check_sound _ steps).
+  unfold to_refute in C. destruct (Checker.check _ steps); [reflexivity|discriminate|discriminate].
+Qed.

@@ -1,0 +1,12 @@
+(** The oracle as OCaml.  Only booleans, options, lists and pairs become those of OCaml;
+    numbers stay the inductive types that the theorems are about. *)
+
+From Coq Require Import Extraction ExtrOcamlBasic.
+From Sleec Require Import Model Evaluation Entailment Nested Constraints Conflict.
+From Oracle Require Import Certified.
+
+Extraction Language OCaml.
+Extraction "oracle.ml"
+  flatten all_due triggered algorithm_1 due contradictory
+  entails_by_propagation entails_by_table formula_of
+  possible compatible_by_table to_refute certified.

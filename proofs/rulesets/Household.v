@@ -1,0 +1,56 @@
+(** No context of household.sleec conflicts.
+
+    A comparison of a measure is a condition here, as in `sleec_verify.theory.boolean`;
+    what is assumed of the order of these is true of all values.
+
+    Written by `make theorems`; do not edit. *)
+
+From Coq Require Import List PArith.
+From Sleec Require Import Model Nested Constraints.
+From Checker Require Import Formula Checker.
+From Oracle Require Import Certified.
+Import ListNotations.
+Local Open Scope positive_scope.
+
+(** The rules in the domain household.
+
+    triggers: 1 HumanOnFloor, 2 MonitorMealTime, 3 CurtainOpenRequest,
+      4 DressingStarted, 5 UserSaysStop
+    conditions: 1 UserResponsive, 2 UserWithCompanion, 3 UserOccupied, 4 UserUndressed,
+      5 UserDistressed, 6 MedicalEmergency, 7 UserAdvices, 8 RiskLevel < r_moderate
+    obligations: 1 CallEmergencyServices, 2 AskForUserStatus, 3 AskCompanionToCheck,
+      4 InformUser, 5 RemindLater, 6 OpenCurtains, 7 RefuseRequest, 8 ExplainWhy,
+      9 WarnUser, 10 CloseDoor, 11 DoNothing, 12 RobotStop, 13 AskToFinishFirst
+    rules: 1 human_on_floor, 2 mealtime, 3 dress_assist, 4 dressing_started,
+      5 dressing_stop *)
+Module household.
+
+Definition rules : list nested_rule :=
+  [ NestedRule 1 1 (Truth true)
+     (Chain [Do 1]
+      [ ((Atom 1), (Chain [Do 2] []));
+        ((Atom 2), (Chain [Do 3] [])) ]);
+    NestedRule 2 2 (Truth true)
+     (Chain [Do 4]
+      [ ((Atom 3), (Chain [Do 5] [])) ]);
+    NestedRule 3 3 (Truth true)
+     (Chain [Do 6]
+      [ ((Atom 4), (Chain [Do 7; Do 8] []));
+        ((Atom 5), (Chain [Do 9; Do 6] [])) ]);
+    NestedRule 4 4 (Truth true)
+     (Chain [Do 10]
+      [ ((Or (Atom 6) (Atom 7)), (Chain [Do 11] [])) ]);
+    NestedRule 5 5 (Truth true)
+     (Chain [Do 12]
+      [ ((Not (Atom 8)), (Chain [Do 13] [])) ]) ].
+
+Definition constraints : list constraint := [].
+
+Definition steps : list step :=
+  [ Add 63 [] [1] ].
+
+End household.
+
+Theorem household_conflict_free :
+  never_conflicts Cascade household.rules household.constraints.
+Proof. apply (certified_never_conflicts _ _ _ household.steps). vm_compute. reflexivity. Qed.

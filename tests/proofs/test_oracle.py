@@ -1,0 +1,89 @@
+"""Algorithm 1, Definition 1 and the conflicts of a context, in Python, say what is extracted from the theory says.
+
+One comparison is one context of one ruleset: what is due there and by which clauses (`sleec_runtime.evaluation`), what
+is entailed, all at once and a literal to the letter (`sleec_verify.entailment.Definition1`), whether the context counts
+and whether it conflicts (`sleec_runtime.conflicts`). The oracle answers by a walk of the rules, by the guards of
+Equation 1, and by a table over all interpretations, all proved to agree.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from sleec_runtime.model import Ruleset
+from sleec_verify.conformance.rulesets import rulesets
+from sleec_verify.theory.oracle import NoAnswer, answers
+from tests import brute
+from tests.proofs.compared import compare, random_cases
+from tests.proofs.enumerated import pairs, single_rules
+
+# Whichever test comes first may have to compile the theory.
+pytestmark = pytest.mark.timeout(600)
+
+# How many contexts each makes says how many there are: a class that is lost would be seen.
+PAIRS = {(0, 0): 160, (0, 1): 448, (0, 2): 3_936, (1, 1): 3_936, (1, 2): 42_944}
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_20_000_random_contexts(oracle: Path, seed: int) -> None:
+    assert compare(oracle, random_cases(seed, 5_000)) == 5_000
+
+
+@pytest.mark.long
+@pytest.mark.timeout(7200)
+@pytest.mark.parametrize("seed", range(100, 110))
+def test_1_000_000_random_contexts(oracle: Path, seed: int) -> None:
+    assert compare(oracle, random_cases(seed, 100_000)) == 100_000
+
+
+def test_every_rule_of_up_to_two_hedges(oracle: Path) -> None:
+    assert compare(oracle, single_rules()) == 30_798
+
+
+@pytest.mark.parametrize(("hedges", "contexts"), PAIRS.items())
+def test_every_two_rules_of_up_to_three_hedges(oracle: Path, hedges: tuple[int, int], contexts: int) -> None:
+    assert compare(oracle, pairs(hedges)) == contexts
+
+
+@pytest.mark.long
+@pytest.mark.timeout(7200)
+def test_every_two_rules_of_two_hedges(oracle: Path) -> None:
+    assert compare(oracle, pairs((2, 2))) == 560_640
+
+
+@given(ruleset=rulesets(domains=False), data=st.data())
+@settings(max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
+def test_measures_as_conditions(oracle: Path, ruleset: Ruleset, data: st.DataObject) -> None:
+    """With comparisons made conditions, what is due is the same, and the order of the cuts is assumed of no more than
+    what values do."""
+    every = list(brute.contexts(ruleset))[:500]
+    if not every:
+        return
+    contexts = [data.draw(st.sampled_from(every)) for _ in range(3)]
+    assert compare(oracle, [(ruleset, contexts)]) == 3
+
+
+def test_what_is_no_question_is_not_answered(oracle: Path) -> None:
+    line = "rules cascade 1 1 1 1 1 1 1 0 0"
+    assert answers(oracle, [line, "at 1 t 1"])[1] == "possible 1; consistent 1; due 1; entailed 1; said e"
+    for question in (
+        "",
+        "at",
+        "at 1",
+        "at 1 o 1",
+        "at 1 t 0",
+        "at 1 t 1 2",
+        "at -1",
+        "at 1 t 0x1",
+        "why",
+        "refuted a 1 0",
+    ):
+        with pytest.raises(NoAnswer, match="UNREADABLE"):
+            answers(oracle, [line, question])
+    for rules in ("rules", "rules both 0 0 0", f"{line} 0", "rules cascade 1 1 1 1 t 1 1 1 0 0", "at 1 t 1"):
+        with pytest.raises(NoAnswer, match="UNREADABLE"):
+            answers(oracle, [rules])

@@ -1,0 +1,180 @@
+"""The verdict of the check `conflict`, tied to the rules by the theory: the oracle makes the formula and judges its
+refutation."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+
+from sleec_runtime.errors import CertificateRefused
+from sleec_runtime.language import load, parse
+from sleec_runtime.model import Ruleset
+from sleec_verify.certificates import checking
+from sleec_verify.certificates.checker import IN_PYTHON
+from sleec_verify.certificates.checking import Confirmed, check_certificate
+from sleec_verify.certificates.directory import write_folder
+from sleec_verify.certificates.making import certify
+from sleec_verify.checks import run_checks
+from sleec_verify.cli import run
+from sleec_verify.conformance.rulesets import rulesets
+from sleec_verify.finding import Proved, Unknown
+from sleec_verify.theory import oracle as oracle_module
+from sleec_verify.theory.boolean import Boolean
+from sleec_verify.theory.conflict import never_conflicts, not_modelled, steps_for
+from sleec_verify.theory.numbered import Numbered
+from sleec_verify.theory.oracle import NoAnswer, NotRefuted, answers
+from tests.proofs.compared import random_cases
+
+pytestmark = pytest.mark.timeout(600)
+
+RULESETS = Path(__file__).parents[2] / "rulesets"
+RULES = "RULE a\nWHEN T THEN X\nUNLESS c IN WHICH CASE Y\nRULE b\nWHEN T AND c THEN NOT X\n"
+CONFLICTING = "RULE a\nWHEN T THEN X\nRULE b\nWHEN T AND c THEN NOT X\n"
+
+
+def agree(oracle: Path, ruleset: Ruleset) -> bool:
+    """Whether the check and the theory say the same of whether some context conflicts; returns what."""
+    verdict = run_checks(ruleset, ["conflict"])[0].verdict
+    assert not isinstance(verdict, Unknown)
+    free = True
+    for part in [ruleset.in_domain(domain) for domain in ruleset.domains] or [ruleset]:
+        try:
+            never_conflicts(oracle, part)
+        except NotRefuted:
+            free = False
+    assert free == isinstance(verdict, Proved)
+    return free
+
+
+def test_the_theory_and_the_check_find_the_same(oracle: Path) -> None:
+    found = [agree(oracle, ruleset) for ruleset, _ in random_cases(7, 150, each=1)]
+    assert 20 < sum(found) < 130
+
+
+@given(ruleset=rulesets())
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
+def test_with_measures_and_domains_too(oracle: Path, ruleset: Ruleset) -> None:
+    if not_modelled(ruleset) is None:
+        agree(oracle, ruleset)
+
+
+def test_no_step_is_believed(oracle: Path) -> None:
+    """Steps of other rules, none, or too few prove nothing."""
+    line = Numbered(Boolean(parse(RULES)).ruleset)
+    other = Numbered(Boolean(parse(CONFLICTING)).ruleset)
+    steps = [
+        f"a {number} {' '.join(map(str, (*literals, 0, *hints, 0)))}"
+        for number, literals, hints in steps_for(oracle, line)
+    ]
+    whole = f"refuted {' '.join(steps)}"
+    assert answers(oracle, [line.line, whole])[1] == "yes"
+    for question in (
+        "refuted",
+        f"refuted {' '.join(steps[:-1])}",
+        "refuted a 99 0 1 0",
+        f"{whole[:7]} d 1 0 {whole[8:]}",
+    ):
+        assert answers(oracle, [line.line, question])[1] == "no"
+    assert answers(oracle, [other.line, whole])[1] == "no"
+
+
+def checked(folder: Path, rules: Path | str, oracle: Path | None) -> Confirmed:
+    """The certificate of a ruleset, checked. A text is written to a file first: certificates are of bytes."""
+    path = rules if isinstance(rules, Path) else folder.with_suffix(".sleec")
+    if isinstance(rules, str):
+        path.write_text(rules, encoding="utf-8")
+    ruleset = load(path)
+    write_folder(str(folder), ((name, text.encode()) for name, text in certify(ruleset).texts()), force=True)
+    return check_certificate(ruleset, str(folder), IN_PYTHON, oracle=oracle)
+
+
+@pytest.mark.parametrize("name", ["household", "care-robot", "hospital-ward"])
+def test_shipped_rulesets_are_tied(oracle: Path, tmp_path: Path, name: str) -> None:
+    tied = checked(tmp_path / "c", RULESETS / f"{name}.sleec", oracle).tied
+    assert tied is not None
+    assert tied.proved
+
+
+def test_where_rules_conflict_there_is_nothing_to_tie(oracle: Path, tmp_path: Path) -> None:
+    assert checked(tmp_path / "c", CONFLICTING, oracle).tied is None
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("WHEN T THEN X WITHIN 5 minutes\n", "the theory has no times"),
+        (
+            "MEASURE A: integer\nMEASURE B: integer\nWHEN T THEN X\nUNLESS A < B IN WHICH CASE Y\n",
+            r"whole numbers.*A, B",
+        ),
+    ],
+)
+def test_what_the_theory_does_not_speak_of_is_told(tmp_path: Path, text: str, reason: str) -> None:
+    tied = checked(tmp_path / "c", text, tmp_path / "never run").tied
+    assert tied is not None
+    assert not tied.proved
+    assert re.search(reason, tied.reason or "")
+
+
+def program(folder: Path, body: str) -> Path:
+    path = folder / "oracle"
+    path.write_text(f"#!/bin/sh\n{body}\n")
+    path.chmod(0o755)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("body", "reason"),
+    [
+        ("read a; echo ok", "ended with 0"),
+        ("read a; echo UNREADABLE: why; exit 2", "UNREADABLE: why"),
+        ("exec sleep 30", "did not answer in 0.2 s"),
+    ],
+)
+def test_an_oracle_that_does_not_answer(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, body: str, reason: str
+) -> None:
+    monkeypatch.setattr(checking, "MOST_SECONDS", 0.2)
+    tied = checked(tmp_path / "c", RULES, program(tmp_path, body)).tied
+    assert tied is not None
+    assert not tied.proved
+    assert reason in (tied.reason or "")
+
+
+@pytest.mark.parametrize(
+    "clauses",
+    ["1 0", "1 0 -1 0"],  # with a model; without one, but the steps are not accepted
+)
+def test_a_verdict_that_is_not_proved_of_the_rules_is_refused(tmp_path: Path, clauses: str) -> None:
+    body = (
+        f'while read word rest; do case $word in rules) echo ok;; clauses) echo "{clauses}";; *) echo no;; esac; done'
+    )
+    with pytest.raises(CertificateRefused) as refusal:
+        checked(tmp_path / "c", RULES, program(tmp_path, body))
+    assert [reason for reason, _ in refusal.value.problems] == ["theory"]
+
+
+def test_an_oracle_that_is_no_program(tmp_path: Path) -> None:
+    with pytest.raises(NoAnswer, match="cannot be run"):
+        answers(tmp_path / "nowhere", ["at 0"])
+
+
+def test_the_command_says_so(
+    oracle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rules, folder = str(RULESETS / "household.sleec"), str(tmp_path / "c")
+
+    def called(*arguments: str) -> str:
+        assert run(["certify", *arguments]) == 0
+        return capsys.readouterr().out
+
+    assert "in Coq" not in called(rules, "-o", folder)
+    assert "conflict: proved of the rules as they were read" in called("--check", folder, rules)
+    told = json.loads(called("--check", folder, rules, "--format", "json"))
+    assert told["theory"] == {"conflict": True, "reason": None}
+    monkeypatch.setattr(oracle_module, "BUILT", tmp_path / "nowhere")
+    assert "is not proved: the oracle is not built (make proofs)" in called("--check", folder, rules)
