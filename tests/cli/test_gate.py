@@ -310,7 +310,7 @@ def test_a_baseline_that_is_none(cli: Cli, repository: Repository, text: str) ->
             "has an unknown key block.new-conflict",
             "did you mean new-conflicts?",
         ),
-        ("[tool.sleec-verify.block]\nzzz = true", "has an unknown key block.zzz", "there are certificates, clause-coverage"),
+        ("[tool.sleec-verify.block]\nzzz = true", "has an unknown key block.zzz", "there are certificates, clause-"),
         ("[tool.sleec-verify]\nbase = 3", "base is 3", "it is a text"),
         ("[tool.sleec-verify]\nrulesets = [3]", "rulesets is [3]", "it is a list of texts"),
         ("[tool.sleec-verify.block]\nunknown = 1", "block.unknown is 1", "true or false"),

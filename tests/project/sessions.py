@@ -22,8 +22,6 @@ from website.running import Ran, printed
 
 ROOT = Path(__file__).parents[2]
 FENCE = re.compile(r'^```(?P<language>[\w-]*)(?: title="(?P<title>[^"]+)")?\n(?P<body>.*?)^```\n', re.M | re.S)
-# With these, pytest prints whole lines however wide the terminal is.
-_OF_CI = {"CI", "BUILD_NUMBER"}
 _SECONDS = re.compile(r"\bin \d+\.\d+s\b")
 
 
@@ -86,10 +84,12 @@ def _run(program: str, *arguments: str) -> Ran:
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         encoding="utf-8",
-        env={
-            **{name: value for name, value in os.environ.items() if name not in _OF_CI},
-            **{"PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "80"},
-        },
+        env={**_outside_ci(), "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "80"},
         timeout=100,
     )
     return Ran(done.stdout, done.returncode)
+
+
+def _outside_ci() -> dict[str, str]:
+    # In CI, pytest prints whole lines however wide the terminal is.
+    return {name: value for name, value in os.environ.items() if name not in ("CI", "BUILD_NUMBER")}
