@@ -83,7 +83,6 @@ long: $(INSTALLED)
 # Needs no Python; where Coq is missing, it says in one line how to get it.
 proofs:
 	@$(MAKE) --no-print-directory -C proofs check
-	@$(MAKE) --no-print-directory -C proofs/checker
 
 # After a change of rulesets/: the theorems about them, in Coq.
 theorems: $(INSTALLED)
