@@ -32,3 +32,12 @@ def random_rules(count: int, hedges: int = 3, seed: int = 0, names_per_rule: flo
         lines += [f"UNLESS {condition()} IN WHICH CASE {response()}" for _ in range(hedges)]
         rules.append("\n".join(lines))
     return "\n\n".join(rules) + "\n"
+
+
+def assuming_rules(count: int) -> str:
+    """`random_rules` of two hedges, with an assumption for every third that two conditions exclude one another."""
+    draw = random.Random(count)
+    names = max(10, count)
+    pairs = ((draw.randrange(names), draw.randrange(names)) for _ in range(count // 3))
+    assumed = [f"ASSUME NOT Condition{one} OR NOT Condition{other}" for one, other in pairs]
+    return "\n".join([random_rules(count, hedges=2), *assumed, ""])

@@ -1,5 +1,6 @@
 """How `check` grows: time and memory of 1,000, 10,000 and 100,000 random rules of three hedges, each in a process of
-its own, all checks included. Linear growth is asked for: 100,000 rules at most 13 times 10,000.
+its own, all checks included; and of up to 10,000 with an assumption for every third rule. Linear growth is asked for:
+100,000 rules at most 13 times 10,000.
 
 Takes some minutes; ``python -m benchmarks.scaling 1000 5000`` measures other sizes.
 """
@@ -12,9 +13,10 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from benchmarks.random_rules import random_rules
+from benchmarks.random_rules import assuming_rules, random_rules
 
 SIZES = (1_000, 10_000, 100_000)
+MOST_ASSUMING = 10_000
 BOUND = 1.3
 """How much more than in proportion the largest step may cost."""
 
@@ -42,6 +44,9 @@ def cost(count: int, rules: Callable[[int], str] = random_rules) -> tuple[float,
 
 def main(sizes: tuple[int, ...] = SIZES) -> None:
     print(f"last step: {report(sizes, random_rules):.2f} of proportional (at most {BOUND})")
+    print("with assumptions:")
+    last = report(tuple(size for size in sizes if size <= MOST_ASSUMING), assuming_rules)
+    print(f"last step: {last:.2f} of proportional (at most {BOUND})")
 
 
 def report(sizes: tuple[int, ...], rules: Callable[[int], str]) -> float:

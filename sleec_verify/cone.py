@@ -12,10 +12,12 @@ from collections.abc import Iterable, Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
+from sleec_runtime.evaluation import holds
 from sleec_runtime.model import (
     Assume,
     Atom,
     Clause,
+    Context,
     Exclusive,
     Formula,
     Never,
@@ -175,6 +177,22 @@ class Cones:
                             seen.add(name)
                             open_names.add(name)
         return [self.assumptions[position] for position in sorted(found)]
+
+    @cached_property
+    def demanding(self) -> list[Assume]:
+        """The assumptions that do not hold of nothing: where no trigger occurs and no condition is true."""
+        nothing = Context()
+        return [a for a in self.assumptions if not holds(a.formula, nothing, self.ruleset.measures)]
+
+    def assumptions_that_may_break(self, context: Context) -> list[Assume]:
+        """All assumptions that `context` can break: one that speaks of none of its names has the value that it has of
+        nothing."""
+        names = [
+            *(("trigger", name) for name in context.triggers),
+            *(("condition", name) for name in context.conditions),
+        ]
+        positions = {position for name in names for position in self._assumptions_by_name.get(name, ())}
+        return [*self.demanding, *(self.assumptions[position] for position in sorted(positions))]
 
     @cached_property
     def _triggers_assumed(self) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from sleec_runtime.conflicts import conflict
-from sleec_runtime.evaluation import broken_assumptions, decide
+from sleec_runtime.evaluation import decide, holds
 from sleec_runtime.model import READINGS, Context, Never, Rule, Ruleset
 from sleec_verify.cone import Cones, names_in, names_of_rule
 from sleec_verify.finding import Finding
@@ -28,7 +28,8 @@ def replays(cones: Cones, finding: Finding) -> bool:
 
         return is_lawful(cones.program, finding)
     context = finding.witness.context()
-    possible = not broken_assumptions(cones.ruleset, context)
+    assumed = cones.assumptions_that_may_break(context)
+    possible = all(holds(assumption.formula, context, cones.ruleset.measures) for assumption in assumed)
     return possible and _CLAIMS[finding.check](_about(cones, finding, context), finding, context)
 
 

@@ -31,9 +31,8 @@ def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = (
     for measure in sorted(valued):
         rails.require_value(measure)
     wanted = {*names_in(formula), *(("condition", measure) for measure in valued)} if cones.assumptions else set()
-    for assumption in cones.assumptions:
-        if not wanted.isdisjoint(names_in(assumption.formula)) or not _holds_of_nothing(assumption.formula):
-            wanted.update(names_in(assumption.formula))
+    for assumption in cones.demanding:
+        wanted.update(names_in(assumption.formula))
     for assumption in cones.assumptions_about(wanted):
         rails.encoder.clauses.append([rails.in_completion(assumption.formula)])
     rails.encoder.close()
@@ -170,14 +169,3 @@ class _Counter:
                 elif k - 1 in self.at_least:
                     self.clauses.append([-literal, -self.at_least[k - 1], register])
             self.at_least = extended
-
-
-def _holds_of_nothing(formula: Formula) -> bool:
-    """Whether a formula is true where no trigger occurs, every condition is false and no measure has a value."""
-    if isinstance(formula, Not):
-        return not _holds_of_nothing(formula.operand)
-    if isinstance(formula, And):
-        return all(_holds_of_nothing(operand) for operand in formula.operands)
-    if isinstance(formula, Or):
-        return any(_holds_of_nothing(operand) for operand in formula.operands)
-    return isinstance(formula, Truth) and formula.value

@@ -135,6 +135,8 @@ class Cursor:
                 raise Abandon
         if kind == "strange":
             self._strange(at, what, hint)
+        if kind == ":" and self.kinds[at + 1] == "WHEN" and self.kinds[at - 1] == "word":
+            hint = f"a label stands behind RULE and without a colon: RULE {self.token_text(at - 1)} WHEN ..."
         if kind == "end" or (kind in STATEMENTS and self.starts_line(at)):
             end = self.ends[at - 1] if at else 0
             self.fail(

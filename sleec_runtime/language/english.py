@@ -160,6 +160,8 @@ class EnglishParser(RelationParser):
             if keyword in STATEMENTS:
                 self.misspelt(0, keyword)
                 return
+        if self.kinds[1] == ":":
+            self.at = 1
         if self.kinds[0] == "UNLESS":
             self.expected(
                 "a rule before this UNLESS", "an exception belongs to a rule: WHEN trigger THEN response UNLESS ..."
