@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from sleec_runtime.language.cursor import quoted
 from sleec_runtime.language.resolve import Names, Side, did_you_mean
+from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import Comparison, Measure, MeasureRef, Number, Operator, ScaleValue, Span, Term
 
 

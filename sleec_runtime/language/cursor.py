@@ -1,30 +1,17 @@
-"""A place in the tokens, and what every part of the parser does there: read names, report, and find its feet again.
-
-One mistake is reported once. After a problem the rest of the clause it stands in is silent (`hurt`), and parsing goes
-on at the next keyword that surely starts something new.
-"""
+"""A place in the tokens of structured English: reading names and phrases, and telling misspelt keywords from them."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 from typing import NoReturn
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.keywords import IN_WHICH_CASE, KEYWORDS, PHRASE, STATEMENTS
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.suggest import near_keyword
+from sleec_runtime.language.token_reader import MAX_DEPTH, MAX_NAME, Abandon, TokenReader, composed, quoted
 from sleec_runtime.language.units import UNITS
-from sleec_runtime.model import NO_COMMENTS, Comments, Source, Span
-
-MAX_DEPTH = 100
-"""How deep parentheses and NOTs may be nested: far deeper than people read, far shallower than Python's stack."""
-
-ALTERNATIVE_LEVELS = 3
-"""As many levels as what OTHERWISE and ELSE hold counts for: its values are nested so much deeper."""
-
-MAX_NAME = 200
-"""The longest name, in characters. A longer one is a text in which keywords are missing."""
+from sleec_runtime.model import Source, Span
 
 _INNER_CAPITAL = re.compile(r"[^\W\d_][^\s]*?(?<=[^\W\d_A-Z])[A-Z]|_")
 _CAPITALISED = {word.capitalize(): word for word in ("WHEN", "IF", "THEN", "UNLESS", "AND", "OR", "NOT", "RULE")}
@@ -71,56 +58,19 @@ _INSTEAD = {
 }
 
 
-class Abandon(Exception):
-    """The clause at hand cannot be read further. The problem has been reported; parsing goes on elsewhere."""
-
-
-class Cursor:
-    """Where the parser stands in `tokens`, and the problems that it has met so far."""
+class Cursor(TokenReader):
+    """Where the parser of structured English stands, and what it does with names, keywords and mistakes."""
 
     def __init__(self, source: Source, tokens: Tokens, problems: list[Problem]) -> None:
-        self.source = source
-        self.problems = problems
-        self.text = source.text
-        self.kinds = tokens.kinds
-        self.starts = tokens.starts
-        self.ends = tokens.ends
-        self.comments = tokens.comments
-        self.at = 0
-        self.depth = 0
+        super().__init__(source, tokens, problems)
         self.deepest = 0
-        self.hurt = False
 
     # Places ---------------------------------------------------------------------------------------------------
-
-    def span(self, first: int) -> Span:
-        """From token `first` to the last one read."""
-        return Span(self.starts[first], self.ends[self.at - 1])
-
-    def token_span(self, token: int) -> Span:
-        return Span(self.starts[token], self.ends[token])
-
-    def token_text(self, token: int) -> str:
-        return self.text[self.starts[token] : self.ends[token]]
-
-    def comments_of(self, token: int) -> Comments:
-        return self.comments.get(token, NO_COMMENTS)
 
     def starts_line(self, token: int) -> bool:
         return token == 0 or "\n" in self.text[self.ends[token - 1] : self.starts[token]]
 
     # Problems -------------------------------------------------------------------------------------------------
-
-    def problem(self, message: str, span: Span, hint: str | None = None) -> None:
-        """Reports a problem, unless this clause already has one."""
-        if not self.hurt:
-            self.hurt = True
-            self.problems.append(Problem(message, span, hint))
-
-    def fail(self, message: str, span: Span, hint: str | None = None) -> NoReturn:
-        """Reports a problem and gives the clause up."""
-        self.problem(message, span, hint)
-        raise Abandon
 
     def expected(self, what: str, hint: str | None = None) -> NoReturn:
         """Gives up because the token at hand is not `what`. The cause may stand just before it: a keyword that is
@@ -174,13 +124,6 @@ class Cursor:
             hint = "words in capitals are taken for keywords; if it is a word of a phrase, write it in small letters"
         self.problems.append(Problem(message, span, hint))
         self.kinds[token : last + 1] = keyword.split()
-
-    def skip(self, stops: Iterable[str]) -> None:
-        """On to the next token whose kind is among `stops`, or to the end."""
-        kinds, at = self.kinds, self.at
-        while kinds[at] not in stops and kinds[at] != "end":
-            at += 1
-        self.at = at
 
     def deeper(self, levels: int = 1) -> None:
         """One parenthesis or NOT further in, or `levels` of them."""
@@ -363,16 +306,3 @@ class Cursor:
             "is AND, or another keyword, missing between them? A single name is written without blanks, "
             "and a phrase in plain words",
         )
-
-
-def composed(name: str) -> str:
-    """`name` with its accents as one character each, so that what looks the same is the same."""
-    import unicodedata
-
-    return unicodedata.normalize("NFC", name)
-
-
-def quoted(text: str) -> str:
-    """`text` on one line, cut short, for a message."""
-    text = " ".join(text[:200].split())
-    return f"`{text[:37]}...`" if len(text) > 40 else f"`{text}`"

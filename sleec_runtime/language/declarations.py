@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from sleec_runtime.language.cursor import quoted
 from sleec_runtime.language.formulas import FormulaParser
 from sleec_runtime.language.keywords import PHRASE
 from sleec_runtime.language.resolve import Side
 from sleec_runtime.language.suggest import nearest
+from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import Agent, Constant, Declaration, Kind, Measure, MeasureKind, Span
 
 _KIND: dict[str, Kind] = {"TRIGGER": "trigger", "CONDITION": "condition", "OBLIGATION": "obligation"}

@@ -10,13 +10,13 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from sleec_runtime.errors import LanguageError, Problem
-from sleec_runtime.language.cursor import Abandon, quoted
 from sleec_runtime.language.garbage import uncollected
 from sleec_runtime.language.keywords import CLAIMS, DECLARATIONS, RULE_STARTS, STATEMENTS
 from sleec_runtime.language.relations import RelationParser
 from sleec_runtime.language.resolve import Names, first_problems
 from sleec_runtime.language.scanner import scan
 from sleec_runtime.language.suggest import near_keyword, nearest
+from sleec_runtime.language.token_reader import Abandon, quoted
 from sleec_runtime.model import (
     READINGS,
     Assume,

@@ -8,10 +8,11 @@ from typing import NoReturn
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.comparisons import Comparisons
-from sleec_runtime.language.cursor import Cursor, quoted
+from sleec_runtime.language.cursor import Cursor
 from sleec_runtime.language.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
 from sleec_runtime.language.resolve import Names, Side
 from sleec_runtime.language.scanner import Tokens
+from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import And, Atom, Formula, Not, Operator, Or, Rational, Source, Span, Truth
 
 MAX_DIGITS = 100

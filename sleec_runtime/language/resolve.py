@@ -11,8 +11,8 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.cursor import quoted
 from sleec_runtime.language.suggest import Suggester
+from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import (
     NOWHERE,
     Agent,

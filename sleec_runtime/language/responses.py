@@ -6,10 +6,11 @@ parentheses. What could be read in two ways must have parentheses: an AND behind
 
 from __future__ import annotations
 
-from sleec_runtime.language.cursor import ALTERNATIVE_LEVELS, MAX_DEPTH, OBLIGATION
+from sleec_runtime.language.cursor import OBLIGATION
 from sleec_runtime.language.keywords import ALTERNATIVES, IN_WHICH_CASE, STATEMENTS
 from sleec_runtime.language.suggest import edits
 from sleec_runtime.language.times import TimeParser
+from sleec_runtime.language.token_reader import ALTERNATIVE_LEVELS, MAX_DEPTH
 from sleec_runtime.model import Clause, Obligation
 
 RULE_STOPS = STATEMENTS | {"UNLESS"}

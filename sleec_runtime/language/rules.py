@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from typing import NoReturn
 
-from sleec_runtime.language.cursor import Abandon, quoted
 from sleec_runtime.language.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
 from sleec_runtime.language.responses import RULE_STOPS, ResponseParser
+from sleec_runtime.language.token_reader import Abandon, quoted
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Or, Rule, Span
 
 _LABEL = re.compile(r"\w(?:[\w.'\u2019-]*\w)?")

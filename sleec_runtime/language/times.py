@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple, NoReturn, cast
 
-from sleec_runtime.language.cursor import MAX_NAME, composed, quoted
 from sleec_runtime.language.declarations import DeclarationParser
 from sleec_runtime.language.formulas import MAX_DIGITS
 from sleec_runtime.language.keywords import ALTERNATIVES, PHRASE, TIMES
+from sleec_runtime.language.token_reader import MAX_NAME, composed, quoted
 from sleec_runtime.language.units import UNITS, unit_meant
 from sleec_runtime.model import MeasureRef, Number, Span
 

@@ -1,20 +1,15 @@
-"""A place in the tokens of a text in the DSL: reading names, reporting, and finding one's feet again.
-
-One mistake is reported once: after a problem the rest of its clause is silent (`hurt`), and parsing goes on at the next
-keyword that surely starts something new.
-"""
+"""A place in the tokens of a text in the DSL: reading names and marks, and the ends of items and blocks."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from typing import NoReturn
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.cursor import MAX_DEPTH, MAX_NAME, Abandon, composed, quoted
 from sleec_runtime.language.dsl.scanner import BLOCK_MARKS, BLOCKS, DEFINITIONS, KEYWORDS
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.suggest import nearest
-from sleec_runtime.model import NO_COMMENTS, Comments, Dialect, Source, Span
+from sleec_runtime.language.token_reader import MAX_DEPTH, MAX_NAME, TokenReader, composed, quoted
+from sleec_runtime.model import Dialect, Source, Span
 
 ITEM_STARTS = BLOCK_MARKS | DEFINITIONS | {"label", "relation", "end"}
 """The kinds of token that start a definition, a rule, a claim or a relation, or end a block."""
@@ -38,39 +33,12 @@ _INSTEAD = {
 }
 
 
-class Cursor:
-    """Where the parser stands in `tokens`, and the problems that it has met so far."""
+class Cursor(TokenReader):
+    """Where the parser of the DSL stands, and what it does with names, keywords and mistakes."""
 
     def __init__(self, source: Source, tokens: Tokens, dialect: Dialect, problems: list[Problem]) -> None:
-        self.source = source
+        super().__init__(source, tokens, problems)
         self.dialect = dialect
-        self.problems = problems
-        self.text = source.text
-        self.kinds = tokens.kinds
-        self.starts = tokens.starts
-        self.ends = tokens.ends
-        self.comments = tokens.comments
-        self.at = 0
-        self.depth = 0
-        self.hurt = False
-
-    # Places ---------------------------------------------------------------------------------------------------
-
-    def span(self, first: int) -> Span:
-        """From token `first` to the last one read."""
-        return Span(self.starts[first], self.ends[self.at - 1])
-
-    def token_span(self, token: int) -> Span:
-        return Span(self.starts[token], self.ends[token])
-
-    def token_text(self, token: int) -> str:
-        return self.text[self.starts[token] : self.ends[token]]
-
-    def comments_of(self, token: int) -> Comments:
-        return self.comments.get(token, NO_COMMENTS)
-
-    def line_of(self, token: int) -> int:
-        return self.source.place(self.token_span(token)).line
 
     # Problems -------------------------------------------------------------------------------------------------
 
@@ -78,17 +46,6 @@ class Cursor:
         """From here on a problem is a new one."""
         self.hurt = False
         self.depth = 0
-
-    def problem(self, message: str, span: Span, hint: str | None = None) -> None:
-        """Reports a problem, unless this clause already has one."""
-        if not self.hurt:
-            self.hurt = True
-            self.problems.append(Problem(message, span, hint))
-
-    def fail(self, message: str, span: Span, hint: str | None = None) -> NoReturn:
-        """Reports a problem and gives the clause up."""
-        self.problem(message, span, hint)
-        raise Abandon
 
     def expected(self, what: str, hint: str | None = None) -> NoReturn:
         """Gives up because the token at hand is not `what`."""
@@ -117,13 +74,6 @@ class Cursor:
 
     def _unsaid(self, kind: str) -> str | None:
         return "a rule looks like this: R1 when Event then Response" if kind == "label" else None
-
-    def skip(self, stops: Collection[str]) -> None:
-        """On to the next token whose kind is among `stops`, or to the end."""
-        kinds, at = self.kinds, self.at
-        while kinds[at] not in stops and kinds[at] != "end":
-            at += 1
-        self.at = at
 
     # Small things ---------------------------------------------------------------------------------------------
 

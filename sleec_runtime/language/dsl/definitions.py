@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from sleec_runtime.language.cursor import quoted
 from sleec_runtime.language.dsl.formulas import FormulaParser
 from sleec_runtime.language.dsl.names import Side
 from sleec_runtime.language.suggest import nearest
+from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import Agent, Constant, Declaration, Measure, Span
 
 _TYPES = ("boolean", "numeric", "scale")

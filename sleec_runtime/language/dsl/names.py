@@ -9,9 +9,9 @@ from math import ceil, floor
 from typing import Literal, NamedTuple, Union
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.cursor import quoted
 from sleec_runtime.language.resolve import MAX_PROBLEMS, did_you_mean
 from sleec_runtime.language.suggest import Suggester
+from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import (
     Comparison,
     Constant,

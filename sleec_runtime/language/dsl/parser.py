@@ -9,13 +9,13 @@ from collections.abc import Callable
 from typing import TypeVar, cast
 
 from sleec_runtime.errors import LanguageError, Problem
-from sleec_runtime.language.cursor import Abandon
 from sleec_runtime.language.dsl.cursor import ITEM_STARTS
 from sleec_runtime.language.dsl.names import Names
 from sleec_runtime.language.dsl.relations import RelationParser
 from sleec_runtime.language.dsl.scanner import BLOCKS, DEFINITIONS, scan, sniff
 from sleec_runtime.language.garbage import uncollected
 from sleec_runtime.language.resolve import first_problems
+from sleec_runtime.language.token_reader import Abandon
 from sleec_runtime.model import Clause, Constant, Formula, Rule, Ruleset, Source, Span, Statement
 from sleec_runtime.model_time import ClaimKind
 

@@ -10,9 +10,9 @@ import re
 from collections.abc import Iterator, Sequence
 
 from sleec_runtime.errors import Unsayable
-from sleec_runtime.language.cursor import MAX_DEPTH
 from sleec_runtime.language.formula_printer import print_number
 from sleec_runtime.language.line_printer import behind, comment_lines, split_heading, trimmed
+from sleec_runtime.language.token_reader import MAX_DEPTH
 from sleec_runtime.model import (
     And,
     Atom,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
-from sleec_runtime.language.cursor import quoted
 from sleec_runtime.language.dsl.responses import ResponseParser
 from sleec_runtime.language.suggest import nearest
+from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Span
 from sleec_runtime.model_time import (
     Claim,
