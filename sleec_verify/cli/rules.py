@@ -46,8 +46,8 @@ def command(code: str | None, form: str) -> int:
     elif code is None:
         write(_listed(kinds, palette))
     else:
-        for entry in chosen.values():
-            write(_explained(entry, palette))
+        for number, entry in enumerate(chosen.values()):
+            write((("\n" if number else ""), *_explained(entry, palette)))
     return exits.HOLDS
 
 
@@ -90,9 +90,9 @@ def _explained(entry: Entry, palette: Palette) -> Iterator[str]:
     yield f"{palette('strong', kind.code)}: {kind.title}\n"
     yield f"{palette(kind.severity, kind.severity)} of the check {check}: {question}\n\n"
     yield fill(kind.explanation, 100) + "\n\n"
-    yield fill(f"To mend it: {kind.mend}", 100) + "\n\n"
+    yield fill(f"To mend it: {kind.mend}", 100) + "\n"
     for title, example in ((f"{what} that have it:", kind.bad), (f"{what} that have not:", kind.good)):
-        yield f"{title}\n\n{indent(example.strip(), '    ')}\n\n"
+        yield f"\n{title}\n\n{indent(example.strip(), '    ')}\n"
 
 
 def _json(entry: Entry) -> Json:
