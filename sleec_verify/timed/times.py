@@ -83,33 +83,19 @@ class Times:
             yield _Edge(_ZERO, node, time, 0)
             yield _Edge(node, _ZERO, -time, 0)
 
-    def refused(self, holds: Callable[[int], bool], used: Sequence[int]) -> list[int] | None:
-        """A clause that a model breaks and that holds of all times, or None if the model leaves times for `used`."""
-        edges = list(self._edges(holds, used))
-        nodes = [_ZERO, *used]
-        distance = dict.fromkeys(nodes, 0)
-        reached: dict[int, _Edge] = {}
-        last = None
-        for _ in nodes:
-            last = None
-            for edge in edges:
-                if distance[edge.source] + edge.length < distance[edge.target]:
-                    distance[edge.target] = distance[edge.source] + edge.length
-                    reached[edge.target] = edge
-                    last = edge.target
-            if last is None:
-                return None
-        assert last is not None
-        # So many steps back end inside the cycle.
-        for _ in nodes:
-            last = reached[last].source
-        cycle, at = [], last
-        while True:
-            edge = reached[at]
-            cycle.append(edge)
-            at = edge.source
-            if at == last:
-                return [-edge.literal for edge in cycle if edge.literal]
+    def refused(self, holds: Callable[[int], bool], used: Sequence[int]) -> list[list[int]]:
+        """Clauses that a model breaks and that hold of all times; none if the model leaves times for `used`.
+
+        Nearly all contradictions are between three instants: all of these are told at once, so that few models are
+        asked for. O(n³) for n instants, and O(n · literals) where no three contradict one another.
+        """
+        tightest: dict[int, dict[int, _Edge]] = {node: {} for node in (_ZERO, *used)}
+        for edge in self._edges(holds, used):
+            known = tightest[edge.source].get(edge.target)
+            if known is None or edge.length < known.length:
+                tightest[edge.source][edge.target] = edge
+        cycles = list(_triangles(tightest)) or _negative_cycle(tightest)
+        return [[-edge.literal for edge in cycle if edge.literal] for cycle in cycles]
 
     def schedule(
         self, holds: Callable[[int], bool], used: Sequence[int]
@@ -129,3 +115,50 @@ class Times:
                     waits[edge.source] = (edge.target, -edge.length)
                     changed = True
         return earliest, waits
+
+
+_Edges = Mapping[int, Mapping[int, _Edge]]
+"""The tightest edge from a node to another one."""
+
+
+def _triangles(edges: _Edges) -> Iterator[list[_Edge]]:
+    """The cycles of two or three edges that add up to less than nothing, each once."""
+    for first, from_first in edges.items():
+        for second, one in from_first.items():
+            back = edges[second].get(first)
+            if first < second and back is not None and one.length + back.length < 0:
+                yield [one, back]
+            for third, other in edges[second].items():
+                # Each cycle begins at its least node.
+                if first < second and first < third:
+                    last = edges[third].get(first)
+                    if last is not None and one.length + other.length + last.length < 0:
+                        yield [one, other, last]
+
+
+def _negative_cycle(edges: _Edges) -> list[list[_Edge]]:
+    """A cycle that adds up to less than nothing, if there is one (Bellman and Ford)."""
+    distance = dict.fromkeys(edges, 0)
+    reached: dict[int, _Edge] = {}
+    last = None
+    for _ in edges:
+        last = None
+        for ways in edges.values():
+            for edge in ways.values():
+                if distance[edge.source] + edge.length < distance[edge.target]:
+                    distance[edge.target] = distance[edge.source] + edge.length
+                    reached[edge.target] = edge
+                    last = edge.target
+        if last is None:
+            return []
+    assert last is not None
+    # So many steps back end inside the cycle.
+    for _ in edges:
+        last = reached[last].source
+    cycle, at = [], last
+    while True:
+        edge = reached[at]
+        cycle.append(edge)
+        at = edge.source
+        if at == last:
+            return [cycle]

@@ -427,9 +427,7 @@ class Unfolding:
                 decoded = instant.measures.decode(self.true)
                 if isinstance(decoded, list):
                     refused.append(decoded)
-        clause = self.times.refused(self.true, self.used())
-        if clause is not None:
-            refused.append(clause)
+        refused += self.times.refused(self.true, self.used())
         for lemma in refused:
             self.add(lemma)
         return bool(refused)
