@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from sleec_runtime.model import Rule
-from sleec_runtime.model_time import EventRelation, Lasting
 from sleec_verify.timed.program import Program, responses_of
 
 
@@ -57,13 +56,3 @@ class Cone:
                         self._take_one(other)
                 for name in self._bound.get(obligation.name, ()):
                     self._reach(name)
-
-    @property
-    def past(self) -> int:
-        """How many instants before now can matter: one for each rule that may still be pending."""
-        pending = sum(self.program.may_press(rule) for rule in self.rules.values())
-        return pending + sum(isinstance(law, Lasting) or _looks_back(law) for law in self.program.laws)
-
-
-def _looks_back(law: object) -> bool:
-    return isinstance(law, EventRelation) and law.relation == "happenBefore"

@@ -16,6 +16,7 @@ from sleec_runtime.model import Rule
 from sleec_verify.solver import Undecided
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.instant import Fixed
+from sleec_verify.timed.past import past
 from sleec_verify.timed.plans import Later, Plan, Plans, at_once
 from sleec_verify.timed.program import Program
 from sleec_verify.timed.questions import decided, needed
@@ -23,7 +24,7 @@ from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.timeline import Timeline, excerpt
 from sleec_verify.timed.unfolding import Unfolding
 
-MOST_PAST = 4
+MOST_PAST = 8
 """Instants before now that are tried."""
 
 MOST_PLANS = 200
@@ -41,7 +42,7 @@ class History:
 class _Search:
     """The search for a history with a number of instants before now."""
 
-    def __init__(self, program: Program, rule: Rule, cone: Cone, past: int) -> None:
+    def __init__(self, program: Program, rule: Rule, cone: Cone, instants: int) -> None:
         self.program = program
         self.cone = cone
         self.rule = rule
@@ -50,7 +51,7 @@ class _Search:
         self.true = self.outer.formula.true
         self.add = self.outer.add
         # Histories of fewer instants have been looked at before.
-        self.past = [self.outer.instant(self.true) for _ in range(past)]
+        self.past = [self.outer.instant(self.true) for _ in range(instants)]
         self.now = self.outer.instant(self.true)
         self.outer.now = self.now
         self.outer.spared.add((rule.label, self.now))
@@ -155,16 +156,18 @@ def conflict(program: Program, rule: Rule) -> History | None:
     Raises Undecided where more instants could matter than are tried.
     """
     cone = Cone(program, rule)
-    for past in range(min(cone.past, MOST_PAST) + 1):
+    most, known = past(program, cone.rules.values())
+    tried = min(most, MOST_PAST)
+    for instants in range(tried + 1):
 
-        def search(past: int = past) -> tuple[Fixed, ...] | None:
-            return _Search(program, rule, cone, past).find()
+        def search(instants: int = instants) -> tuple[Fixed, ...] | None:
+            return _Search(program, rule, cone, instants).find()
 
         found = decided(program, search, frozenset(), frozenset({rule.label}))
         if found is not None:
             return _shown(program, rule, _smaller(program, rule, found))
-    if cone.past > MOST_PAST:
-        raise Undecided(f"no conflict with up to {MOST_PAST} instants before now")
+    if most > tried or not known:
+        raise Undecided(f"no conflict with up to {tried} instants before now")
     return None
 
 

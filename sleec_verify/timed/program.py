@@ -120,32 +120,29 @@ class Program:
         return index
 
     @cached_property
-    def _occurrences(self) -> dict[str, list[Occurs]]:
+    def _demands(self) -> dict[str, list[list[Occurs]]]:
         return {
             rule.label: [
-                occurrence
+                list(occurrences(self.responses.of((obligation,), lambda c: [1] * _size(c))))
                 for clause in rule.clauses()
-                for occurrence in occurrences(self.responses.of(clause.obligations, lambda c: [1] * _size(c)))
+                for obligation in clause.obligations
             ]
             for rule in self.rules
         }
 
+    def demands(self, rule: Rule) -> list[list[Occurs]]:
+        """For each obligation of a rule, what it may come to call for or forbid: itself, and what is due in its place.
+        Raises Undecided for a window whose length a measure says."""
+        return self._demands[rule.label]
+
     def windows(self, rule: Rule) -> list[Occurs]:
         """Every occurrence that a rule may come to call for or forbid. Raises Undecided for a window whose length a
         measure says."""
-        return self._occurrences[rule.label]
+        return [occurrence for demanded in self.demands(rule) for occurrence in demanded]
 
     def is_timed(self, rule: Rule) -> bool:
         """Whether a rule demands anything of other instants than that of its trigger."""
         return any(o.start != 0 or o.end != 0 for o in self.windows(rule))
-
-    def may_press(self, rule: Rule) -> bool:
-        """Whether what a rule demanded in the past may press now: it has a deadline, or forbids for some time. What is
-        due at some time without end presses no more than if it had been triggered now."""
-        return any(
-            o.start != 0 or (o.end is None and o.negated) or (o.end is not None and o.end != 0)
-            for o in self.windows(rule)
-        )
 
     @cached_property
     def has_delays(self) -> bool:

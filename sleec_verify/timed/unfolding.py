@@ -35,10 +35,10 @@ from sleec_verify.timed.program import Law, Program, law_name
 from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
 from sleec_verify.timed.times import Times
 
-MOST = 12
+MOST = 24
 """Instants that may be added before the search for a trace is given up. Published rulesets need three."""
 
-MOST_CLAUSES = 8_000
+MOST_CLAUSES = 20_000
 """Clauses with which no more instants are added: from there, each takes seconds."""
 
 

@@ -1,0 +1,112 @@
+"""How many instants before now a conflict may need: examples that need more than rules, and the number against z3."""
+
+from __future__ import annotations
+
+import pytest
+
+from sleec_runtime.language import parse
+from sleec_verify.solver import Undecided
+from sleec_verify.timed.conflict_cone import Cone
+from sleec_verify.timed.conflicts import conflict
+from sleec_verify.timed.past import Past, past
+from sleec_verify.timed.program import Program
+from tests import timed_oracle as oracle
+from tests.timed_agreement import SIZES, answered
+from tests.timed_strategies import timed_ruleset
+
+
+def asked(text, label):
+    program = Program(parse(text))
+    rule = program.ruleset.by_label[label]
+    return program, rule, past(program, Cone(program, rule).rules.values())
+
+
+@pytest.mark.parametrize("seconds", [1, 2, 3, 4])
+def test_one_rule_may_have_to_be_triggered_many_times(seconds):
+    # Each knock keeps the door shut for one second only.
+    slow = f"RULE slow WHEN Knock THEN NOT Open WITHIN [{seconds}, {seconds}] seconds\n"
+    program, rule, bound = asked(slow + f"RULE fast WHEN Ring THEN Open WITHIN {seconds} seconds", "fast")
+    found = conflict(program, rule)
+    assert found is not None
+    assert len(found.instants) == seconds + 1
+    assert bound.known
+    assert bound.most >= seconds
+
+
+def test_more_than_are_tried_is_unknown():
+    text = "RULE slow WHEN Knock THEN NOT Open WITHIN [20, 20] seconds\nRULE fast WHEN Ring THEN Open WITHIN 20 seconds"
+    program, rule, bound = asked(text, "fast")
+    assert bound.most > 20
+    with pytest.raises(Undecided, match="no conflict with up to 8 instants before now"):
+        conflict(program, rule)
+
+
+def test_what_broke_a_prohibition_is_an_instant_of_its_own():
+    text = """RULE answer WHEN Bell THEN Speak
+    RULE hush WHEN Night THEN NOT Bell WITHIN [2, 2] seconds OTHERWISE NOT Speak WITHIN [1, 3] seconds"""
+    program, rule, _ = asked(text, "answer")
+    found = conflict(program, rule)
+    assert found is not None
+    assert [set(instant.events) for instant in found.instants] == [{"Night"}, {"Bell", "Speak"}, {"Bell"}]
+
+
+def test_rules_of_one_event_need_one_instant_each_way():
+    hours = "\n".join(f"RULE r{n} WHEN t{n} THEN NOT Open WITHIN {n} hours" for n in range(1, 9))
+    minutes = "\n".join(f"RULE s{n} WHEN u{n} THEN Open WITHIN {n} minutes" for n in range(1, 9))
+    assert asked(f"{hours}\n{minutes}", "s8")[2] == Past(2, True)
+    assert asked(hours.replace("NOT Open", "NOT Open AND NOT Shut"), "r8")[2] == Past(1, True)
+
+
+LATER = "RULE b WHEN t THEN Note WITHIN [1, 2] minutes"
+
+
+@pytest.mark.parametrize(
+    ("rules", "expected"),
+    [
+        # Both can be done at once where nothing forbids it.
+        ("RULE b WHEN t THEN Note WITHIN 1 minute", Past(2, True)),
+        # It may have to wait for its own time.
+        ("RULE b WHEN t THEN Note WITHIN 1 minute\nRULE c WHEN u THEN NOT Note", Past(3, True)),
+        (LATER, Past(3, True)),
+        # And what it calls for, too.
+        (f"{LATER}\nRULE c WHEN Note THEN File WITHIN [1, 2] minutes", Past(4, True)),
+        (f"{LATER}\nRULE c WHEN Note THEN t WITHIN [1, 2] minutes", Past(2, False)),
+        # What calls for itself from then on, and nothing that keeps it from being done at once.
+        ("RULE b WHEN t THEN t WITHIN 1 minute\nRULE c WHEN Note THEN NOT t", Past(2, True)),
+        ("RULE b WHEN t THEN Note WITHIN 1 minute\nRULE c WHEN Note THEN File WITHIN 1 minute", Past(2, True)),
+    ],
+)
+def test_what_a_trigger_brings_with_it(rules, expected):
+    text = f"RULE a WHEN t THEN NOT Open WITHIN 1 hour\nRULE z WHEN z THEN Open WITHIN 1 hour\n{rules}"
+    assert asked(text, "z")[2] == expected
+
+
+def bound_agrees(seed, size):
+    ruleset = timed_ruleset(seed, **size)
+    program = Program(ruleset)
+    for rule in ruleset.rules:
+        found = answered(lambda: (past(program, Cone(program, rule).rules.values()), conflict(program, rule)))  # noqa: B023
+        if found is not None and found[1] is None and found[0].most <= 3:
+            more = found[0].most + 2
+            theirs = answered_by_z3(ruleset, rule.label, more)
+            assert not theirs, f"seed {seed}: a conflict with {more} instants before now\n{ruleset.source.text}"
+
+
+def answered_by_z3(ruleset, label, instants):
+    try:
+        return oracle.conflict(ruleset, label, past=instants, later=2, longest=instants + 3).found
+    except oracle.Undecided:
+        return False
+
+
+@pytest.mark.parametrize("first", range(6_000, 6_010, 5))
+def test_no_history_with_more_instants_conflicts(first):
+    for seed in range(first, first + 5):
+        bound_agrees(seed, SIZES[seed % 2])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("first", range(7_000, 8_000, 100))
+def test_no_history_with_more_instants_conflicts_in_many(first):
+    for seed in range(first, first + 100):
+        bound_agrees(seed, SIZES[seed % 2])
