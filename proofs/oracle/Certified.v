@@ -6,7 +6,8 @@
 
 From Coq Require Import List Bool PArith.
 From Sleec Require Import
-  Model Evaluation Nested Clauses Constraints Clashes Conflict ConflictClauses.
+  Model Evaluation Readings Nested Clauses Constraints Clashes Conflict ConflictClauses
+  Question Checks.
 From Checker Require Formula Checker Soundness.
 Import ListNotations.
 
@@ -77,15 +78,72 @@ Qed.
 Definition to_refute (r : reading) (Rs : list nested_rule) (Ks : list constraint)
   : Formula.formula := formula_for (dense (conflict_clauses r (flat r Rs) Ks)).
 
+Definition accepted (f : Formula.formula) (steps : list Checker.step) : bool :=
+  match Checker.check f steps with Checker.Verified => true | _ => false end.
+
+Lemma accepted_unsatisfiable f steps :
+  accepted (formula_for (dense f)) steps = true -> unsatisfiable f.
+Proof.
+  unfold accepted. intro C.
+  apply dense_unsatisfiable, formula_for_unsatisfiable, (Soundness.check_sound _ steps).
+  destruct (Checker.check _ steps); [reflexivity|discriminate|discriminate].
+Qed.
+
 Definition certified (r : reading) (Rs : list nested_rule) (Ks : list constraint)
-    (steps : list Checker.step) : bool :=
-  match Checker.check (to_refute r Rs Ks) steps with Checker.Verified => true | _ => false end.
+    (steps : list Checker.step) : bool := accepted (to_refute r Rs Ks) steps.
 
 (** Whoever made the steps: if they are accepted, no context conflicts. *)
 Theorem certified_never_conflicts r Rs Ks steps :
   certified r Rs Ks steps = true -> never_conflicts r Rs Ks.
 Proof.
-  unfold certified. intro C. apply flat_conflict_free, conflict_free_iff_unsatisfiable.
-  apply dense_unsatisfiable, formula_for_unsatisfiable, (Soundness.check_sound _ steps).
-  unfold to_refute in C. destruct (Checker.check _ steps); [reflexivity|discriminate|discriminate].
+  intro C. apply flat_conflict_free, conflict_free_iff_unsatisfiable.
+  exact (accepted_unsatisfiable _ steps C).
+Qed.
+
+(** * The reading *)
+
+(** No rule depends on it, in any context that can be. *)
+Definition reads_alike (Rs : list nested_rule) (Ks : list constraint) : Prop :=
+  forall chi R, possible Ks chi = true -> In R Rs ->
+  same_literals (nested_due Cascade chi R) (nested_due Priority chi R).
+
+(** One hedge at most, and no chain in a chain: nothing needs to be asked. *)
+Definition simple (R : nested_rule) : bool :=
+  match response R with
+  | Chain _ [] | Chain _ [(_, Chain _ [])] => true
+  | _ => false
+  end.
+
+Lemma simple_alike chi R :
+  simple R = true -> same_literals (nested_due Cascade chi R) (nested_due Priority chi R).
+Proof.
+  unfold simple, nested_due.
+  destruct (response R) as [ls [|[c [ms [|]]] [|]]]; try discriminate; intros _ l;
+    destruct (chi (Occurs (nested_trigger R)) && satisfies chi (nested_guard R)); try tauto;
+    cbn; destruct (satisfies chi c); cbn; tauto.
+Qed.
+
+(** "Some rule obliges something else under the other reading." *)
+Definition readings_part (Rs : list nested_rule) : formula fact :=
+  disj (map (fun R => difference Cascade (flatten Cascade R) Priority (flatten Priority R))
+            (filter (fun R => negb (simple R)) Rs)).
+
+Definition reading_to_refute (Rs : list nested_rule) (Ks : list constraint) : Formula.formula :=
+  formula_for (dense (question_clauses Ks (readings_part Rs))).
+
+Definition certified_reading (Rs : list nested_rule) (Ks : list constraint)
+    (steps : list Checker.step) : bool := accepted (reading_to_refute Rs Ks) steps.
+
+Theorem certified_reads_alike Rs Ks steps :
+  certified_reading Rs Ks steps = true -> reads_alike Rs Ks.
+Proof.
+  intros C chi R P I. apply accepted_unsatisfiable in C.
+  destruct (simple R) eqn:S; [apply simple_alike, S|].
+  rewrite question_answered_no in C. specialize (C chi P). unfold readings_part in C.
+  rewrite eval_disj in C. apply not_true_iff_false in C.
+  assert (D : eval chi (difference Cascade (flatten Cascade R) Priority (flatten Priority R))
+              = false).
+  { apply not_true_is_false. intro T. apply C, existsb_exists. eexists. split; [|exact T].
+    apply in_map_iff. exists R. split; [reflexivity|]. apply filter_In. rewrite S. auto. }
+  apply difference_spec in D. intro l. rewrite <- !flatten_due. apply D.
 Qed.

@@ -47,7 +47,7 @@ def test_what_is_told(cli: Cli) -> None:
     assert "conflict            proved    1 question refuted: conflict.cnf, conflict.lrat\n" in out
     held = cli("certify", "--check", "new/place", "clean.sleec").out
     assert held.startswith("new/place: the certificate holds of clean.sleec (reading cascade)\n")
-    judged, tied = held.splitlines()[-2:]
+    *_, judged, tied = held.splitlines()
     assert judged.startswith("proofs checked by ")
     assert tied.startswith("conflict: ")
 
@@ -75,15 +75,19 @@ def test_it_is_told_what_ties_the_verdict_to_the_rules(
     cli("certify", "clean.sleec", "-o", "a", files=FILES)
     ran = cli("certify", "--check", "a", "clean.sleec")
     assert ran.code == 0
-    assert ran.out.splitlines()[-1] == (
-        "conflict: that the formula is that of the rules is not proved: the oracle is not built (make proofs)"
-    )
+    unbuilt = "the oracle is not built (make proofs)"
+    untied = "that the formula is that of the rules is not proved"
+    assert ran.out.splitlines()[-1] == f"conflict: {untied}: {unbuilt}"
     told = json.loads(cli("certify", "--check", "a", "clean.sleec", "--format", "json").out)
-    assert told["theory"] == {"conflict": False, "reason": "the oracle is not built (make proofs)"}
+    assert told["theory"] == {"conflict": {"proved": False, "reason": unbuilt}}
+    hedged = "RULE a WHEN T THEN X UNLESS C IN WHICH CASE Y UNLESS C AND D IN WHICH CASE Z\n"
+    cli("certify", "hedged.sleec", "-o", "h", files={"hedged.sleec": hedged})
+    ran = cli("certify", "--check", "h", "hedged.sleec")
+    assert ran.out.splitlines()[-2:] == [f"{check}: {untied}: {unbuilt}" for check in ("conflict", "reading")]
     # Of a conflict there is a situation: nothing needs to be tied.
     cli("certify", "conflict.sleec", "-o", "b")
     assert cli("certify", "--check", "b", "conflict.sleec").out.splitlines()[-1].startswith("proofs checked by ")
-    assert "theory" not in json.loads(cli("certify", "--check", "b", "conflict.sleec", "--format", "json").out)
+    assert json.loads(cli("certify", "--check", "b", "conflict.sleec", "--format", "json").out)["theory"] == {}
 
 
 def test_as_json(cli: Cli, tmp_path: Path) -> None:

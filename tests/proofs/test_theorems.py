@@ -16,7 +16,7 @@ from sleec_runtime.language import load, parse
 from sleec_verify.checks import run_checks
 from sleec_verify.finding import Proved
 from sleec_verify.theory import theorems as theorems_module
-from sleec_verify.theory.conflict import not_modelled
+from sleec_verify.theory.proving import not_modelled
 from sleec_verify.theory.theorems import assumptions, but_steps, file_of, main, modules, theorems
 from tests.proofs.conftest import PROOFS
 
