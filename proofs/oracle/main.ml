@@ -248,6 +248,10 @@ let () =
     done
   with
   | End_of_file -> ()
+  (* What is extracted walks lists as they are written down, not from the left. *)
+  | Stack_overflow ->
+    print_endline "UNREADABLE: the rules are more than the stack holds (ulimit -s)";
+    exit 2
   | Unreadable reason ->
     Printf.printf "UNREADABLE: %s\n" reason;
     exit 2

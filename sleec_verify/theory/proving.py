@@ -51,8 +51,10 @@ def steps_for(program: Path, numbered: Numbered, what: What = "conflict", second
             clause = []
         else:
             clause.append(int(word))
+    # The first clause of each says that one of some questions is answered yes. Most are refuted one by one at once.
+    questions = [(literal,) for literal in dict.fromkeys(clauses[0])]
     try:
-        found, (answer,) = refute(clauses, [()])
+        found, refuted = refute(clauses, questions)
     except NotFollowing:
         raise NotRefuted("the clauses that the theory makes of the rules are not refuted") from None
     # Clauses are numbered from 1 there, from 0 here. A clause that says a literal twice, as `c AND c` gives, is no unit
@@ -70,7 +72,15 @@ def steps_for(program: Path, numbered: Numbered, what: What = "conflict", second
             numbers[place] = add(once, [place + 1])
     for step in found:
         numbers.append(add(step.literals, (numbers[hint] for hint in step.hints)))
-    add((), (numbers[hint] for hint in answer.hints))
+    no = []
+    for (asked,), answer in zip(questions, refuted):
+        hints = [numbers[hint] for hint in answer.hints]
+        if not answer.literals:
+            # The clauses are refuted whatever is asked, as by assumptions that nothing satisfies.
+            add((), hints)
+            return steps
+        no.append(add((-asked,), hints))
+    add((), (*no, numbers[0]))
     return steps
 
 

@@ -117,6 +117,14 @@ def test_conditions_said_twice(oracle: Path, what: What) -> None:
     assert agree(oracle, parse(rules), what)
 
 
+@pytest.mark.parametrize("what", WHATS)
+def test_assumptions_that_nothing_satisfies(oracle: Path, what: What) -> None:
+    rules = CONFLICTING + "UNLESS d IN WHICH CASE X\nUNLESS e IN WHICH CASE Y\n"
+    prove(oracle, parse(f"{rules}ASSUME c\nASSUME NOT c\n"), what)
+    with pytest.raises(NotRefuted):
+        prove(oracle, parse(f"{rules}ASSUME c\n"), what)
+
+
 READ_ALIKE = """
 ASSUME NOT (d AND NOT c)
 RULE a
