@@ -294,8 +294,8 @@ class _Examined:
 
 
 MOST_SECONDS = 60.0
-"""How long the oracle may take over one question. It takes about as long as the check, for 1,000 rules and for 6,000;
-with many obligations that exclude one another it can take longer."""
+"""How long the oracle may take over one question. Many obligations that exclude one another take it long, and chains of
+hundreds of hedges."""
 
 _WITNESS = ("witness", "timeline")
 _FRACTION = re.compile(r"-?[0-9]{1,200}/[0-9]{1,200}")

@@ -19,6 +19,7 @@ from sleec_verify.conformance.rulesets import rulesets
 from sleec_verify.theory.oracle import NoAnswer, answers
 from tests import brute
 from tests.proofs.compared import compare, random_cases
+from tests.proofs.conftest import require_coq
 from tests.proofs.enumerated import pairs, single_rules
 
 # Whichever test comes first may have to compile the theory.
@@ -68,6 +69,16 @@ def test_measures_as_conditions(oracle: Path, ruleset: Ruleset, data: st.DataObj
         return
     contexts = [data.draw(st.sampled_from(every)) for _ in range(3)]
     assert compare(oracle, [(ruleset, contexts)]) == 3
+
+
+def test_these_tests_are_skipped_without_coq_but_never_in_ci(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shutil.which", lambda name: None)
+    monkeypatch.delenv("CI", raising=False)
+    with pytest.raises(pytest.skip.Exception, match="apt-get install coq"):
+        require_coq()
+    monkeypatch.setenv("CI", "true")
+    with pytest.raises(pytest.fail.Exception, match="apt-get install coq"):
+        require_coq()
 
 
 def test_what_is_no_question_is_not_answered(oracle: Path) -> None:
