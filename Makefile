@@ -88,6 +88,7 @@ proofs:
 theorems: $(INSTALLED)
 	@$(MAKE) --no-print-directory -C proofs oracle-alone
 	$(BIN)/python -m sleec_verify.theory.theorems rulesets/*.sleec -o proofs/rulesets
+	@rm -f proofs/Makefile.coq  # it has the list of them
 
 bench: $(INSTALLED)
 	$(BIN)/python -m benchmarks

@@ -6,6 +6,9 @@ so before, and a signature tells the robot that someone with the key has seen to
 
 from __future__ import annotations
 
+import errno
+import os
+import stat
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -45,7 +48,7 @@ def read_manifest(folder: str | Path, key: str | Path | None = None) -> Manifest
     import json
 
     try:
-        data = (Path(folder) / MANIFEST).read_bytes()
+        data = read_file(Path(folder) / MANIFEST)
     except OSError as error:
         raise _refused(
             "no-certificate",
@@ -77,6 +80,22 @@ def read_manifest(folder: str | Path, key: str | Path | None = None) -> Manifest
         )
     except (KeyError, TypeError, AttributeError):
         raise _refused("no-certificate", f"the {MANIFEST} in {folder} lacks what every certificate has") from None
+
+
+def read_file(path: Path) -> bytes:
+    """What is in a file of a certificate. From a pipe or a device, reading might never end.
+
+    Raises OSError where it cannot be read, or is no file.
+    """
+    with open(path, "rb", opener=_at_once) as file:
+        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            raise OSError(errno.EINVAL, "it is no file")
+        return file.read()
+
+
+def _at_once(path: str, flags: int) -> int:
+    # To open a pipe waits for someone to write to it.
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def _text(value: object) -> str:
@@ -157,7 +176,7 @@ def check_signature(folder: str | Path, signed: bytes, key: str | Path) -> None:
     if not isinstance(public, ed25519.Ed25519PublicKey):
         raise SleecError(f"{key} is not a public Ed25519 key in PEM", "openssl pkey -in KEY.pem -pubout -out PUB.pem")
     try:
-        written = (Path(folder) / SIGNATURE).read_bytes()
+        written = read_file(Path(folder) / SIGNATURE)
     except OSError:
         raise _refused(
             "unsigned", "the certificate is not signed", "sign it: sleec-verify certify FILE -o DIR --sign KEY.pem"

@@ -4,9 +4,10 @@
     Whoever makes the steps is not trusted.  [certified] runs inside Coq, where the
     theorems of [rulesets/] are proved by it, and is extracted. *)
 
-From Coq Require Import List Bool PArith.
+From Coq Require Import List Bool PArith Arith Lia.
 From Sleec Require Import
-  Model Evaluation Nested Clauses Constraints Clashes Conflict ConflictClauses.
+  Model Evaluation Readings Nested Clauses Constraints Clashes Conflict ConflictClauses
+  Question Checks.
 From Checker Require Formula Checker Soundness.
 Import ListNotations.
 
@@ -77,15 +78,101 @@ Qed.
 Definition to_refute (r : reading) (Rs : list nested_rule) (Ks : list constraint)
   : Formula.formula := formula_for (dense (conflict_clauses r (flat r Rs) Ks)).
 
+Definition accepted (f : Formula.formula) (steps : list Checker.step) : bool :=
+  match Checker.check f steps with Checker.Verified => true | _ => false end.
+
+Lemma accepted_unsatisfiable f steps :
+  accepted (formula_for (dense f)) steps = true -> unsatisfiable f.
+Proof.
+  unfold accepted. intro C.
+  apply dense_unsatisfiable, formula_for_unsatisfiable, (Soundness.check_sound _ steps).
+  destruct (Checker.check _ steps); [reflexivity|discriminate|discriminate].
+Qed.
+
 Definition certified (r : reading) (Rs : list nested_rule) (Ks : list constraint)
-    (steps : list Checker.step) : bool :=
-  match Checker.check (to_refute r Rs Ks) steps with Checker.Verified => true | _ => false end.
+    (steps : list Checker.step) : bool := accepted (to_refute r Rs Ks) steps.
 
 (** Whoever made the steps: if they are accepted, no context conflicts. *)
 Theorem certified_never_conflicts r Rs Ks steps :
   certified r Rs Ks steps = true -> never_conflicts r Rs Ks.
 Proof.
-  unfold certified. intro C. apply flat_conflict_free, conflict_free_iff_unsatisfiable.
-  apply dense_unsatisfiable, formula_for_unsatisfiable, (Soundness.check_sound _ steps).
-  unfold to_refute in C. destruct (Checker.check _ steps); [reflexivity|discriminate|discriminate].
+  intro C. apply flat_conflict_free, conflict_free_iff_unsatisfiable.
+  exact (accepted_unsatisfiable _ steps C).
+Qed.
+
+(** * The reading *)
+
+(** No rule depends on it, in any context that can be. *)
+Definition reads_alike (Rs : list nested_rule) (Ks : list constraint) : Prop :=
+  forall chi R, possible Ks chi = true -> In R Rs ->
+  same_literals (nested_due Cascade chi R) (nested_due Priority chi R).
+
+(** A rule without a chain in a chain is one flat rule in both readings. *)
+Definition plain (R : nested_rule) : bool :=
+  forallb (fun h => match inner (snd h) with [] => true | _ => false end) (inner (response R)).
+
+Definition as_one (R : nested_rule) : rule :=
+  Rule (nested_label R) (nested_trigger R) (nested_guard R) (obliges (response R))
+       (map (fun h => Hedge (fst h) (own_part (snd h))) (inner (response R))).
+
+Lemma flatten_plain r R : plain R = true -> flatten r R = [as_one R].
+Proof.
+  unfold plain, as_one, flatten. destruct (response R) as [ls hs]. cbn [inner obliges flatten_chain].
+  intro P. f_equal.
+  match goal with |- concat (?go _ _) = [] =>
+    enough (E : forall rest i,
+              forallb (fun h => match inner (snd h) with [] => true | _ => false end) rest = true ->
+              concat (go i rest) = []) by exact (E hs _ P)
+  end.
+  induction rest as [|h rest IH]; intros i Q; [reflexivity|].
+  cbn [forallb] in Q. apply andb_true_iff in Q. destruct Q as [H Q].
+  cbn [concat]. destruct (inner (snd h)); [exact (IH (S i) Q)|discriminate H].
+Qed.
+
+(** Where the readings choose clauses that oblige different things. *)
+Definition parting (R : rule) : list (formula fact) :=
+  flat_map (fun j =>
+    flat_map (fun k => if same_literalsb (clause R k) (clause R j) then [] else [differ R k j])
+             (seq 0 (j - 1)))
+    (seq 0 (S (length (hedges R)))).
+
+Lemma parting_none chi R :
+  (forall f, In f (parting R) -> eval chi f = false) ->
+  same_literals (due_of Cascade chi R) (due_of Priority chi R).
+Proof.
+  intro N. apply agree_here. intros k j L B.
+  destruct (same_literalsb (clause R k) (clause R j)) eqn:E.
+  - left. apply same_literalsb_spec, E.
+  - right. apply N. unfold parting. apply in_flat_map. exists j. split; [apply in_seq; lia|].
+    apply in_flat_map. exists k. split; [apply in_seq; lia|]. rewrite E. left. reflexivity.
+Qed.
+
+(** "The rule obliges something else under the other reading": one of these is true.
+    The second way would do for all rules, and is many times as long. *)
+Definition parts (R : nested_rule) : list (formula fact) :=
+  if plain R then parting (as_one R)
+  else [difference Cascade (flatten Cascade R) Priority (flatten Priority R)].
+
+Lemma parts_none chi R :
+  (forall f, In f (parts R) -> eval chi f = false) ->
+  same_literals (nested_due Cascade chi R) (nested_due Priority chi R).
+Proof.
+  unfold parts. intros N l. rewrite <- !flatten_due. destruct (plain R) eqn:P.
+  - rewrite !flatten_plain by exact P. unfold due. cbn [flat_map]. rewrite !app_nil_r.
+    apply parting_none, N.
+  - specialize (N _ (or_introl eq_refl)). apply difference_spec in N. apply N.
+Qed.
+
+Definition reading_to_refute (Rs : list nested_rule) (Ks : list constraint) : Formula.formula :=
+  formula_for (dense (questions_clauses Ks (flat_map parts Rs))).
+
+Definition certified_reading (Rs : list nested_rule) (Ks : list constraint)
+    (steps : list Checker.step) : bool := accepted (reading_to_refute Rs Ks) steps.
+
+Theorem certified_reads_alike Rs Ks steps :
+  certified_reading Rs Ks steps = true -> reads_alike Rs Ks.
+Proof.
+  intros C chi R P I. apply accepted_unsatisfiable in C.
+  rewrite questions_answered_no in C. apply parts_none. intros f F.
+  apply (C chi f P), in_flat_map. eauto.
 Qed.

@@ -19,6 +19,8 @@
      clauses                   the formula that is unsatisfiable exactly if no context conflicts: LITERAL… 0 LITERAL… 0 …
      refuted STEP…             yes if these steps refute that formula, no if not
                                STEP: a N LITERAL… 0 N… 0 (clause N follows from those clauses) | d N… 0 (forget them)
+     clauses-of-reading, refuted-of-reading STEP…
+                               the same of the formula that is unsatisfiable exactly if no rule depends on the reading
 
    UNREADABLE: reason, exit 2, where a line is not of this kind. *)
 
@@ -185,10 +187,10 @@ let table { reading; literals; rules; constraints } chi =
     (bit (compatible_by_table reading all constraints chi))
     (list shown (List.filter entailed literals))
 
-let clauses { reading; rules; constraints; _ } =
+let clauses formula =
   let shown = function Pos x -> string_of_int (int_of x) | Neg x -> string_of_int (-int_of x) in
   let show clause = List.iter (fun l -> print_string (shown l ^ " ")) clause; print_string "0 " in
-  List.iter show (to_refute reading rules constraints);
+  List.iter show formula;
   print_newline ()
 
 let steps () =
@@ -212,6 +214,8 @@ let steps () =
   in
   take []
 
+let verdict accepted = print_endline (if accepted then "yes" else "no")
+
 let answer asked line =
   words := List.filter (fun word -> word <> "") (String.split_on_char ' ' line);
   let of_rules f =
@@ -225,10 +229,13 @@ let answer asked line =
      print_endline "ok"
    | "at" -> of_rules (fun known -> at known (context ()))
    | "table" -> of_rules (fun known -> table known (context ()))
-   | "clauses" -> of_rules clauses
+   | "clauses" ->
+     of_rules (fun { reading; rules; constraints; _ } -> clauses (to_refute reading rules constraints))
    | "refuted" ->
-     of_rules (fun { reading; rules; constraints; _ } ->
-       print_endline (if certified reading rules constraints (steps ()) then "yes" else "no"))
+     of_rules (fun { reading; rules; constraints; _ } -> verdict (certified reading rules constraints (steps ())))
+   | "clauses-of-reading" -> of_rules (fun { rules; constraints; _ } -> clauses (reading_to_refute rules constraints))
+   | "refuted-of-reading" ->
+     of_rules (fun { rules; constraints; _ } -> verdict (certified_reading rules constraints (steps ())))
    | other -> unreadable "%S is no question" other);
   if !words <> [] then unreadable "something follows the question"
 
@@ -241,6 +248,10 @@ let () =
     done
   with
   | End_of_file -> ()
+  (* What is extracted walks lists as they are written down, not from the left. *)
+  | Stack_overflow ->
+    print_endline "UNREADABLE: the rules are more than the stack holds (ulimit -s)";
+    exit 2
   | Unreadable reason ->
     Printf.printf "UNREADABLE: %s\n" reason;
     exit 2

@@ -78,6 +78,8 @@ Print Assumptions ConflictClauses.conflict_clauses_spec.
 Print Assumptions ConflictClauses.conflict_free_iff_unsatisfiable.
 Print Assumptions ConflictClauses.conflict_free_in_parts.
 
+Print Assumptions Question.questions_spec.
+Print Assumptions Question.questions_answered_no.
 Print Assumptions Question.question_spec.
 Print Assumptions Question.question_answered_no.
 

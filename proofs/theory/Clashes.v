@@ -82,8 +82,16 @@ Definition resolvents (o : name) (cs : list clash) : list clash :=
 Definition idle (obliged : list literal) (o : name) (c : clash) : bool :=
   existsb (fun l => Pos.eqb (about l) o && negb (listed l obliged)) (literals c).
 
+Definition resolved (obliged : list literal) (o : name) (cs : list clash) : list clash :=
+  filter (fun c => negb (idle obliged o c)) cs ++ resolvents o cs.
+
+(** Where nothing is resolved there is nothing new to be subsumed: with hundreds of
+    constraints that look would take most of the time. *)
 Definition eliminate_one (obliged : list literal) (o : name) (cs : list clash) : list clash :=
-  minimal (filter (fun c => negb (idle obliged o c)) cs ++ resolvents o cs).
+  match resolvents o cs with
+  | [] => resolved obliged o cs
+  | _ => minimal (resolved obliged o cs)
+  end.
 
 Fixpoint eliminate (obliged : list literal) (os : list name) (cs : list clash) : list clash :=
   match os with
@@ -94,13 +102,28 @@ Fixpoint eliminate (obliged : list literal) (os : list name) (cs : list clash) :
 Definition names_of (cs : list clash) : list name :=
   nodup Pos.eq_dec (flat_map (fun c => map about (literals c)) cs).
 
+Lemma eliminate_one_incl obliged o cs :
+  incl (eliminate_one obliged o cs) (resolved obliged o cs).
+Proof.
+  unfold eliminate_one. destruct (resolvents o cs); [apply incl_refl|apply minimal_incl].
+Qed.
+
+Lemma eliminate_one_covers obliged o cs c :
+  In c (resolved obliged o cs) ->
+  exists d, In d (eliminate_one obliged o cs) /\ subsumes d c = true.
+Proof.
+  intro I. unfold eliminate_one. destruct (resolvents o cs).
+  - exists c. split; [exact I|]. apply subsumes_spec. split; apply incl_refl.
+  - apply minimal_covers, I.
+Qed.
+
 (** ** Nothing new is ruled out *)
 
 Lemma eliminate_one_sound obliged o cs v :
   (forall c, In c cs -> strikes v c = false) ->
   forall c, In c (eliminate_one obliged o cs) -> strikes v c = false.
 Proof.
-  intros H c I. apply minimal_incl in I. apply in_app_iff in I. destruct I as [I|I].
+  intros H c I. apply eliminate_one_incl, in_app_iff in I. destruct I as [I|I].
   - apply filter_In in I. apply H, I.
   - unfold resolvents in I. apply filter_In in I. destruct I as [I _].
     apply in_flat_map in I. destruct I as [a [A I]]. apply in_map_iff in I.
@@ -169,8 +192,7 @@ Proof.
   assert (K : forall c, In c cs -> here chi c = true -> incl (literals c) ms ->
               idle obliged o c = false -> False).
   { intros c I H L D.
-    destruct (minimal_covers (filter (fun c => negb (idle obliged o c)) cs ++ resolvents o cs) c)
-      as [d [J SD]].
+    destruct (eliminate_one_covers obliged o cs c) as [d [J SD]].
     { apply in_app_iff. left. apply filter_In. rewrite D. auto. }
     apply (FM d J); [exact (here_subsumes chi d c SD H)|].
     apply subsumes_spec in SD. eapply incl_tran; [apply SD|exact L]. }
@@ -238,8 +260,8 @@ Proof.
     - apply negb_true_iff, not_true_is_false. intro D. apply contradictory_spec in D.
       destruct D as [k [D1 D2]]. apply not_true_iff_false in CM. apply CM, contradictory_spec.
       exists k. split; apply E; assumption. }
-  destruct (minimal_covers (filter (fun c => negb (idle obliged o c)) cs ++ resolvents o cs) e)
-    as [g [Q SG]]; [apply in_app_iff; right; exact IE|].
+  destruct (eliminate_one_covers obliged o cs e) as [g [Q SG]];
+    [apply in_app_iff; right; exact IE|].
   apply (FM g Q); [exact (here_subsumes chi g e SG HE)|].
   apply subsumes_spec in SG. eapply incl_tran; [apply SG|exact E].
 Qed.

@@ -186,18 +186,20 @@ Proof. intro P. exact (as_printed_false_with_shared_epsilon (P _)). Qed.
 
 (** * No hypothesis can be dropped *)
 
-(** Two rules with one label: each runs what the other's layer says. *)
+(** Two rules with one label: each runs what the other's layer says, methods of their
+    own or not. *)
 Definition R1' := one_hedge 1 1 3 2 4.
 
 Theorem labels_needed :
-  exists G chi o,
+  exists G chi o, forall method,
     consistent Cascade G chi /\ (forall R, In R G -> positive_rule R) /\
-    executes (gamma Cascade label G) G chi o /\ ~ entails_to_do Cascade G chi o.
+    executes (gamma Cascade method G) G chi o /\ ~ entails_to_do Cascade G chi o.
 Proof.
-  exists [R1; R1'], (only [1] [1]), 1. split; [reflexivity|]. split.
+  exists [R1; R1'], (only [1] [1]), 1. intro method. split; [reflexivity|]. split.
   - decide_rules; apply positive_clauses; reflexivity.
   - split.
-    + apply executes_computed. vm_compute. reflexivity.
+    + exists R1, (Epsilon 1), [1]. repeat split; try (vm_compute; tauto).
+      apply in_variants. exists R1, 0%nat. vm_compute. intuition.
     + apply (entails_not_computed _ _ _ (Do 1)). reflexivity.
 Qed.
 
@@ -206,14 +208,14 @@ Qed.
 Definition at_odds := [no_hedge 1 1 [Do 1]; no_hedge 2 1 [Avoid 1]; no_hedge 3 2 [Do 2]].
 
 Theorem consistency_needed :
-  exists G chi o,
+  exists G chi o, forall method,
     unique_labels G /\ entails_to_do Cascade G chi o /\
-    ~ executes (gamma Cascade label G) G chi o.
+    ~ executes (gamma Cascade method G) G chi o.
 Proof.
-  exists at_odds, (only [1] []), 2. split; [|split].
-  - unfold unique_labels. decide_rules.
+  assert (U : unique_labels at_odds) by (unfold unique_labels; decide_rules).
+  exists at_odds, (only [1] []), 2. intro method. split; [exact U|split].
   - apply (entails_computed _ _ _ (Do 2)). reflexivity.
-  - apply executes_not_computed. vm_compute. reflexivity.
+  - rewrite executed_iff_due by exact U. vm_compute. intuition discriminate.
 Qed.
 
 (** In the same context what is forbidden is executed. *)
@@ -230,14 +232,14 @@ Qed.
 
 (** An ε for each rule is needed: with the others mended, a shared one fails. *)
 Theorem own_epsilon_needed :
-  exists G chi o,
+  exists G chi o, forall method,
     unique_labels G /\ (forall R, In R G -> positive_rule R) /\
-    executes (gamma_shared Cascade label G) G chi o /\ ~ entails_to_do Cascade G chi o.
+    executes (gamma_shared Cascade method G) G chi o /\ ~ entails_to_do Cascade G chi o.
 Proof.
-  exists [R1; R2], abc, 1. split; [unfold unique_labels; decide_rules|]. split.
+  exists [R1; R2], abc, 1. intro method. split; [unfold unique_labels; decide_rules|]. split.
   - decide_rules; apply positive_clauses; reflexivity.
   - split.
-    + apply executes_computed. vm_compute. reflexivity.
+    + apply shared_epsilon_executes_too_much.
     + apply (entails_not_computed _ _ _ (Do 1)). reflexivity.
 Qed.
 

@@ -222,6 +222,22 @@ Definition readings_agree (R : rule) : Prop :=
 Definition differ (R : rule) (k j : nat) : formula fact :=
   And (guard Cascade R k) (guard Priority R j).
 
+Lemma agree_here chi R :
+  (forall k j, S k < j -> j <= length (hedges R) ->
+     same_literals (clause R k) (clause R j) \/ eval chi (differ R k j) = false) ->
+  same_literals (due_of Cascade chi R) (due_of Priority chi R).
+Proof.
+  intro H. unfold due_of. destruct (triggered chi R) eqn:T; [|intro; reflexivity].
+  unfold active at 1 2. cbn [decides].
+  destruct (prefix_or_gap (truths chi R)) as [E|L].
+  - rewrite E. intro; reflexivity.
+  - pose proof (active_bound Priority chi R) as B. unfold active in B. cbn [decides] in B.
+    destruct (H _ _ L B) as [S|N]; [exact S|]. exfalso.
+    apply not_true_iff_false in N. apply N.
+    unfold differ. cbn [eval]. apply andb_true_iff.
+    split; apply guard_true; auto; lia.
+Qed.
+
 (** The readings agree exactly when, for every two clauses with a third between,
     they oblige the same or no context is as [differ] says. *)
 Theorem readings_agree_iff R :
@@ -239,15 +255,7 @@ Proof.
       destruct C as [T C]. destruct P as [_ P].
       specialize (A chi). unfold due_of in A. rewrite T, C, P in A.
       apply same_literalsb_spec in A. congruence.
-  - intros H chi. unfold due_of. destruct (triggered chi R) eqn:T; [|intro; reflexivity].
-    unfold active at 1 2. cbn [decides].
-    destruct (prefix_or_gap (truths chi R)) as [E|L].
-    + rewrite E. intro; reflexivity.
-    + pose proof (active_bound Priority chi R) as B. unfold active in B. cbn [decides] in B.
-      destruct (H _ _ L B) as [S|N]; [exact S|]. exfalso.
-      specialize (N chi). apply not_true_iff_false in N. apply N.
-      unfold differ. cbn [eval]. apply andb_true_iff.
-      split; apply guard_true; auto; lia.
+  - intros H chi. apply agree_here. intros k j L B. destruct (H k j L B); auto.
 Qed.
 
 (** Where they agree on every rule, they agree on what is entailed. *)

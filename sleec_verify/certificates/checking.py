@@ -11,7 +11,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
-from sleec_runtime.certificate import MANIFEST, SIGNATURE, Manifest, read_manifest
+from sleec_runtime.certificate import MANIFEST, SIGNATURE, Manifest, read_file, read_manifest
 from sleec_runtime.errors import CertificateRefused, SleecError
 from sleec_runtime.model import READINGS
 from sleec_verify import __version__
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from sleec_verify.certificates.checker import Checker
     from sleec_verify.certificates.manifest import Shown
     from sleec_verify.finding import Finding
+    from sleec_verify.theory.proving import What
     from sleec_verify.timed.scope import Untimed
 
 
@@ -40,9 +41,9 @@ class Problem(NamedTuple):
 
 @dataclass(frozen=True)
 class Tied:
-    """Whether it is proved, from the rules as they are read, that no context conflicts; if not, why that was not
-    looked at."""
+    """Whether the verdict of a check is proved, from the rules as they are read; if not, why that was not looked at."""
 
+    check: str
     proved: bool
     reason: str | None = None
 
@@ -56,7 +57,7 @@ class Confirmed:
     shown: tuple[Shown, ...]
     checker: Checker
     signed: bool
-    tied: Tied | None = None
+    tied: tuple[Tied, ...] = ()
 
 
 def check_certificate(
@@ -72,8 +73,9 @@ def check_certificate(
 ) -> Confirmed:
     """Check the certificate in `folder` against a ruleset: its bytes, its verdicts, computed again, the formulas, built
     again, the refutations of these, judged by `judge`, and the witnesses, replayed. `domain` and `reading`, if they
-    are given, and the public `key` must be those of the certificate. Where no context conflicts, the `oracle`, if there
-    is one, makes the formula of it once more, by what is proved, and judges its refutation.
+    are given, and the public `key` must be those of the certificate. Where no context conflicts, or no rule depends on
+    the reading, the `oracle`, if there is one, makes the formula of it once more, by what is proved, and judges its
+    refutation.
 
     Raises CertificateRefused with all the reasons that are found.
     """
@@ -92,33 +94,33 @@ def check_certificate(
     read = ruleset if claimed.reading == ruleset.reading else ruleset.read_as(cast("Reading", claimed.reading))
     examined = _Examined(read, claimed, Path(folder), judge)
     problems = [*examined.files(), *examined.contents(progress)]
-    tied = None
-    if not problems and examined.never_conflicts:
+    tied: list[Tied] = []
+    for check in () if problems else examined.to_tie():
         try:
-            tied = _tie(read, claimed.domain, oracle)
+            tied.append(_tie(check, read, claimed.domain, oracle))
         except NotRefuted as error:
-            problems.append(Problem("theory", f"the verdict of conflict is not what is proved of the rules: {error}"))
+            problems.append(Problem("theory", f"the verdict of {check} is not what is proved of the rules: {error}"))
     if problems:
         raise CertificateRefused(problems, _hint(claimed))
-    return Confirmed(read, tuple(examined.shown), judge, (Path(folder) / SIGNATURE).exists(), tied)
+    return Confirmed(read, tuple(examined.shown), judge, (Path(folder) / SIGNATURE).exists(), tuple(tied))
 
 
-def _tie(ruleset: Ruleset, domain: str | None, oracle: Path | None) -> Tied:
-    """Have the oracle prove, in each domain, that no context conflicts. Raises NotRefuted where it does not."""
-    from sleec_verify.theory.conflict import never_conflicts, not_modelled
+def _tie(check: What, ruleset: Ruleset, domain: str | None, oracle: Path | None) -> Tied:
+    """Have the oracle prove a verdict in each domain. Raises NotRefuted where it does not."""
+    from sleec_verify.theory.proving import not_modelled, prove
 
     if oracle is None:
-        return Tied(False, "the oracle is not built (make proofs)")
+        return Tied(check, False, "the oracle is not built (make proofs)")
     domains = ruleset.domains if domain is None else (domain,)
     for part in [ruleset.in_domain(name) for name in domains] or [ruleset]:
         reason = not_modelled(part)
         if reason is not None:
-            return Tied(False, reason)
+            return Tied(check, False, reason)
         try:
-            never_conflicts(oracle, part, MOST_SECONDS)
+            prove(oracle, part, check, MOST_SECONDS)
         except NoAnswer as error:
-            return Tied(False, str(error.message))
-    return Tied(True)
+            return Tied(check, False, str(error.message))
+    return Tied(check, True)
 
 
 def _check_options(ruleset: Ruleset, claimed: Manifest, domain: str | None, reading: str | None) -> None:
@@ -159,10 +161,14 @@ class _Examined:
         self._cones: dict[str, Cones] = {}
         self.shown: list[Shown] = []
 
-    @property
-    def never_conflicts(self) -> bool:
-        """Whether the check `conflict` is proved."""
-        return any(one.result.name == "conflict" and isinstance(one.result.verdict, Proved) for one in self.shown)
+    def to_tie(self) -> Iterator[What]:
+        """The checks of `WHATS` that are proved, by a proof."""
+        from sleec_verify.theory.proving import WHATS
+
+        shown = {one.result.name: one for one in self.shown}
+        for check in WHATS:
+            if isinstance(shown[check].result.verdict, Proved) and shown[check].files:
+                yield check
 
     # Files ----------------------------------------------------------------------------------------------------
 
@@ -183,7 +189,7 @@ class _Examined:
 
     def _bytes(self, name: str) -> bytes | None:
         try:
-            return (self._folder / name).read_bytes()
+            return read_file(self._folder / name)
         except OSError:
             return None
 
@@ -288,7 +294,8 @@ class _Examined:
 
 
 MOST_SECONDS = 60.0
-"""How long the oracle may take over one question; its clauses are quadratic in the obligations that are at odds."""
+"""How long the oracle may take over one question. Many obligations that exclude one another take it long, and chains of
+hundreds of hedges."""
 
 _WITNESS = ("witness", "timeline")
 _FRACTION = re.compile(r"-?[0-9]{1,200}/[0-9]{1,200}")

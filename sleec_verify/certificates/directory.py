@@ -57,12 +57,12 @@ def write_folder(folder: str, files: Iterable[tuple[str, bytes]], force: bool) -
             new.mkdir()
             for name, data in files:
                 (new / name).write_bytes(data)
-            if target.exists():
-                target.rename(made / "old")
             try:
+                if target.exists():
+                    target.rename(made / "old")
                 new.rename(target)
-            except OSError:
-                if (made / "old").exists():
+            except BaseException:  # an interruption, too, must not cost what was there
+                if (made / "old").exists() and not target.exists():
                     (made / "old").rename(target)
                 raise
         finally:

@@ -31,10 +31,9 @@ def told(
     folder: str,
     shown: Sequence[Shown],
     judge: Checker | None,
-    tied: Tied | None = None,
+    tied: Sequence[Tied] = (),
 ) -> Iterator[str]:
-    """That a certificate was written, or (`judge`) that it holds, and what ties its verdict of `conflict` to the
-    rules."""
+    """That a certificate was written, or (`judge`) that it holds, and how its verdicts are tied to the rules."""
     if form == "json":
         yield dump(_json(ruleset, folder, shown, judge, tied))
         return
@@ -52,14 +51,14 @@ def told(
         else:
             more = ", which is proved correct" if judge.proved else ""
         yield f"proofs checked by {judge.name}{more}\n"
-    if tied is not None:
-        yield f"{_tied(tied)}\n"
+    for one_tied in tied:
+        yield f"{_tied(one_tied)}\n"
 
 
 def _tied(tied: Tied) -> str:
     if tied.proved:
-        return "conflict: proved of the rules as they were read, by what is extracted from the theory in Coq"
-    return f"conflict: that the formula is that of the rules is not proved: {tied.reason}"
+        return f"{tied.check}: proved of the rules as they were read, by what is extracted from the theory in Coq"
+    return f"{tied.check}: that the formula is that of the rules is not proved: {tied.reason}"
 
 
 def _shown_by(one: Shown) -> str:
@@ -69,7 +68,7 @@ def _shown_by(one: Shown) -> str:
     return f"{asked}: {', '.join(one.files)}"
 
 
-def _json(ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge: Checker | None, tied: Tied | None) -> Json:
+def _json(ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge: Checker | None, tied: Sequence[Tied]) -> Json:
     checks: list[Json] = [
         {
             "name": one.result.name,
@@ -85,7 +84,7 @@ def _json(ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge: Checker 
         "sha256": ruleset.source.sha256,
         "reading": ruleset.reading,
         **({} if judge is None else {"holds": True, "checker": {"name": judge.name, "proved": judge.proved}}),
-        **({} if tied is None else {"theory": {"conflict": tied.proved, "reason": tied.reason}}),
+        **({} if judge is None else {"theory": {t.check: {"proved": t.proved, "reason": t.reason} for t in tied}}),
         "checks": checks,
     }
 

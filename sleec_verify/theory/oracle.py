@@ -42,6 +42,7 @@ def answers(program: Path, questions: Iterable[str], seconds: float | None = Non
         raise NoAnswer(f"the oracle {program} cannot be run: {error.strerror}") from None
     found = done.stdout.splitlines()
     if done.returncode or len(found) != len(asked):
-        said = found[-1] if done.returncode == 2 and found else f"it ended with {done.returncode}"
+        last = found[-1] if found else ""
+        said = last if last.startswith("UNREADABLE: ") else f"it ended with {done.returncode}"
         raise NoAnswer(f"the oracle did not answer: {said}")
     return found

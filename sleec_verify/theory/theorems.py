@@ -19,9 +19,9 @@ from sleec_runtime.errors import SleecError
 from sleec_runtime.language import load
 from sleec_runtime.model import Ruleset
 from sleec_verify.theory.boolean import Boolean
-from sleec_verify.theory.conflict import Step, not_modelled, steps_for
 from sleec_verify.theory.numbered import Kind, Numbered
 from sleec_verify.theory.oracle import NotRefuted, built
+from sleec_verify.theory.proving import Step, not_modelled, steps_for
 
 STEPS = "Definition steps"
 """What comes from a solver begins with this."""

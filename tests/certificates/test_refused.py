@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import re
 import shutil
 from collections.abc import Callable
@@ -131,6 +132,39 @@ def test_a_file_that_is_a_folder(proofs: Path, tmp_path: Path, name: str) -> Non
     (folder / "c" / name).unlink()
     (folder / "c" / name).mkdir()
     assert reasons(folder) == {"file-missing"}
+
+
+@pytest.mark.parametrize("name", ["manifest.json", *PROVED_FILES])
+@pytest.mark.parametrize("kind", ["pipe", "device"])
+def test_what_is_no_file_is_not_read(proofs: Path, tmp_path: Path, name: str, kind: str) -> None:
+    """To read it would never end."""
+    folder = copied(proofs, tmp_path)
+    path = folder / "c" / name
+    path.unlink()
+    if kind == "pipe":
+        os.mkfifo(path)
+    else:
+        path.symlink_to("/dev/zero")
+    assert reasons(folder) == {"no-certificate" if name == "manifest.json" else "file-missing"}
+
+
+def test_a_link_to_the_same_bytes_is_as_good(proofs: Path, tmp_path: Path) -> None:
+    folder = copied(proofs, tmp_path)
+    path = folder / "c" / "conflict.lrat"
+    path.rename(folder / "elsewhere")
+    path.symlink_to(folder / "elsewhere")
+    assert reasons(folder) == set()
+    (folder / "elsewhere").write_text("")
+    assert reasons(folder) == {"file-changed", "proof"}
+    (folder / "elsewhere").unlink()
+    assert reasons(folder) == {"file-missing"}
+
+
+@pytest.mark.parametrize("name", ["../rules.sleec", "/etc/hostname", "..", ""])
+def test_a_file_elsewhere_is_no_part_of_it(proofs: Path, tmp_path: Path, name: str) -> None:
+    folder = copied(proofs, tmp_path)
+    rewrite(folder, lambda m: m["files"].update({name: "0" * 64}))
+    assert reasons(folder) == {"file-missing", "manifest"}
 
 
 @pytest.mark.parametrize("kept", [0, 1, 2])

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from sleec_verify.certificates.directory import write_folder
 from tests.cli.conftest import Cli
 
 CLEAN = "RULE a WHEN A THEN X UNLESS C IN WHICH CASE Y\nRULE b WHEN A THEN Z UNLESS C IN WHICH CASE NOT X\n"
@@ -46,7 +47,9 @@ def test_what_is_told(cli: Cli) -> None:
     assert "conflict            proved    1 question refuted: conflict.cnf, conflict.lrat\n" in out
     held = cli("certify", "--check", "new/place", "clean.sleec").out
     assert held.startswith("new/place: the certificate holds of clean.sleec (reading cascade)\n")
-    assert held.splitlines()[-1].startswith("proofs checked by ")
+    *_, judged, tied = held.splitlines()
+    assert judged.startswith("proofs checked by ")
+    assert tied.startswith("conflict: ")
 
 
 def test_it_is_told_who_judged(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -55,14 +58,36 @@ def test_it_is_told_who_judged(cli: Cli, tmp_path: Path, monkeypatch: pytest.Mon
     program.write_text("#!/bin/sh\necho VERIFIED\n")
     program.chmod(0o755)
 
-    def last(*options: str) -> str:
-        return cli("certify", "--check", "a", "clean.sleec", *options).out.splitlines()[-1]
+    def judged(*options: str) -> str:
+        return cli("certify", "--check", "a", "clean.sleec", *options).out.splitlines()[-2]
 
-    assert last("--checker", str(program)) == f"proofs checked by {program}"
+    assert judged("--checker", str(program)) == f"proofs checked by {program}"
     monkeypatch.setattr("sleec_verify.certificates.checker.BUILT", program)
-    assert last() == f"proofs checked by {program}, which is proved correct"
+    assert judged() == f"proofs checked by {program}, which is proved correct"
     monkeypatch.setattr("sleec_verify.certificates.checker.BUILT", tmp_path / "none")
-    assert "in Python; `make -C proofs/checker`" in last()
+    assert "in Python; `make -C proofs/checker`" in judged()
+
+
+def test_it_is_told_what_ties_the_verdict_to_the_rules(
+    cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sleec_verify.theory.oracle.BUILT", tmp_path / "none")
+    cli("certify", "clean.sleec", "-o", "a", files=FILES)
+    ran = cli("certify", "--check", "a", "clean.sleec")
+    assert ran.code == 0
+    unbuilt = "the oracle is not built (make proofs)"
+    untied = "that the formula is that of the rules is not proved"
+    assert ran.out.splitlines()[-1] == f"conflict: {untied}: {unbuilt}"
+    told = json.loads(cli("certify", "--check", "a", "clean.sleec", "--format", "json").out)
+    assert told["theory"] == {"conflict": {"proved": False, "reason": unbuilt}}
+    hedged = "RULE a WHEN T THEN X UNLESS C IN WHICH CASE Y UNLESS C AND D IN WHICH CASE Z\n"
+    cli("certify", "hedged.sleec", "-o", "h", files={"hedged.sleec": hedged})
+    ran = cli("certify", "--check", "h", "hedged.sleec")
+    assert ran.out.splitlines()[-2:] == [f"{check}: {untied}: {unbuilt}" for check in ("conflict", "reading")]
+    # Of a conflict there is a situation: nothing needs to be tied.
+    cli("certify", "conflict.sleec", "-o", "b")
+    assert cli("certify", "--check", "b", "conflict.sleec").out.splitlines()[-1].startswith("proofs checked by ")
+    assert json.loads(cli("certify", "--check", "b", "conflict.sleec", "--format", "json").out)["theory"] == {}
 
 
 def test_as_json(cli: Cli, tmp_path: Path) -> None:
@@ -148,6 +173,16 @@ def test_it_is_written_whole_or_not_at_all(cli: Cli, tmp_path: Path, monkeypatch
 
     monkeypatch.setattr(Path, "rename", refuse)
     assert cli("certify", "clean.sleec", "-o", "a", "--force").code == 2
+    assert tree(tmp_path) == before
+
+    def interrupt(path: Path, target: Path) -> Path:
+        if path.name == "new":
+            raise KeyboardInterrupt
+        return rename(path, target)
+
+    monkeypatch.setattr(Path, "rename", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        write_folder(str(tmp_path / "a"), [("manifest.json", b"")], force=True)
     assert tree(tmp_path) == before
 
 

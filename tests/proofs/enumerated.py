@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations, product
 
 from sleec_runtime.model import (
@@ -68,30 +68,52 @@ def single_rules() -> Iterator[Case]:
                     yield Ruleset((rule,), reading), contexts
 
 
-RESPONSES: tuple[tuple[Obligation, ...], ...] = ((Obligation("o"),), (Obligation("o", True),), ())
-"""What clauses of two rules may say of the obligation that they share."""
-
-
-def pairs(hedges: tuple[int, int]) -> Iterator[Case]:
+def pairs(hedges: tuple[int, int], names: Sequence[str] = ("o",)) -> Iterator[Case]:
     """Every two rules with so many hedges each, where conditions are literals over three conditions and each clause
-    says to do one shared thing, not to do it, or nothing; under one trigger or two, in both readings, in all eight
-    situations with all triggers. Up to renaming of the conditions, negating one everywhere, and doing for not doing."""
+    says of each of `names` to do it, not to do it, or nothing; under one trigger or two, in both readings, in every
+    context: all triggers or some or none, and all values of the conditions that the rules have. Up to renaming of
+    conditions and obligations, negating a condition everywhere, and doing for not doing.
+
+    In one context, rules with any conditions do what they do with literals that are true in the same places; that the
+    conditions are evaluated alike, whatever their shape, is for `single_rules`.
+    """
     first, second = hedges
+    responses = [
+        tuple(Obligation(name, negated) for name, negated in zip(names, said) if negated is not None)
+        for said in product((False, True, None), repeat=len(names))
+    ]
     for conditions in product(_literals(), repeat=first + second):
         if not _named_in_order(conditions) or not _first_positive(conditions):
             continue
-        for responses in product(RESPONSES, repeat=first + second + 2):
-            said = [literal for response in responses for literal in response]
-            if said and said[0].negated:
+        seen = {leaf.name for condition in conditions for leaf in leaves(condition) if isinstance(leaf, Atom)}
+        here = [situation for situation in HERE if seen.issuperset(name for name in CONDITIONS if situation[name])]
+        for said in product(responses, repeat=first + second + 2):
+            if not _obliged_in_order([literal for response in said for literal in response], names):
                 continue
             for other in ("t", "u"):
-                contexts = [Context(frozenset({"t", other}), here) for here in HERE]
+                contexts = [
+                    Context(frozenset(triggers), situation)
+                    for size in range(len({"t", other}) + 1)
+                    for triggers in combinations(sorted({"t", other}), size)
+                    for situation in here
+                ]
                 rules = (
-                    _rule("r", "t", responses[: first + 1], conditions[:first]),
-                    _rule("s", other, responses[first + 1 :], conditions[first:]),
+                    _rule("r", "t", said[: first + 1], conditions[:first]),
+                    _rule("s", other, said[first + 1 :], conditions[first:]),
                 )
                 for reading in READINGS:
                     yield Ruleset(rules, reading), contexts
+
+
+def _obliged_in_order(literals: Iterable[Obligation], names: Sequence[str]) -> bool:
+    """Whether the obligations come up in the order of their names, each as one to be done."""
+    seen: list[str] = []
+    for literal in literals:
+        if literal.name not in seen:
+            if literal.negated or literal.name != names[len(seen)]:
+                return False
+            seen.append(literal.name)
+    return True
 
 
 def _first_positive(conditions: Sequence[Formula]) -> bool:

@@ -19,13 +19,23 @@ from sleec_verify.conformance.rulesets import rulesets
 from sleec_verify.theory.oracle import NoAnswer, answers
 from tests import brute
 from tests.proofs.compared import compare, random_cases
+from tests.proofs.conftest import require_coq
 from tests.proofs.enumerated import pairs, single_rules
 
 # Whichever test comes first may have to compile the theory.
 pytestmark = pytest.mark.timeout(600)
 
 # How many contexts each makes says how many there are: a class that is lost would be seen.
-PAIRS = {(0, 0): 160, (0, 1): 448, (0, 2): 3_936, (1, 1): 3_936, (1, 2): 42_944}
+PAIRS = {(0, 0): 60, (0, 1): 336, (1, 0): 336, (0, 2): 3_936, (2, 0): 3_936, (1, 1): 3_936, (1, 2): 58_560}
+MORE_PAIRS = {(2, 1): 58_560, (2, 2): 981_120}
+TWO_OBLIGATIONS = {(0, 0): 216, (0, 1): 3_456, (1, 0): 3_456}
+MORE_OF_TWO = {(0, 2): 120_096, (2, 0): 120_096, (1, 1): 120_096}
+ALL = [
+    *(pytest.param(hedges, ("o",), count) for hedges, count in PAIRS.items()),
+    *(pytest.param(hedges, ("o", "p"), count) for hedges, count in TWO_OBLIGATIONS.items()),
+    *(pytest.param(hedges, ("o",), count, marks=pytest.mark.long) for hedges, count in MORE_PAIRS.items()),
+    *(pytest.param(hedges, ("o", "p"), count, marks=pytest.mark.long) for hedges, count in MORE_OF_TWO.items()),
+]
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -44,15 +54,9 @@ def test_every_rule_of_up_to_two_hedges(oracle: Path) -> None:
     assert compare(oracle, single_rules()) == 30_798
 
 
-@pytest.mark.parametrize(("hedges", "contexts"), PAIRS.items())
-def test_every_two_rules_of_up_to_three_hedges(oracle: Path, hedges: tuple[int, int], contexts: int) -> None:
-    assert compare(oracle, pairs(hedges)) == contexts
-
-
-@pytest.mark.long
-@pytest.mark.timeout(7200)
-def test_every_two_rules_of_two_hedges(oracle: Path) -> None:
-    assert compare(oracle, pairs((2, 2))) == 560_640
+@pytest.mark.parametrize(("hedges", "names", "contexts"), ALL)
+def test_every_two_rules(oracle: Path, hedges: tuple[int, int], names: tuple[str, ...], contexts: int) -> None:
+    assert compare(oracle, pairs(hedges, names)) == contexts
 
 
 @given(ruleset=rulesets(domains=False), data=st.data())
@@ -65,6 +69,16 @@ def test_measures_as_conditions(oracle: Path, ruleset: Ruleset, data: st.DataObj
         return
     contexts = [data.draw(st.sampled_from(every)) for _ in range(3)]
     assert compare(oracle, [(ruleset, contexts)]) == 3
+
+
+def test_these_tests_are_skipped_without_coq_but_never_in_ci(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shutil.which", lambda name: None)
+    monkeypatch.delenv("CI", raising=False)
+    with pytest.raises(pytest.skip.Exception, match="apt-get install coq"):
+        require_coq()
+    monkeypatch.setenv("CI", "true")
+    with pytest.raises(pytest.fail.Exception, match="apt-get install coq"):
+        require_coq()
 
 
 def test_what_is_no_question_is_not_answered(oracle: Path) -> None:

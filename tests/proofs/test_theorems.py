@@ -6,6 +6,7 @@ are not compared: another version of a solver finds others.
 
 from __future__ import annotations
 
+import re
 import subprocess
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from sleec_runtime.language import load, parse
 from sleec_verify.checks import run_checks
 from sleec_verify.finding import Proved
 from sleec_verify.theory import theorems as theorems_module
-from sleec_verify.theory.conflict import not_modelled
+from sleec_verify.theory.proving import not_modelled
 from sleec_verify.theory.theorems import assumptions, but_steps, file_of, main, modules, theorems
 from tests.proofs.conftest import PROOFS
 
@@ -27,6 +28,17 @@ RENEW = "the rules have changed, or how they are written in Coq: make theorems"
 def proved(path: Path) -> bool:
     ruleset = load(path)
     return not_modelled(ruleset) is None and isinstance(run_checks(ruleset, ["conflict"])[0].verdict, Proved)
+
+
+_STEP = r"Add \d+ \[(?:(?:Pos|Neg) \d+(?:; (?:Pos|Neg) \d+)*)?\] \[(?:\d+(?:; \d+)*)?\]"
+STEPS = re.compile(rf"Definition steps : list step :=\n  \[ {_STEP}(?:;\n    {_STEP})* \]\.\n\nEnd ")
+
+
+@pytest.mark.parametrize("path", sorted(WRITTEN.glob("*.v")), ids=lambda path: path.stem)
+def test_what_is_not_compared_is_steps_and_nothing_else(path: Path) -> None:
+    text = path.read_text("utf-8")
+    assert len(STEPS.findall(text)) == text.count("Definition steps") == text.count("Theorem ")
+    assert len(but_steps(text)) == len(STEPS.sub("", text))
 
 
 @pytest.mark.parametrize("path", RULESETS, ids=lambda path: path.stem)

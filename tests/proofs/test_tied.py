@@ -1,5 +1,5 @@
-"""The verdict of the check `conflict`, tied to the rules by the theory: the oracle makes the formula and judges its
-refutation."""
+"""The verdicts of the checks `conflict` and `reading`, tied to the rules by the theory: the oracle makes the formula
+and judges its refutation."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset
 from sleec_verify.certificates import checking
 from sleec_verify.certificates.checker import IN_PYTHON
-from sleec_verify.certificates.checking import Confirmed, check_certificate
+from sleec_verify.certificates.checking import Confirmed, Tied, check_certificate
 from sleec_verify.certificates.directory import write_folder
 from sleec_verify.certificates.making import certify
 from sleec_verify.checks import run_checks
@@ -24,9 +24,9 @@ from sleec_verify.conformance.rulesets import rulesets
 from sleec_verify.finding import Proved, Unknown
 from sleec_verify.theory import oracle as oracle_module
 from sleec_verify.theory.boolean import Boolean
-from sleec_verify.theory.conflict import never_conflicts, not_modelled, steps_for
 from sleec_verify.theory.numbered import Numbered
 from sleec_verify.theory.oracle import NoAnswer, NotRefuted, answers
+from sleec_verify.theory.proving import WHATS, What, not_modelled, prove, steps_for
 from tests.proofs.compared import random_cases
 
 pytestmark = pytest.mark.timeout(600)
@@ -36,22 +36,23 @@ RULES = "RULE a\nWHEN T THEN X\nUNLESS c IN WHICH CASE Y\nRULE b\nWHEN T AND c T
 CONFLICTING = "RULE a\nWHEN T THEN X\nRULE b\nWHEN T AND c THEN NOT X\n"
 
 
-def agree(oracle: Path, ruleset: Ruleset) -> bool:
-    """Whether the check and the theory say the same of whether some context conflicts; returns what."""
-    verdict = run_checks(ruleset, ["conflict"])[0].verdict
+def agree(oracle: Path, ruleset: Ruleset, what: What) -> bool:
+    """Whether the check and the theory say the same of whether all is well; returns what."""
+    verdict = run_checks(ruleset, [what])[0].verdict
     assert not isinstance(verdict, Unknown)
-    free = True
+    well = True
     for part in [ruleset.in_domain(domain) for domain in ruleset.domains] or [ruleset]:
         try:
-            never_conflicts(oracle, part)
+            prove(oracle, part, what)
         except NotRefuted:
-            free = False
-    assert free == isinstance(verdict, Proved)
-    return free
+            well = False
+    assert well == isinstance(verdict, Proved)
+    return well
 
 
-def test_the_theory_and_the_check_find_the_same(oracle: Path) -> None:
-    found = [agree(oracle, ruleset) for ruleset, _ in random_cases(7, 150, each=1)]
+@pytest.mark.parametrize("what", WHATS)
+def test_the_theory_and_the_check_find_the_same(oracle: Path, what: What) -> None:
+    found = [agree(oracle, ruleset, what) for ruleset, _ in random_cases(7, 150, each=1)]
     assert 20 < sum(found) < 130
 
 
@@ -59,7 +60,8 @@ def test_the_theory_and_the_check_find_the_same(oracle: Path) -> None:
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 def test_with_measures_and_domains_too(oracle: Path, ruleset: Ruleset) -> None:
     if not_modelled(ruleset) is None:
-        agree(oracle, ruleset)
+        for what in WHATS:
+            agree(oracle, ruleset, what)
 
 
 def test_no_step_is_believed(oracle: Path) -> None:
@@ -92,15 +94,57 @@ def checked(folder: Path, rules: Path | str, oracle: Path | None) -> Confirmed:
     return check_certificate(ruleset, str(folder), IN_PYTHON, oracle=oracle)
 
 
-@pytest.mark.parametrize("name", ["household", "care-robot", "hospital-ward"])
-def test_shipped_rulesets_are_tied(oracle: Path, tmp_path: Path, name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "checks"),
+    [("household", ["conflict"]), ("care-robot", ["conflict"]), ("hospital-ward", ["conflict", "reading"])],
+)
+def test_shipped_rulesets_are_tied(oracle: Path, tmp_path: Path, name: str, checks: list[str]) -> None:
     tied = checked(tmp_path / "c", RULESETS / f"{name}.sleec", oracle).tied
-    assert tied is not None
-    assert tied.proved
+    assert tied == tuple(Tied(check, True) for check in checks)
 
 
 def test_where_rules_conflict_there_is_nothing_to_tie(oracle: Path, tmp_path: Path) -> None:
-    assert checked(tmp_path / "c", CONFLICTING, oracle).tied is None
+    assert checked(tmp_path / "c", CONFLICTING, oracle).tied == ()
+
+
+@pytest.mark.parametrize("what", WHATS)
+def test_conditions_said_twice(oracle: Path, what: What) -> None:
+    """Clauses come to say a literal twice, and are no units to the checker."""
+    text = "RULE a\nWHEN T THEN X\nUNLESS c AND c IN WHICH CASE Y\nUNLESS c AND (d OR d) IN WHICH CASE Z\n"
+    rules = text + "RULE b\nWHEN T AND (c OR c) AND (c AND c) THEN NOT X\n"
+    clauses = answers(oracle, [Numbered(Boolean(parse(rules)).ruleset).line, "clauses"])[1].split(" 0 ")
+    assert any(len(set(clause.split())) < len(clause.split()) for clause in clauses)
+    assert agree(oracle, parse(rules), what)
+
+
+@pytest.mark.parametrize("what", WHATS)
+def test_assumptions_that_nothing_satisfies(oracle: Path, what: What) -> None:
+    rules = CONFLICTING + "UNLESS d IN WHICH CASE X\nUNLESS e IN WHICH CASE Y\n"
+    prove(oracle, parse(f"{rules}ASSUME c\nASSUME NOT c\n"), what)
+    with pytest.raises(NotRefuted):
+        prove(oracle, parse(f"{rules}ASSUME c\n"), what)
+
+
+READ_ALIKE = """
+ASSUME NOT (d AND NOT c)
+RULE a
+WHEN T THEN X
+UNLESS c IN WHICH CASE (Y UNLESS e IN WHICH CASE Z)
+UNLESS d IN WHICH CASE Z
+"""
+
+
+def test_the_reading_is_tied_with_assumptions_and_chains_in_chains(oracle: Path) -> None:
+    assert agree(oracle, parse(READ_ALIKE), "reading")
+    assert not agree(oracle, parse(READ_ALIKE.replace("ASSUME NOT (d AND NOT c)\n", "")), "reading")
+    # Steps for the one formula are none for the other.
+    line = Numbered(Boolean(parse(READ_ALIKE)).ruleset)
+    steps = " ".join(
+        f"a {number} {' '.join(map(str, (*literals, 0, *hints, 0)))}"
+        for number, literals, hints in steps_for(oracle, line, "reading")
+    )
+    assert answers(oracle, [line.line, f"refuted-of-reading {steps}"])[1] == "yes"
+    assert answers(oracle, [line.line, f"refuted {steps}", "refuted-of-reading"])[1:] == ["no", "no"]
 
 
 @pytest.mark.parametrize(
@@ -114,8 +158,7 @@ def test_where_rules_conflict_there_is_nothing_to_tie(oracle: Path, tmp_path: Pa
     ],
 )
 def test_what_the_theory_does_not_speak_of_is_told(tmp_path: Path, text: str, reason: str) -> None:
-    tied = checked(tmp_path / "c", text, tmp_path / "never run").tied
-    assert tied is not None
+    (tied,) = checked(tmp_path / "c", text, tmp_path / "never run").tied
     assert not tied.proved
     assert re.search(reason, tied.reason or "")
 
@@ -139,8 +182,7 @@ def test_an_oracle_that_does_not_answer(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, body: str, reason: str
 ) -> None:
     monkeypatch.setattr(checking, "MOST_SECONDS", 0.2)
-    tied = checked(tmp_path / "c", RULES, program(tmp_path, body)).tied
-    assert tied is not None
+    (tied,) = checked(tmp_path / "c", RULES, program(tmp_path, body)).tied
     assert not tied.proved
     assert reason in (tied.reason or "")
 
@@ -175,6 +217,6 @@ def test_the_command_says_so(
     assert "in Coq" not in called(rules, "-o", folder)
     assert "conflict: proved of the rules as they were read" in called("--check", folder, rules)
     told = json.loads(called("--check", folder, rules, "--format", "json"))
-    assert told["theory"] == {"conflict": True, "reason": None}
+    assert told["theory"] == {"conflict": {"proved": True, "reason": None}}
     monkeypatch.setattr(oracle_module, "BUILT", tmp_path / "nowhere")
     assert "is not proved: the oracle is not built (make proofs)" in called("--check", folder, rules)
