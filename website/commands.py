@@ -31,7 +31,8 @@ def _index(known: dict[str, click.Command]) -> str:
     rows = "".join(
         f"| [`{name}`]({name}.md) | {command.get_short_help_str(200)} |\n" for name, command in known.items()
     )
-    return f"# Commands\n\n{_text(sleec_verify)}\n\n| command | for what |\n| --- | --- |\n{rows}\n{_options(sleec_verify)}"
+    table = f"| command | for what |\n| --- | --- |\n{rows}"
+    return f"# Commands\n\n{_text(sleec_verify)}\n\n{table}\n{_options(sleec_verify)}"
 
 
 def _page(command: click.Command) -> str:
