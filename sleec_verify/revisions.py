@@ -130,6 +130,11 @@ class Repository:
         """Raises `GitError` where there is no git, or no repository with files."""
         done = _git("rev-parse", "--show-toplevel")
         if done.returncode:
+            if b"dubious ownership" in done.stderr:
+                raise GitError(
+                    "git does not trust this repository: its folder belongs to somebody else",
+                    'as in a container; if you do: git config --global --add safe.directory "$PWD"',
+                )
             if not _git("rev-parse", "--git-dir").returncode:
                 raise GitError("this folder is inside what git keeps for itself", "go to a folder with the files")
             raise GitError("this folder is in no git repository", "go to the folder of the rulesets, or name two files")

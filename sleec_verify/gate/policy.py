@@ -27,6 +27,7 @@ POLICIES: Mapping[str, str] = {
     "unused-suppressions": "a suppression that no finding needs",
     "new-conflicts": "situations conflict now that did not before",
     "lost-obligations": "some situation loses an obligation",
+    "ruled-out-situations": "situations that counted before are assumed away",
     "certificates": "there is no certificate that holds",
     "clause-coverage": "the cases reach too few clauses",
     "assertions": "an assertion does not hold",
@@ -69,6 +70,11 @@ def _on_ruleset(one: Examined, policy: Policy) -> Iterator[Block]:
     if policy.new_conflicts:
         yield from _new_conflicts(one)
     yield from _lost(one, policy.lost_obligations)
+    if policy.ruled_out_situations and one.difference is not None:
+        for change in one.difference.situations:
+            if change.way == "removed":
+                what = f"situations that counted before are ruled out: {change.what}"
+                yield _block("ruled-out-situations", one.path, what, witness=change.witness)
     if one.uncertified is not None:
         yield _block("certificates", one.path, one.uncertified)
     if policy.clause_coverage is not None and one.coverage is not None and one.coverage.why is None:

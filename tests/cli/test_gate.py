@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 from pathlib import Path
 from typing import Any
@@ -76,6 +77,12 @@ def test_nothing_changed(cli: Cli, repository: Repository) -> None:
         ("findings", DEAD, 'findings = "warning"', 'findings = "error"'),
         ("new-conflicts", CLASH, 'findings = "never"', 'findings = "never"\nnew-conflicts = false'),
         ("lost-obligations", LOST, 'lost-obligations = ["p*"]', 'lost-obligations = ["q*"]'),
+        (
+            "ruled-out-situations",
+            OLD + "ASSUME NOT t OR c\n",
+            "ruled-out-situations = true\nfindings = 'never'",
+            "findings = 'never'",
+        ),
         ("dead-hedges", DEAD, "dead-hedges = true", "dead-hedges = false"),
         ("clause-coverage", LOST, "clause-coverage = 1", "clause-coverage = 0"),
     ],
@@ -514,6 +521,35 @@ def test_detached_shallow_and_other_worktrees(
     monkeypatch.chdir(alone.folder)
     ran = cli("gate", "--base", "main")
     assert (ran.code, "nothing has been committed yet" in ran.err) == (2, True)
+
+
+def test_a_repository_of_somebody_else(cli: Cli, repository: Repository, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GIT_TEST_ASSUME_DIFFERENT_OWNER", "1")
+    ran = cli("gate", "--base", "main")
+    assert (ran.code, "git does not trust this repository" in ran.err) == (2, True)
+    assert "safe.directory" in ran.err
+
+
+@pytest.mark.parametrize("place", ["nowhere/summary", "."])
+def test_a_summary_that_cannot_be_written(place: str, cli: Cli, repository: Repository, monkeypatch: Any) -> None:
+    ran = cli("gate", "--base", "main", "--summary", place)
+    assert (ran.code, ran.out) == (2, "")
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", place)
+    ran = cli("gate", "--base", "main")
+    assert (ran.code, "which $GITHUB_STEP_SUMMARY names, cannot be written" in ran.err) == (2, True)
+
+
+def test_a_long_summary_is_cut(cli: Cli, repository: Repository) -> None:
+    rules = "".join(f"RULE r{i}\nWHEN t{i} THEN o{i} AND NOT o{i}\n" for i in range(60))
+    repository.write(a_sleec=rules)
+    assert cli("gate", "--base", "main", "--summary", "out.md").code == 1
+    text = (repository.folder / "out.md").read_text(encoding="utf-8")
+    assert re.search(r"^- … and \d+ more reasons: see the log$", text, re.MULTILINE)
+    assert re.search(r"^- … and \d+ more changes: see the log$", text, re.MULTILINE)
+    for number in range(60):
+        repository.put(f"many/{number}.sleec", OLD)
+    assert cli("gate", "--base", "main", "--summary", "out.md").code == 1
+    assert "| … and 11 more rulesets: see the log | | |" in (repository.folder / "out.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("data", [b"\xff\xfe\x00", b"RULE a\0", bytes(range(256))])
