@@ -35,6 +35,10 @@ class Place(NamedTuple):
     blob: str | None = None
     repository: Repository | None = None
 
+    def named(self, digits: int) -> str | None:
+        """What git calls, or would call, the content in so many digits; None where it cannot be read."""
+        return self.blob or _blob_of(self.name, digits)
+
     def read(self) -> Source:
         """The text. Raises `UnreadableFile`."""
         if self.repository is None or self.blob is None:
@@ -54,7 +58,7 @@ class Versions(NamedTuple):
         """Whether both texts are the same, byte for byte, as far as that is seen without reading rules."""
         if self.old is None or self.new is None or self.old.blob is None:
             return False
-        return self.old.blob == (self.new.blob or _blob_of(self.new.name, len(self.old.blob)))
+        return self.old.blob == self.new.named(len(self.old.blob))
 
     def one_sided(self, old: str, new: str) -> OneSided | None:
         """What to say where only one of the sides, called `old` and `new`, has it."""

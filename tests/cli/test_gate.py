@@ -394,6 +394,24 @@ def test_of_what_moved_the_most_alike_belong_together(cli: Cli, repository: Repo
     assert moved == [("c.sleec", "b.sleec", "stricter"), ("d.sleec", "a.sleec", "equivalent")]
 
 
+def test_a_folder_that_has_moved_is_the_same(cli: Cli, repository: Repository) -> None:
+    """More of them than are compared line by line; some of them equal, some of them changed."""
+    for number in range(60):
+        repository.put(f"old/{number}.sleec", OLD.replace("RULE a", f"RULE r{number // 2}"))
+    repository.commit()
+    repository.git("mv", "old", "new")
+    config(repository, block='lost-obligations = ["*"]')
+    code, said = gated(cli)
+    assert (code, said["unchanged"], said["rulesets"]) == (0, 61, [])
+    repository.put("new/8.sleec", OLD.replace("RULE a", "RULE r4") + "\n# changed\n")
+    (ruleset,) = gated(cli)[1]["rulesets"]
+    assert (ruleset["path"], ruleset["relation"]) == ("new/8.sleec", "equivalent")
+    assert ruleset["moved_from"] in ("old/8.sleec", "old/9.sleec")
+    for number in range(60):
+        repository.put(f"new/{number}.sleec", OLD.replace("RULE a", f"RULE r{number}") + "\n# changed\n")
+    assert len(gated(cli)[1]["rulesets"]) == 120, "too many to be compared with one another"
+
+
 def test_what_git_ignores_or_keeps_for_itself_is_not_looked_at(cli: Cli, repository: Repository) -> None:
     repository.put(".gitignore", "venv/\n")
     repository.put("venv/x.sleec", "WHEN")
