@@ -159,13 +159,15 @@ class Repository:
         if _git("rev-list", "--max-count=1", "--all", "HEAD", "--").returncode:
             return "nothing has been committed yet; a first commit has nothing to be compared with"
         done = _git("for-each-ref", "--format=%(refname:short)")
-        near = nearest(revision, done.stdout.decode("utf-8", "replace").split())
+        names = done.stdout.decode("utf-8", "replace").split()
+        # A clone has branches of others under the name of where it got them, too.
+        near = next((name for name in names if revision and name.endswith(f"/{revision}")), nearest(revision, names))
         if near is not None:
             return f"did you mean {near}?"
         branch = revision.removeprefix("origin/")
         if not branch or _git("check-ref-format", "--branch", branch).returncode:
             return "name a branch, a tag or a commit"
-        return f"in CI, fetch it first: git fetch origin {branch}"
+        return f"in CI, fetch it first (git fetch origin {branch}), and name it origin/{branch}"
 
     def merge_base(self, one: str, other: str) -> str:
         """The newest commit that two revisions have in common. Raises `GitError`."""
@@ -174,7 +176,9 @@ class Repository:
             # Only now does it matter whether one of them is no revision.
             self.commit(one)
             self.commit(other)
-            raise GitError(f"{one} and {other} have no commit in common", "in CI, fetch the whole history")
+            raise GitError(
+                f"{one} and {other} have no commit in common", "in CI, fetch the whole history: git fetch --unshallow"
+            )
         return done.stdout.decode().strip()
 
     def range(self, written: str) -> tuple[tuple[str, str], tuple[str, str | None]]:

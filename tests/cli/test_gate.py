@@ -533,7 +533,10 @@ def test_detached_shallow_and_other_worktrees(
     monkeypatch.chdir(aside / "shallow")
     assert gated(cli)[1]["unchanged"] == 1
     ran = cli("gate", "--base", "origin/release-2026")
-    assert "in CI, fetch it first: git fetch origin release-2026" in ran.err
+    assert "in CI, fetch it first (git fetch origin release-2026), and name it origin/release-2026" in ran.err
+    repository.git("-C", str(aside / "shallow"), "checkout", "-q", "--detach")
+    repository.git("-C", str(aside / "shallow"), "branch", "-q", "-D", "main")
+    assert "did you mean origin/main?" in cli("gate", "--base", "main").err
     alone = Repository(tmp_path_factory.mktemp("alone"))
     alone.write(a_sleec=OLD)
     monkeypatch.chdir(alone.folder)
