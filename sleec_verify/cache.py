@@ -61,7 +61,8 @@ class Cache:
     def kept(self, ruleset: Ruleset, domain: str | None, untimed: Untimed) -> tuple[CheckResult, ...] | None:
         """The results for a ruleset, if they are kept. O(their size)."""
         path = self._path(ruleset, domain, untimed)
-        if path is None:
+        # What is no file is no entry, and reading it might never end.
+        if path is None or not os.path.isfile(path):
             return None
         try:
             with open(path, "rb") as file:

@@ -6,6 +6,7 @@ Git is asked through its executable; nothing in the repository or its index is c
 from __future__ import annotations
 
 import os
+import stat
 import subprocess
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
@@ -13,8 +14,8 @@ from typing import NamedTuple
 from sleec_runtime.errors import SleecError, UnreadableFile
 from sleec_runtime.language.source import read_source, source_of
 from sleec_runtime.model import Source
+from sleec_verify.folders import SUFFIX, rulesets_below
 
-SUFFIX = ".sleec"
 NOW = "the files as they are now"
 
 
@@ -33,6 +34,10 @@ class Place(NamedTuple):
     name: str
     blob: str | None = None
     repository: Repository | None = None
+
+    def named(self, digits: int) -> str | None:
+        """What git calls, or would call, the content in so many digits; None where it cannot be read."""
+        return self.blob or _blob_of(self.name, digits)
 
     def read(self) -> Source:
         """The text. Raises `UnreadableFile`."""
@@ -53,7 +58,7 @@ class Versions(NamedTuple):
         """Whether both texts are the same, byte for byte, as far as that is seen without reading rules."""
         if self.old is None or self.new is None or self.old.blob is None:
             return False
-        return self.old.blob == (self.new.blob or _blob_of(self.new.name, len(self.old.blob)))
+        return self.old.blob == self.new.named(len(self.old.blob))
 
     def one_sided(self, old: str, new: str) -> OneSided | None:
         """What to say where only one of the sides, called `old` and `new`, has it."""
@@ -103,12 +108,7 @@ def below(folder: str) -> set[str]:
     def refuse(error: OSError) -> None:
         raise UnreadableFile(f"the folder {os.fspath(error.filename)} cannot be read: {error.strerror}")
 
-    return {
-        os.path.relpath(os.path.join(parent, name), folder)
-        for parent, folders, names in os.walk(folder, onerror=refuse)
-        for name in names
-        if name.endswith(SUFFIX)
-    }
+    return {os.path.relpath(path, folder) for path in rulesets_below(folder, refuse)}
 
 
 def _blob_of(path: str, digits: int) -> str | None:
@@ -134,6 +134,13 @@ class Repository:
         """Raises `GitError` where there is no git, or no repository with files."""
         done = _git("rev-parse", "--show-toplevel")
         if done.returncode:
+            if b"dubious ownership" in done.stderr:
+                raise GitError(
+                    "git does not trust this repository: its folder belongs to somebody else",
+                    'as in a container; if you do: git config --global --add safe.directory "$PWD"',
+                )
+            if not _git("rev-parse", "--git-dir").returncode:
+                raise GitError("this folder is inside what git keeps for itself", "go to a folder with the files")
             raise GitError("this folder is in no git repository", "go to the folder of the rulesets, or name two files")
         self.folder = os.path.realpath(os.fsdecode(done.stdout).rstrip("\n"))
 
@@ -149,11 +156,18 @@ class Repository:
     def _hint(self, revision: str) -> str:
         from sleec_runtime.language.suggest import nearest
 
+        if _git("rev-list", "--max-count=1", "--all", "HEAD", "--").returncode:
+            return "nothing has been committed yet; a first commit has nothing to be compared with"
         done = _git("for-each-ref", "--format=%(refname:short)")
-        near = nearest(revision, done.stdout.decode("utf-8", "replace").split())
+        names = done.stdout.decode("utf-8", "replace").split()
+        # A clone has branches of others under the name of where it got them, too.
+        near = next((name for name in names if revision and name.endswith(f"/{revision}")), nearest(revision, names))
         if near is not None:
             return f"did you mean {near}?"
-        return f"in CI, fetch it first: git fetch origin {revision}" if revision else "name a branch, a tag or a commit"
+        branch = revision.removeprefix("origin/")
+        if not branch or _git("check-ref-format", "--branch", branch).returncode:
+            return "name a branch, a tag or a commit"
+        return f"in CI, fetch it first (git fetch origin {branch}), and name it origin/{branch}"
 
     def merge_base(self, one: str, other: str) -> str:
         """The newest commit that two revisions have in common. Raises `GitError`."""
@@ -162,7 +176,9 @@ class Repository:
             # Only now does it matter whether one of them is no revision.
             self.commit(one)
             self.commit(other)
-            raise GitError(f"{one} and {other} have no commit in common", "in CI, fetch the whole history")
+            raise GitError(
+                f"{one} and {other} have no commit in common", "in CI, fetch the whole history: git fetch --unshallow"
+            )
         return done.stdout.decode().strip()
 
     def range(self, written: str) -> tuple[tuple[str, str], tuple[str, str | None]]:
@@ -228,17 +244,67 @@ class Repository:
                 found.setdefault(name, Versions(name, place, after.get(name)))
         return list(found.values())
 
+    def now(self, paths: Sequence[str]) -> dict[str, Place]:
+        """The rulesets at or below `paths` as they are now.
+
+        Raises:
+            GitError, UnreadableFile: a path without rulesets.
+        """
+        found: dict[str, Place] = {}
+        for path in paths:
+            there = self._now(path, self.inside(path))
+            if not there:
+                raise UnreadableFile(f"there is no {SUFFIX} file at or below {path}", "check the spelling of its name")
+            found |= there
+        return found
+
+    def touched(self, commit: str) -> set[str]:
+        """The paths of all files that git keeps and that are not as in a commit, those that are gone included."""
+        arguments = ("diff", "--name-only", "-z", "--no-renames", "--no-ext-diff", "--ignore-submodules", commit)
+        done = _git("-C", self.folder, *arguments, "--")
+        if done.returncode:
+            raise GitError(f"git cannot compare the files with {commit}: {_said(done)}")
+        return {os.fsdecode(name) for name in done.stdout.split(b"\0") if name}
+
     def _in_commit(self, called: str, commit: str, path: str) -> dict[str, Place]:
         return {name: Place(f"{called}:{name}", blob, self) for name, blob in self.files(commit, path).items()}
 
     def _now(self, path: str, inside: str) -> dict[str, Place]:
-        if os.path.isdir(path):
-            prefix = "" if inside == "." else f"{inside}/"
-            return {
-                prefix + name.replace(os.sep, "/"): Place(os.path.normpath(os.path.join(path, name)))
-                for name in below(path)
-            }
-        return {inside: Place(path)} if os.path.lexists(path) else {}
+        """What stands there: for a folder what git would commit of it, so nothing that it ignores, no link, and nothing
+        of another repository in it, such as a submodule. A file that is named is taken as it is.
+
+        Raises:
+            GitError, UnreadableFile: git cannot list it, or a folder may not be read.
+        """
+        if os.path.lexists(path) and not os.path.isdir(path):
+            return {inside: Place(path)}
+        listing = ("ls-files", "-z", "-t", "--stage", "--cached", "--others", "--exclude-standard", "--", inside)
+        done = _git("-C", self.folder, "--literal-pathspecs", *listing)
+        if done.returncode:
+            raise GitError(f"git cannot list {path}: {_said(done)}")
+        found = {}
+        for entry in filter(None, done.stdout.split(b"\0")):
+            status, _, rest = entry.partition(b" ")
+            about, _, raw = (b"", b"", rest) if status == b"?" else rest.partition(b"\t")
+            name = os.fsdecode(raw)
+            if name.endswith(SUFFIX):
+                shown = os.path.normpath(os.path.join(path, os.path.relpath(name, inside)))
+                if _is_file(shown):
+                    found[name] = Place(shown)
+                elif status == b"S":  # left out of a sparse checkout: it is as it is in the index
+                    found[name] = Place(shown, about.split()[1].decode(), self)
+        return found
+
+
+def _is_file(path: str) -> bool:
+    """Whether there is a file, not a link to one. Raises `UnreadableFile` where that may not be known."""
+    try:
+        return stat.S_ISREG(os.lstat(path).st_mode)
+    except PermissionError:
+        folder = os.path.dirname(path)
+        raise UnreadableFile(f"the folder {folder} cannot be read: Permission denied") from None
+    except OSError:
+        return False
 
 
 def _git(*arguments: str) -> subprocess.CompletedProcess[bytes]:

@@ -31,7 +31,8 @@ def _index(known: dict[str, click.Command]) -> str:
     rows = "".join(
         f"| [`{name}`]({name}.md) | {command.get_short_help_str(200)} |\n" for name, command in known.items()
     )
-    return f"# Commands\n\n{_text(sleec_verify)}\n\n| command | |\n| --- | --- |\n{rows}\n{_options(sleec_verify)}"
+    table = f"| command | for what |\n| --- | --- |\n{rows}"
+    return f"# Commands\n\n{_text(sleec_verify)}\n\n{table}\n{_options(sleec_verify)}"
 
 
 def _page(command: click.Command) -> str:
@@ -63,7 +64,7 @@ def _options(command: click.Command) -> str:
     # In code, | divides no cells; elsewhere it would.
     records = ((option, _code(meaning).replace("|", "&#124;")) for option, meaning in _records(command))
     rows = "".join(f"| `{option}` | {meaning} |\n" for option, meaning in records)
-    return f"| option | |\n| --- | --- |\n{rows}"
+    return f"| option | meaning |\n| --- | --- |\n{rows}"
 
 
 def _records(command: click.Command) -> Iterator[tuple[str, str]]:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import click
 
 from sleec_verify.cli import exits, options
+from sleec_verify.cli.cached import cache_of_environment
+from sleec_verify.cli.cached import results as kept_or_new
 from sleec_verify.cli.inputs import files, rulesets
 from sleec_verify.cli.output import complain, report
 from sleec_verify.finding import SEVERITIES, Severity
@@ -43,7 +45,7 @@ if TYPE_CHECKING:
 @click.option(
     "--certify", "certificate", metavar="DIR", type=options.PATH, help="Write a certificate of it to this folder, too."
 )
-@click.option("--no-cache", is_flag=True, help="Decide everything anew, and keep nothing of it for the next time.")
+@options.no_cache
 @click.option("--watch", "watched", is_flag=True, help="Check again whenever a file changes, until Ctrl-C.")
 def command(
     paths: tuple[str, ...],
@@ -70,7 +72,7 @@ def command(
         from sleec_verify.cli.files import require_writable
 
         require_writable(output, (path for path in files(paths) if not isinstance(path, Unusable)))
-    cache = None if no_cache else _cache()
+    cache = None if no_cache else cache_of_environment()
 
     if certificate is not None:
         from sleec_verify.certificates.directory import check_free
@@ -94,13 +96,6 @@ def command(
     return watch(paths, once)
 
 
-def _cache() -> Cache | None:
-    from sleec_verify.cache import Cache
-    from sleec_verify.cli.output import note
-
-    return Cache.of_environment(note)
-
-
 def _outcomes(
     found: Sequence[Ruleset | Unusable],
     domain: str | None,
@@ -120,7 +115,7 @@ def _outcomes(
                 outcomes.append(ruleset)
             else:
                 if certificate is None:
-                    results = _results(ruleset, domain, untimed, cache, progress)
+                    results = kept_or_new(ruleset, domain, untimed, cache, progress.on(ruleset.source.path))
                 else:
                     results = _certified(ruleset, domain, untimed, certificate, progress)
                 if realizable is not None:
@@ -128,21 +123,6 @@ def _outcomes(
                     results += _realizability(ruleset, domain, untimed, realizable, progress)
                 outcomes.append(Checked(ruleset, results, untimed if speaks_of_traces(ruleset) else None))
     return outcomes
-
-
-def _results(
-    ruleset: Ruleset, domain: str | None, untimed: Untimed, cache: Cache | None, progress: Progress
-) -> tuple[CheckResult, ...]:
-    """The results that are kept, or else new ones. What decides is imported only for these."""
-    kept = None if cache is None else cache.kept(ruleset, domain, untimed)
-    if kept is not None:
-        return kept
-    from sleec_verify.checks import run_checks
-
-    results = run_checks(ruleset, None, domain, progress.on(ruleset.source.path), untimed)
-    if cache is not None:
-        cache.keep(ruleset, domain, untimed, results)
-    return results
 
 
 def _certified(

@@ -24,7 +24,7 @@ def command(shell: str) -> int:
 
     \b
     bash  put  eval "$(sleec-verify completion bash)"  into ~/.bashrc
-    zsh   put  eval "$(sleec-verify completion zsh)"  into ~/.zshrc
+    zsh   put  eval "$(sleec-verify completion zsh)"  into ~/.zshrc, below compinit
     fish  put  sleec-verify completion fish | source  into ~/.config/fish/config.fish
     """
     from click.shell_completion import get_completion_class

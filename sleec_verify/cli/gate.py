@@ -12,9 +12,10 @@ import click
 from sleec_runtime.errors import SleecError
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.output import complain, write
+from sleec_verify.report import FORMATS
 
 if TYPE_CHECKING:
-    from sleec_verify.gate import Asserting
+    from sleec_verify.gate import Asserting, Check
     from sleec_verify.gate.config import Config
     from sleec_verify.gate.result import Gated
     from sleec_verify.timed.scope import Untimed
@@ -55,7 +56,9 @@ STEP_SUMMARY = "GITHUB_STEP_SUMMARY"
     type=options.PATH,
     help=f"Write a summary in Markdown; an earlier one is replaced. Where ${STEP_SUMMARY} is set, it goes there too.",
 )
-@options.output_format("full", "json")
+@options.output_format(*FORMATS)
+@options.output
+@options.no_cache
 def command(
     paths: tuple[str, ...],
     base: str | None,
@@ -67,6 +70,8 @@ def command(
     write_baseline: bool,
     summary: str | None,
     form: str,
+    output: str | None,
+    no_cache: bool,
 ) -> int:
     """One verdict on a change to the rules at or below PATH, for CI: check, diff with what the change and the base have
     in common, assertions, conformance of the configured code, and clause coverage.
@@ -78,33 +83,67 @@ def command(
     from sleec_verify.gate import gate
     from sleec_verify.gate.baseline import read_baseline
     from sleec_verify.gate.config import find_config, read_config
-    from sleec_verify.report.gate import RENDERERS
-    from sleec_verify.report.palette import Palette
-    from sleec_verify.revisions import Repository
+    from sleec_verify.revisions import NOW, Repository
 
     config = find_config() if config_file is None else read_config(config_file)
     known_file = baseline or (None if config.baseline is None else config.at(config.baseline))
     chosen = paths or tuple(map(config.at, config.rulesets))
+    check = _check(untimed, no_cache)
     if write_baseline:
-        return _write_baseline(chosen, config, known_file, untimed)
-    if base is None and config.base is None:
+        return _write_baseline(chosen, config, known_file, check, whole=not paths)
+    name = config.base if base is None else base
+    if name is None:
         raise click.UsageError("say which revision the change is to go into: --base main, or base in the configuration")
-    _check_summary(summary)
+    _check_files(output, summary)
     repository = Repository()
-    name = base or str(config.base)
     shared = repository.merge_base(name, "HEAD")
-    versions = repository.versions((name, shared), ("the files as they are now", None), chosen)
-    known = None if known_file is None else read_baseline(known_file)
-    found = gate(versions, name, config, known, everything, _asserting(config, texts), untimed)
+    versions = repository.versions((name, shared), (NOW, None), chosen)
+    if output is not None:
+        from sleec_verify.cli.files import require_writable
+
+        require_writable(output, (one.new.name for one in versions if one.new is not None))
+    beside = config.block.clause_coverage is not None or config.block.certificates
+    found = gate(
+        versions,
+        name,
+        config,
+        check,
+        known=() if known_file is None else read_baseline(known_file),
+        everything=everything,
+        asserting=_asserting(config, texts),
+        untimed=untimed,
+        touched=repository.touched(shared) if beside else (),
+    )
     for one in found.examined:
         for error in one.errors:
             complain(error)
     for conformed in found.conformed:
         if conformed.error is not None:
             complain(conformed.error)
-    write(RENDERERS[form](found, Palette.of(sys.stdout)))
+    _report(found, form, output)
     _summarize(found, summary)
     return _exit_code(found)
+
+
+def _check(untimed: Untimed, no_cache: bool) -> Check:
+    """Checks a ruleset as `check` does, and keeps what it decided where that does."""
+    from sleec_verify.cli.cached import cache_of_environment, results
+
+    cache = None if no_cache else cache_of_environment()
+    return lambda ruleset: results(ruleset, None, untimed, cache)
+
+
+def _report(found: Gated, form: str, output: str | None) -> None:
+    from sleec_verify.report.gate import render, verdict
+    from sleec_verify.report.palette import PLAIN, Palette
+
+    if output is None:
+        write(render(found, form, Palette.of(sys.stdout)))
+        return
+    from sleec_verify.cli.files import write_whole
+
+    write_whole(output, "".join(render(found, form, PLAIN)).encode("utf-8", "surrogateescape"))
+    print(f"{output}: {verdict(found, PLAIN)}", end="", file=sys.stderr)
 
 
 def _asserting(config: Config, texts: Sequence[str]) -> Asserting:
@@ -122,48 +161,46 @@ def _asserting(config: Config, texts: Sequence[str]) -> Asserting:
     return Asserting(said, sources)
 
 
-def _write_baseline(paths: Sequence[str], config: Config, target: str | None, untimed: Untimed) -> int:
-    from sleec_verify.cli.files import write_whole
-    from sleec_verify.cli.inputs import files
+def _write_baseline(paths: Sequence[str], config: Config, target: str | None, check: Check, whole: bool) -> int:
+    """The findings of now to the file `target`. If that is not of the `whole`, those of other rulesets stay in it."""
+    from sleec_verify.cli.files import require_writable, write_whole
     from sleec_verify.gate import findings_now
-    from sleec_verify.gate.baseline import baseline_text
-    from sleec_verify.report.outcome import Unusable, counted
+    from sleec_verify.gate.baseline import baseline_text, read_baseline
+    from sleec_verify.report.outcome import counted
     from sleec_verify.revisions import Repository
 
     if target is None:
         raise click.UsageError("say where: --baseline FILE, or baseline in the configuration")
-    found = list(files(paths))
-    unusable = [one for one in found if isinstance(one, Unusable)]
-    for one in unusable:
-        complain(one.error)
-    if unusable:
-        return exits.UNUSABLE
-    repository = Repository()
-    names = {repository.inside(one): one for one in found if isinstance(one, str)}
-    keys = findings_now(names, config, untimed)
-    if os.path.lexists(target):
-        # Only a baseline is replaced by one.
-        from sleec_verify.gate.baseline import read_baseline
-
-        read_baseline(target)
+    require_writable(target, ())
+    # Only a baseline is replaced by one.
+    before = read_baseline(target) if os.path.lexists(target) else set()
+    places = Repository().now(paths)
+    keys = findings_now(places, config, check)
+    if not whole:
+        about = {*places, *(one.code for one in config.targets)}
+        keys |= {one for one in before if one[0] not in about}
     write_whole(target, baseline_text(keys).encode())
     print(f"{target}: {counted(len(keys), 'finding')}", file=sys.stderr)
     return exits.HOLDS
 
 
-def _check_summary(path: str | None) -> None:
-    """Before anything is done: a file that is no summary is not replaced by one."""
+def _check_files(output: str | None, summary: str | None) -> None:
+    """Before anything is done: files must be such as can be written, and what is no summary is not replaced by one."""
+    from sleec_verify.cli.files import require_writable
     from sleec_verify.report.gate import MARK
 
-    if path is None or not os.path.lexists(path):
+    for path in (output, summary):
+        if path is not None:
+            require_writable(path, ())
+    if summary is None or not os.path.lexists(summary):
         return
     try:
-        with open(path, encoding="utf-8", errors="replace") as file:
+        with open(summary, encoding="utf-8", errors="replace") as file:
             ours = file.read(len(MARK)) == MARK
     except OSError as error:
-        raise SleecError(f"{path} cannot be read: {error.strerror}") from None
+        raise SleecError(f"{summary} cannot be read: {error.strerror}") from None
     if not ours:
-        raise SleecError(f"{path} is there already, and is no summary of a gate", "name another file, or remove it")
+        raise SleecError(f"{summary} is there already, and is no summary of a gate", "name another file, or remove it")
 
 
 def _summarize(found: Gated, path: str | None) -> None:
@@ -175,10 +212,10 @@ def _summarize(found: Gated, path: str | None) -> None:
 
     text = markdown(found)
     if path is not None:
-        write_whole(path, text.encode())
+        write_whole(path, text.encode("utf-8", "replace"))
     if step:
         try:
-            with open(step, "a", encoding="utf-8") as file:
+            with open(step, "a", encoding="utf-8", errors="replace") as file:
                 file.write(text)
         except OSError as error:
             raise SleecError(f"{step}, which ${STEP_SUMMARY} names, cannot be written: {error.strerror}") from None

@@ -10,13 +10,12 @@ from sleec_runtime.errors import SleecError, UnreadableFile
 from sleec_runtime.language import load
 from sleec_runtime.language.suggest import nearest
 from sleec_verify.cli.output import note
+from sleec_verify.folders import SUFFIX, rulesets_below
 from sleec_verify.report.outcome import Unusable
 from sleec_verify.report.words import listed, shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset
-
-SUFFIX = ".sleec"
 
 
 class UnknownDomain(SleecError):
@@ -45,12 +44,7 @@ def _below(folder: str, closed: list[Unusable]) -> list[str]:
         place = os.fspath(error.filename)
         closed.append(Unusable(place, UnreadableFile(f"the folder {place} cannot be read: {error.strerror}")))
 
-    return sorted(
-        os.path.join(parent, name)
-        for parent, _, names in os.walk(folder, onerror=tell)
-        for name in names
-        if name.endswith(SUFFIX)
-    )
+    return rulesets_below(folder, tell)
 
 
 def rulesets(paths: Iterable[str], reading: Reading | None, domain: str | None) -> list[Ruleset | Unusable]:

@@ -66,6 +66,10 @@ output = click.option(
     help="Write to this file instead, whole or not at all. A file that is there is replaced.",
 )
 
+no_cache = click.option(
+    "--no-cache", is_flag=True, help="Decide everything anew, and keep nothing of it for the next time."
+)
+
 
 def output_format(*names: str) -> Callable[[_Command], _Command]:
     """``--format``, of which the first name is the default."""

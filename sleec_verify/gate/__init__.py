@@ -7,30 +7,36 @@ before.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.errors import SleecError
 from sleec_runtime.language import load, parse_source
-from sleec_runtime.model import Ruleset, Source
-from sleec_verify.checks import CHECKS, checks_for, run_checks
+from sleec_runtime.model import Atom, Ruleset, Source, leaves, measures_of
+from sleec_verify.checks import CHECKS, run_checks
 from sleec_verify.compare import compare
-from sleec_verify.finding import Finding
+from sleec_verify.finding import CheckResult, Finding
 from sleec_verify.gate.baseline import Key, key
 from sleec_verify.gate.config import Config
 from sleec_verify.gate.policy import judge
+from sleec_verify.gate.renames import with_renames
 from sleec_verify.gate.result import Conformed, Examined, Gated
 from sleec_verify.gate.suppressions import suppressions
 from sleec_verify.timed.scope import Untimed
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import Problem
-    from sleec_verify.assertions import Asked
-    from sleec_verify.gate.config import Target
-    from sleec_verify.revisions import Versions
+    from sleec_verify.assertions import Asked, Assertion, Vocabulary
+    from sleec_verify.gate.config import Policy, Target
+    from sleec_verify.revisions import Place, Versions
 
-__all__ = ["Asserting", "findings_now", "gate"]
+__all__ = ["Asserting", "Check", "findings_now", "gate"]
+
+CONFLICT = "conflict"
+
+Check = Callable[[Ruleset], tuple[CheckResult, ...]]
+"""What checks a ruleset, or knows what came of it."""
 
 
 class Asserting:
@@ -44,56 +50,110 @@ class Asserting:
         return bool(self.texts or self.sources)
 
 
+class _Sides(NamedTuple):
+    """A ruleset as it is now, and as it was."""
+
+    new: Ruleset
+    old: Ruleset
+
+
+class _Known:
+    """The findings of a baseline, and those of them that there are still."""
+
+    def __init__(self, keys: Collection[Key] = ()) -> None:
+        self.keys = frozenset(keys)
+        self.met: set[Key] = set()
+
+    def has(self, finding: Finding, paths: Sequence[str]) -> bool:
+        """Whether it is known under one of the paths that its ruleset has had."""
+        its = {key(path, finding) for path in paths}
+        self.met |= its
+        return not its.isdisjoint(self.keys)
+
+
 def gate(
     versions: Sequence[Versions],
     base: str,
     config: Config,
-    known: set[Key] | None = None,
+    check: Check,
+    *,
+    known: Collection[Key] = (),
     everything: bool = False,
     asserting: Asserting | None = None,
     untimed: Untimed = "at",
+    touched: Collection[str] = (),
 ) -> Gated:
     """The verdict on rulesets in two versions, the older one called `base`.
 
-    `known` are the findings of the baseline. Raises `LanguageError` for assertions that are none. Linear in the
-    rulesets that are the same; for the others, what `check` and `diff` cost.
+    `known` are the findings of the baseline, `touched` the paths of all files that differ from the base. A ruleset that
+    is the same is left out, unless `everything` is examined or the cases or the certificate beside it changed; only
+    the assertions are asked of all. Raises `LanguageError` for assertions that are none. Linear in the rulesets that
+    are the same; for the others, what `check` and `diff` cost.
     """
-    changed = [one for one in versions if everything or asserting or not one.unchanged]
-    found = Gated(base, unchanged=len(versions) - len(changed))
-    met: set[Key] = set()
-    for one in changed:
-        examined = _examine(one, base, config, known or set(), met, untimed)
-        found.examined.append(examined)
-    found.conformed = [_conform(target, config, known or set(), met) for target in config.targets]
+    versions, before = with_renames(versions)
+    found = Gated(base)
+    baseline = _Known(known)
+    asked: list[_Sides] = []
+    for one in versions:
+        if everything or not one.unchanged or _beside(one.path, config.block, touched):
+            examined = _examine(one, before.get(one.path), base, config, baseline, check, untimed)
+            found.examined.append(examined)
+            if examined.difference is not None:
+                asked.append(_Sides(examined.difference.new, examined.difference.old))
+                found.paths[examined.difference.new.source.path] = one.path
+        else:
+            found.unchanged += 1
+            if asserting:
+                try:
+                    ruleset = _read(one)
+                    asked.append(_Sides(ruleset, ruleset))
+                    found.paths[ruleset.source.path] = one.path
+                except SleecError as error:
+                    found.examined.append(Examined(one.path, errors=[error]))
+    found.conformed = [_conform(target, config, baseline) for target in config.targets]
     if asserting:
-        found.asked = _ask(found.examined, asserting)
-    about = {one.path for one in found.examined} | {target.code for target in config.targets}
-    found.stale = sum(1 for one in (known or set()) - met if one[0] in about)
+        found.asked = _ask(found, asked, asserting)
+    about = {one.path for one in found.examined} | {target.code for target in config.targets} | {*before.values()}
+    found.stale = sum(1 for one in baseline.keys - baseline.met if one[0] in about)
     judge(found, config.block)
     return found
 
 
-def findings_now(paths: Mapping[str, str], config: Config, untimed: Untimed = "at") -> set[Key]:
-    """All findings of these rulesets (what each is called, and its file) and of the configured targets that no
-    suppression allows: what a baseline holds.
+def _beside(path: str, policy: Policy, touched: Collection[str]) -> bool:
+    """Whether something beside a ruleset changed that the policy asks for."""
+    stem = path.removesuffix(".sleec")
+    if policy.clause_coverage is not None and f"{stem}.cases.toml" in touched:
+        return True
+    return policy.certificates and any(one.startswith(f"{stem}.certificate/") for one in touched)
+
+
+def _read(one: Versions) -> Ruleset:
+    """A ruleset that is the same in the base. Raises `SleecError`."""
+    assert one.new is not None, "what is the same is there"
+    return parse_source(one.new.read())
+
+
+def findings_now(places: Mapping[str, Place], config: Config, check: Check) -> set[Key]:
+    """All findings of these rulesets, by what they are called, and of the configured targets that no suppression
+    allows: what a baseline holds.
 
     Raises:
         SleecError: something cannot be read.
     """
-    met: set[Key] = set()
-    for name, path in paths.items():
-        _check(Examined(name), load(path), set(), met, untimed)
+    known = _Known()
+    for name, place in places.items():
+        _check(Examined(name), parse_source(place.read()), known, check)
     for target in config.targets:
-        found = _conform(target, config, set(), met)
+        found = _conform(target, config, known)
         if found.error is not None:
             raise found.error
-    return met
+    return known.met
 
 
 def _examine(
-    versions: Versions, base: str, config: Config, known: set[Key], met: set[Key], untimed: Untimed
+    versions: Versions, was: str | None, base: str, config: Config, known: _Known, check: Check, untimed: Untimed
 ) -> Examined:
-    found = Examined(versions.path)
+    found = Examined(versions.path, was)
     sides: list[Ruleset | None] = []
     for place in (versions.old, versions.new):
         try:
@@ -103,7 +163,7 @@ def _examine(
             sides.append(None)
     old, found.ruleset = sides
     if found.ruleset is not None:
-        _check(found, found.ruleset, known, met, untimed)
+        _check(found, found.ruleset, known, check)
         if config.block.clause_coverage is not None and not found.errors:
             from sleec_verify.gate.coverage import coverage
 
@@ -119,7 +179,15 @@ def _examine(
             new if new is not None else _nothing(old, f"no {versions.path}"),
             untimed=untimed,
         )
+        if old is not None and any(f.check == CONFLICT for f in found.known):
+            found.conflicting = _conflicting(old, untimed)
     return found
+
+
+def _conflicting(ruleset: Ruleset, untimed: Untimed) -> frozenset[frozenset[str]]:
+    """The rules of each conflict."""
+    (result,) = run_checks(ruleset, [CONFLICT], untimed=untimed)
+    return frozenset(frozenset(finding.rules) for finding in result.findings)
 
 
 def _nothing(other: Ruleset | None, called: str) -> Ruleset:
@@ -128,30 +196,25 @@ def _nothing(other: Ruleset | None, called: str) -> Ruleset:
     return replace(other, statements=(), inferred=(), defects=(), source=Source(called, ""))
 
 
-def _check(found: Examined, ruleset: Ruleset, known: set[Key], met: set[Key], untimed: Untimed) -> None:
-    found.results = run_checks(ruleset, checks_for(ruleset), untimed=untimed)
-    codes = {kind.code for check in CHECKS.values() for kind in check.kinds}
+def _check(found: Examined, ruleset: Ruleset, known: _Known, check: Check) -> None:
+    found.results = check(ruleset)
+    codes = {kind.code for one in CHECKS.values() for kind in one.kinds}
     allowing, found.problems = suppressions(ruleset, {*codes, *CHECKS})
     used = set()
+    paths = [found.path, *([] if found.was is None else [found.was])]
     for finding in (finding for result in found.results for finding in result.findings):
         covering = next((one for one in allowing if one.covers(ruleset, finding)), None)
         if covering is not None:
             used.add(covering)
             found.allowed.append((finding, covering))
-        elif _is_known(found.path, finding, known, met):
+        elif known.has(finding, paths):
             found.known.append(finding)
         else:
             found.findings.append(finding)
     found.unused = [one for one in allowing if one not in used]
 
 
-def _is_known(path: str, finding: Finding, known: set[Key], met: set[Key]) -> bool:
-    its = key(path, finding)
-    met.add(its)
-    return its in known
-
-
-def _conform(target: Target, config: Config, known: set[Key], met: set[Key]) -> Conformed:
+def _conform(target: Target, config: Config, known: _Known) -> Conformed:
     from sleec_runtime.errors import UnsupportedTimes
     from sleec_verify.conformance.structure import UNDECIDED, check_structure
     from sleec_verify.conformance.structure.target import python_files
@@ -172,17 +235,17 @@ def _conform(target: Target, config: Config, known: set[Key], met: set[Key]) -> 
     for finding in found.result.findings:
         if finding.code == UNDECIDED:
             continue
-        (found.known if _is_known(target.code, finding, known, met) else found.findings).append(finding)
+        (found.known if known.has(finding, [target.code]) else found.findings).append(finding)
     return found
 
 
-def _ask(examined: Iterable[Examined], asserting: Asserting) -> tuple[Asked, ...]:
+def _ask(found: Gated, asked: Sequence[_Sides], asserting: Asserting) -> tuple[Asked, ...]:
+    """The answers. An assertion is asked of each ruleset that knows one of its names, or did in the base: others are
+    about other things, and a ruleset that is gone obliges nothing."""
     from sleec_runtime.errors import LanguageError
-    from sleec_verify.assertions import Assertion, Vocabulary, ask, read_assertion, read_assertions
+    from sleec_verify.assertions import Vocabulary, ask, read_assertion, read_assertions
 
-    rulesets = [one.ruleset for one in examined if one.ruleset is not None]
-    before = [one.difference.old for one in examined if one.difference is not None]
-    vocabulary = Vocabulary([*rulesets, *before])
+    vocabulary = Vocabulary(side for sides in asked for side in sides)
     said: list[Assertion] = []
     for text in asserting.texts:
         said.append(read_assertion(text, vocabulary, "assertion"))
@@ -194,4 +257,19 @@ def _ask(examined: Iterable[Examined], asserting: Asserting) -> tuple[Asked, ...
             problems.append((source, error.problems))
     if problems:
         raise LanguageError(*problems[0])
-    return tuple(ask(ruleset, assertion, known=vocabulary) for ruleset in rulesets for assertion in said)
+    answers = []
+    for new, old in asked:
+        known = _names(Vocabulary((new, old)))
+        answers += [ask(new, one, known=vocabulary) for one in said if not known.isdisjoint(_names_in(one))]
+    return tuple(answers)
+
+
+def _names(vocabulary: Vocabulary) -> set[str]:
+    return {*vocabulary.triggers, *vocabulary.conditions, *vocabulary.obligations, *vocabulary.measures}
+
+
+def _names_in(assertion: Assertion) -> set[str]:
+    names = {literal.name for literal in assertion.literals}
+    for leaf in leaves(assertion.when):
+        names.update((leaf.name,) if isinstance(leaf, Atom) else measures_of(leaf))
+    return names

@@ -39,7 +39,8 @@ class Policy:
 
     `findings`: findings of `check` and `conform` at least as grave as this; "never" for none. `new_conflicts`:
     situations that conflict now and did not in the base. `lost_obligations`: patterns (``Call*``, ``NOT Speak``) of
-    obligations that some situation loses. `dead_hedges`: a hedge that decides nowhere. `unknown`: whatever is not
+    obligations that some situation loses. `ruled_out_situations`: situations that the assumptions of now do not allow,
+    and those of the base did. `dead_hedges`: a hedge that decides nowhere. `unknown`: whatever is not
     decided. `unused_suppressions`: a suppression that nothing needs. `clause_coverage`: fewer clauses than this, in
     percent, reached by the cases beside a ruleset; None asks nothing. `certificates`: a ruleset without one beside it
     that holds.
@@ -48,6 +49,7 @@ class Policy:
     findings: Severity | Literal["never"] = "error"
     new_conflicts: bool = True
     lost_obligations: tuple[str, ...] = ()
+    ruled_out_situations: bool = False
     dead_hedges: bool = False
     unknown: bool = True
     unused_suppressions: bool = False
@@ -207,6 +209,7 @@ _POLICIES: Mapping[str, _Read] = {
     "findings": _severity,
     "new-conflicts": _truth,
     "lost-obligations": _texts,
+    "ruled-out-situations": _truth,
     "dead-hedges": _truth,
     "unknown": _truth,
     "unused-suppressions": _truth,

@@ -18,11 +18,13 @@ Status = Literal["passed", "blocked", "unknown", "unusable"]
 
 
 class Block(NamedTuple):
-    """A reason not to let a change in: by which policy, in which ruleset or code, and what it is."""
+    """A reason not to let a change in: by which policy, in which ruleset or code, and what it is. `finding` says where
+    in the text, and why; what is unknown has none."""
 
     policy: str
     where: str
     what: str
+    finding: Finding | None = None
 
 
 class Coverage(NamedTuple):
@@ -42,12 +44,15 @@ class Coverage(NamedTuple):
 class Examined:
     """One ruleset that changed (or that all were asked for).
 
-    `ruleset` is what it is now; None where it is gone or cannot be read. `findings` count; `allowed` are suppressed,
+    `was` is its path in the base, where that was another. `ruleset` is what it is now; None where it is gone or cannot
+    be read. `findings` count; `allowed` are suppressed,
     with the suppression, and `known` stand in the baseline. `unused` suppressions meet nothing, `problems` are
-    suppressions that are none. `uncertified` says why there is no certificate that holds, where one is asked for.
+    suppressions that are none. `conflicting` are the rules of each conflict of the base, where the baseline has some of
+    now. `uncertified` says why there is no certificate that holds, where one is asked for.
     """
 
     path: str
+    was: str | None = None
     ruleset: Ruleset | None = None
     difference: Difference | None = None
     results: tuple[CheckResult, ...] = ()
@@ -56,6 +61,7 @@ class Examined:
     known: list[Finding] = field(default_factory=list)
     unused: list[Suppression] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list)
+    conflicting: frozenset[frozenset[str]] = frozenset()
     coverage: Coverage | None = None
     uncertified: str | None = None
     errors: list[SleecError] = field(default_factory=list)
@@ -81,15 +87,19 @@ class Conformed:
 
 @dataclass
 class Gated:
-    """All that came of a gate. `base` is what the base is called, `unchanged` how many rulesets were left out."""
+    """All that came of a gate. `base` is what the base is called, `unchanged` how many rulesets were left out. `paths`
+    says what the rulesets are called of which assertions were asked, by the paths of their texts. `heeded` is whether
+    what is unknown keeps a change out."""
 
     base: str
     examined: list[Examined] = field(default_factory=list)
     unchanged: int = 0
     conformed: list[Conformed] = field(default_factory=list)
     asked: tuple[Asked, ...] = ()
+    paths: dict[str, str] = field(default_factory=dict)
     blocks: list[Block] = field(default_factory=list)
     unknown: list[Block] = field(default_factory=list)
+    heeded: bool = True
     stale: int = 0
 
     @property
@@ -104,4 +114,4 @@ class Gated:
             return "unusable"
         if self.blocks:
             return "blocked"
-        return "unknown" if self.unknown else "passed"
+        return "unknown" if self.unknown and self.heeded else "passed"

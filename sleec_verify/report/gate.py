@@ -1,8 +1,8 @@
-"""What `gate` says: on the terminal, for programs, and as a summary in Markdown for a pull request."""
+"""What `gate` says: on the terminal, as a summary in Markdown for a pull request, and in every other format."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify.report.difference import WORDS, change_in_words, conflict_in_words, extent_text, witness_text
@@ -12,11 +12,13 @@ from sleec_verify.report.words import in_short, listed
 if TYPE_CHECKING:
     from sleec_verify.compare import Change, ConflictChange, Deciding, Difference
     from sleec_verify.gate.result import Block, Examined, Gated, Status
-    from sleec_verify.report.json import Json
     from sleec_verify.report.palette import Palette
 
 MARK = "<!-- written by sleec-verify gate -->"
 """The first line of every summary: only a file that begins with it is replaced by the next."""
+
+MOST = 50
+"""Entries of each list of a summary."""
 
 VERDICTS: Mapping[Status, str] = {
     "passed": "passed",
@@ -25,6 +27,28 @@ VERDICTS: Mapping[Status, str] = {
     "unusable": "something cannot be read",
 }
 _ROLES: Mapping[Status, str] = {"passed": "good", "blocked": "error", "unknown": "unknown", "unusable": "error"}
+
+
+def render(found: Gated, form: str, palette: Palette) -> Iterator[str]:
+    """All that was found, in one of the formats of `check`."""
+    if form == "full":
+        yield from _full(found, palette)
+    elif form == "json":
+        from sleec_verify.report import gate_json
+
+        yield from gate_json.render(found, palette)
+    else:
+        from sleec_verify.report import renderer
+        from sleec_verify.report.gate_outcomes import outcomes
+
+        yield from renderer(form)(outcomes(found), palette)
+        if form in ("concise", "github"):
+            yield verdict(found, palette)
+
+
+def verdict(found: Gated, palette: Palette) -> str:
+    """The line on all."""
+    return f"{palette(_ROLES[found.status], VERDICTS[found.status])}: {_in_short(found)}\n"
 
 
 # In full --------------------------------------------------------------------------------------------------
@@ -56,7 +80,7 @@ def _full(found: Gated, palette: Palette) -> Iterator[str]:
     if found.stale:
         word = "entry of the baseline is" if found.stale == 1 else "entries of the baseline are"
         yield f"{palette('note', 'note')}: {found.stale} {word} found no more; renew it with --write-baseline\n"
-    yield f"{palette(_ROLES[found.status], VERDICTS[found.status])}: {_in_short(found)}\n"
+    yield verdict(found, palette)
 
 
 def _line(block: Block) -> str:
@@ -83,54 +107,6 @@ def _in_short(found: Gated) -> str:
     return "; ".join(parts)
 
 
-# For programs ---------------------------------------------------------------------------------------------
-
-
-def _json(found: Gated, palette: Palette) -> Iterator[str]:
-    from sleec_verify import __version__
-    from sleec_verify.report.json import dump
-
-    del palette  # a program reads this
-    yield dump(
-        {
-            "tool": {"name": "sleec-verify", "version": __version__},
-            "base": found.base,
-            "status": found.status,
-            "blocks": [dict(block._asdict()) for block in found.blocks],
-            "unknown": [dict(block._asdict()) for block in found.unknown],
-            "rulesets": [_examined_json(one) for one in found.examined],
-            "unchanged": found.unchanged,
-            "stale": found.stale,
-        }
-    )
-
-
-def _examined_json(one: Examined) -> Json:
-    from sleec_verify.report.json import error_json, finding_json
-
-    ruleset = one.ruleset
-    reached = one.coverage
-    return {
-        "path": one.path,
-        "relation": None if one.difference is None else one.difference.relation,
-        "findings": []
-        if ruleset is None
-        else [finding_json(finding, finding.source or ruleset.source) for finding in one.findings],
-        "allowed": [
-            {"code": finding.code, "rules": list(finding.rules), "reason": suppression.reason}
-            for finding, suppression in one.allowed
-        ],
-        "baseline": len(one.known),
-        "unused_suppressions": [
-            {"line": one.line(unused.span), "allowed": list(unused.allowed)} for unused in one.unused
-        ],
-        "coverage": None
-        if reached is None or reached.why is not None
-        else {"reached": reached.reached, "clauses": reached.clauses, "missed": list(reached.missed)},
-        "errors": [error_json(error) for error in one.errors],
-    }
-
-
 # For a pull request ---------------------------------------------------------------------------------------
 
 
@@ -147,7 +123,8 @@ def _markdown(found: Gated) -> Iterator[str]:
     for title, blocks in (("What blocks", found.blocks), ("What is not decided", found.unknown)):
         if blocks:
             yield from ("", f"### {title}", "")
-            yield from (f"- **{block.policy}**, {_code(block.where)}: {_plain(block.what)}" for block in blocks)
+            lines = [f"- **{block.policy}**, {_code(block.where)}: {_plain(block.what)}" for block in blocks]
+            yield from _cut(lines, "reason")
     if found.unusable:
         yield from ("", "### What cannot be read", "")
         errors = [(one.path, error) for one in found.examined for error in one.errors]
@@ -155,11 +132,22 @@ def _markdown(found: Gated) -> Iterator[str]:
         yield from (f"- {_code(path)}: {_plain(str(error).splitlines()[0])}" for path, error in errors)
     if found.examined:
         yield from ("", "| ruleset | change | findings |", "| --- | --- | --- |")
-        yield from (_row(one) for one in found.examined)
+        yield from _cut([_row(one) for one in found.examined], "ruleset", "| {} | | |")
+    told = 0
     for one in found.examined:
         if one.difference is not None and (one.difference.changes or one.difference.conflicts):
-            yield from ("", f"### What changes in {_code(one.path)}", "")
-            yield from _changes(one.difference)
+            changes = list(_changes(one.difference))
+            if told < MOST:
+                yield from ("", f"### What changes in {_code(one.path)}", "")
+                yield from _cut(changes, "change")
+            told += len(changes)
+
+
+def _cut(lines: Sequence[str], noun: str, last: str = "- {}") -> Iterator[str]:
+    """The first of many: a summary is to be read, and services cut off, or refuse, what is too long."""
+    yield from lines[:MOST]
+    if len(lines) > MOST:
+        yield last.format(f"… and {counted(len(lines) - MOST, f'more {noun}')}: see the log")
 
 
 def _row(one: Examined) -> str:
@@ -172,20 +160,24 @@ def _row(one: Examined) -> str:
     counts += [f"{counted(len(one.unused), 'unused suppression')}"] if one.unused else []
     if one.coverage is not None and one.coverage.why is None:
         counts.append(f"{one.coverage.reached} of {one.coverage.clauses} clauses reached")
-    return f"| {_code(one.path)} | {_plain(change)} | {', '.join(counts)} |"
+    moved = "" if one.was is None else f", was {_code(one.was)}"
+    return f"| {_code(one.path)}{moved} | {_plain(change)} | {', '.join(counts)} |"
 
 
 def _changes(difference: Difference) -> Iterator[str]:
     for change in difference.changes:
-        yield from _change(f"**{_plain(change_in_words(change))}**", change)
+        yield _change(f"**{_plain(change_in_words(change))}**", change)
     for conflict in difference.conflicts:
-        yield from _change(f"**{_plain(conflict_in_words(conflict))}**", conflict)
+        yield _change(f"**{_plain(conflict_in_words(conflict))}**", conflict)
 
 
-def _change(head: str, one: Change | ConflictChange) -> Iterator[str]:
-    yield f"- {head}, {_plain(extent_text(one.extent))}"
-    yield f"  {_plain(witness_text(one.witness))}:"
-    yield f"  before {_deciding(one.before)}; after {_deciding(one.after)}"
+def _change(head: str, one: Change | ConflictChange) -> str:
+    lines = (
+        f"- {head}, {_plain(extent_text(one.extent))}",
+        f"  {_plain(witness_text(one.witness))}:",
+        f"  before {_deciding(one.before)}; after {_deciding(one.after)}",
+    )
+    return "\n".join(lines)
 
 
 def _deciding(deciding: tuple[Deciding, ...]) -> str:
@@ -204,6 +196,3 @@ def _code(text: str) -> str:
     """As code, which nothing in it can end or turn into a cell of a table."""
     cleaned = text.replace("`", "'").replace("|", "¦").replace("\n", " ").replace("\r", " ")
     return f"`{cleaned}`"
-
-
-RENDERERS: Mapping[str, Callable[[Gated, Palette], Iterator[str]]] = {"full": _full, "json": _json}

@@ -76,7 +76,14 @@ def _descriptors(codes: set[str], undecided: set[str]) -> list[_Object]:
         for code, entry in by_code().items()
         if code in codes
     ]
-    asked = questions()
+    asked = dict(questions())
+    others = codes - by_code().keys()
+    if others or undecided - asked.keys():  # what only a gate asks for
+        from sleec_verify.gate.policy import POLICIES
+
+        asked |= POLICIES
+        descriptors += ({"id": name, "shortDescription": _message(asked[name])} for name in sorted(others))
+        undecided = undecided - others
     descriptors += ({"id": name, "shortDescription": _message(asked[name])} for name in sorted(undecided))
     return descriptors
 

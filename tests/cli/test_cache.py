@@ -4,6 +4,7 @@ options and program is ever taken from it."""
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -189,6 +190,44 @@ def test_an_entry_under_another_name_is_none(folder: Path, cli: Cli) -> None:
     ran = cli("check", "a.sleec")
     assert ran.code == 1
     assert "is broken" in ran.err
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes and devices are those of POSIX")
+def test_what_is_no_file_is_no_entry(folder: Path, cli: Cli) -> None:
+    sound = cli("check", "a.sleec", files={"a.sleec": CLASH})
+    (entry,) = entries(folder)
+    for make in (
+        lambda: os.mkfifo(entry),
+        lambda: entry.symlink_to("/dev/zero"),
+        lambda: entry.symlink_to(entry),
+        lambda: entry.symlink_to("nowhere"),
+    ):
+        entry.unlink()
+        make()
+        assert cli("check", "a.sleec") == sound
+        assert entry.is_file(), "it was put in place again"
+        assert not entry.is_symlink()
+
+
+@pytest.mark.parametrize("in_place_of", ["entry", "its folder", "all"])
+def test_a_folder_or_file_in_the_wrong_place_is_told_of(in_place_of: str, folder: Path, cli: Cli) -> None:
+    sound = cli("check", "a.sleec", files={"a.sleec": CLASH})
+    (entry,) = entries(folder)
+    entry.unlink()
+    if in_place_of == "entry":
+        entry.mkdir()
+    elif in_place_of == "its folder":
+        entry.parent.rmdir()
+        entry.parent.write_text("")
+    else:
+        shutil.rmtree(folder)
+        folder.write_text("")
+    ran = cli("check", "a.sleec")
+    if in_place_of == "all":
+        assert (ran.code, "which is no folder" in ran.err) == (2, True)
+    else:
+        assert (ran.code, ran.out) == (sound.code, sound.out)
+        assert f"note: nothing can be kept in {folder}: " in ran.err
 
 
 def test_a_hash_that_fits_makes_no_sense_of_nonsense(folder: Path, cli: Cli) -> None:

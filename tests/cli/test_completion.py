@@ -85,6 +85,36 @@ def test_the_other_shells_take_their_scripts(shell: str, home: Path, cli: Cli) -
     subprocess.run([shell, "-n", str(script)], check=True, env=environment(home))
 
 
+@pytest.mark.skipif(shutil.which("fish") is None, reason="there is no fish here")
+@pytest.mark.parametrize(
+    ("line", "offered"),
+    [
+        ("con", ["conform", "convert"]),
+        ("check --format g", ["github", "gitlab"]),
+        ("check ni", ["night.sleec"]),
+        ("gate --basel", ["--baseline"]),
+    ],
+)
+def test_fish_completes(line: str, offered: list[str], home: Path) -> None:
+    script = f"sleec-verify completion fish | source; complete -C 'sleec-verify {line}'"
+    done = subprocess.run(
+        ["fish", "--no-config", "-c", script], cwd=home, env=environment(home), capture_output=True, text=True
+    )
+    assert [answer.partition("\t")[0] for answer in done.stdout.splitlines()] == offered
+
+
+@pytest.mark.skipif(shutil.which("zsh") is None, reason="there is no zsh here")
+def test_zsh_knows_who_completes(home: Path) -> None:
+    script = (
+        'autoload -U compinit; compinit -u -D; eval "$(sleec-verify completion zsh)"; '
+        "print $_comps[sleec-verify]; whence -w $_comps[sleec-verify]"
+    )
+    done = subprocess.run(["zsh", "-f", "-c", script], cwd=home, env=environment(home), capture_output=True, text=True)
+    assert done.stderr == ""
+    name, kind = done.stdout.splitlines()
+    assert kind == f"{name}: function"
+
+
 @pytest.mark.parametrize("shell", ["zsh", "fish"])
 def test_what_the_other_shells_ask_is_answered(shell: str, home: Path) -> None:
     """Their scripts ask the command like this; zsh and fish are told what a command is for, too."""

@@ -5,23 +5,28 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import shutil
 from dataclasses import fields
 from pathlib import Path
 
 import pytest
+import yaml
 
+from sleec_verify.cli.gate import command as gate_command
 from sleec_verify.gate.config import Config, Policy
 from tests.cli.conftest import Cli
 from tests.cli.repository import Repository
 
 PAGE = Path(__file__).parents[2] / "docs" / "gate.md"
 BLOCK = re.compile(r"`([\w.-]+)`:\n\n```(?:sleec|toml)\n(.*?)```\n", re.DOTALL)
-SESSION = re.compile(r"```console\n\$ sleec-verify gate\n((?:.*\n)*?)```\n")
+SESSION = re.compile(r"```console\n\$ sleec-verify (gate.*)\n((?:.*\n)*?)```\n")
+SUPPRESSED = re.compile(r"```sleec\n((?:(?!```).*\n)*?// sleec: allow (SLEEC\d+) because (.*)\n(?:.*\n)*?)```\n")
+
+pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
 
 
-@pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
-def test_the_example_prints_what_is_shown(cli: Cli, tmp_path: Path) -> None:
+def test_the_examples_print_what_is_shown(cli: Cli, tmp_path: Path) -> None:
     text = PAGE.read_text(encoding="utf-8")
     (name, before), (same, after), (settings, toml) = BLOCK.findall(text)
     assert name == same
@@ -30,13 +35,41 @@ def test_the_example_prints_what_is_shown(cli: Cli, tmp_path: Path) -> None:
     repository.commit()
     repository.put(name, after)
     repository.put(settings, toml)
-    ran = cli("gate")
-    assert (ran.code, ran.err) == (1, "")
-    shown = SESSION.sub(lambda _: f"```console\n$ sleec-verify gate\n{ran.out}```\n", text)
+    assert len(SESSION.findall(text)) == text.count("```console")
+
+    def run(shown: re.Match[str]) -> str:
+        ran = cli(*shlex.split(shown[1]))
+        assert (ran.code, ran.err) == (1, "")
+        return f"```console\n$ sleec-verify {shown[1]}\n{ran.out}```\n"
+
+    shown = SESSION.sub(run, text)
     if os.environ.get("UPDATE_DOCUMENTS"):
         PAGE.write_text(shown, encoding="utf-8")
     else:
         assert shown == text
+
+
+def test_the_suppression_allows_what_it_says(cli: Cli, tmp_path: Path) -> None:
+    (match,) = SUPPRESSED.finditer(PAGE.read_text(encoding="utf-8"))
+    repository = Repository(tmp_path)
+    repository.commit()
+    repository.put("door.sleec", match[1])
+    repository.put("sleec-verify.toml", "[block]\ndead-hedges = true\n")
+    ran = cli("gate", "--base", "main")
+    assert ran.code == 0, ran
+    assert f"allowed: {match[2]} " in ran.out
+    assert f", because {match[3]}\n" in ran.out
+    repository.put("door.sleec", match[1].replace("// sleec: allow", "// was"))
+    assert cli("gate", "--base", "main").code == 1
+
+
+def test_the_step_in_ci_is_a_command() -> None:
+    (text,) = re.findall(r"```yaml\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    checkout, gate = yaml.safe_load(text)
+    assert checkout["with"]["fetch-depth"] == 0
+    command, name, *arguments = shlex.split(gate["run"])
+    assert (command, name) == ("sleec-verify", "gate")
+    gate_command.make_context(name, arguments)
 
 
 def test_every_setting_is_told_of_with_its_default() -> None:

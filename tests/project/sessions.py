@@ -3,8 +3,8 @@
     ```LANGUAGE title="FILE"    what is in a file from here on
     ```console                  commands, each behind "$ ", with what they print; `echo $?` shows an exit code
 
-A command is sleec-verify, pytest or python. Where it fails, `echo $?` must follow; findings (1 of sleec-verify) speak
-for themselves.
+A command is sleec-verify, pytest, python or git. Where it fails, `echo $?` must follow; findings (1 of sleec-verify)
+speak for themselves.
 """
 
 from __future__ import annotations
@@ -77,6 +77,8 @@ def _session(lines: list[str]) -> Iterator[str]:
 def _run(program: str, *arguments: str) -> Ran:
     if program == "sleec-verify":
         return printed(*arguments)
+    if program == "git":
+        return _git(*arguments)
     assert program in ("python", "pytest")
     module = ("-m", "pytest", "-p", "no:cacheprovider") if program == "pytest" else ()
     done = subprocess.run(
@@ -86,6 +88,22 @@ def _run(program: str, *arguments: str) -> Ran:
         encoding="utf-8",
         env={**_outside_ci(), "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "80"},
         timeout=100,
+    )
+    return Ran(done.stdout, done.returncode)
+
+
+def _git(*arguments: str) -> Ran:
+    """As somebody without settings of their own, but with a name."""
+    nobody = {
+        f"GIT_{who}_{what}": "nobody@example.org" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")
+    }
+    settings = {"GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_SYSTEM": os.devnull}
+    done = subprocess.run(
+        ["git", *arguments],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        env={**os.environ, **nobody, **settings},
     )
     return Ran(done.stdout, done.returncode)
 

@@ -74,7 +74,9 @@ def test_the_workflow_runs_what_the_page_runs() -> None:
     (workflow,) = (block.body for block in found if block.title == ".github/workflows/rules.yml")
     steps = [step for step in re.findall(r"- run: (.*)", workflow) if not step.startswith("pip install")]
     assert steps
-    assert set(steps) <= {line for block in found for line in commands(block)}
+    # There, the branch is the one that was fetched.
+    assert {step.replace("origin/", "") for step in steps} <= {line for block in found for line in commands(block)}
+    assert "fetch-depth: 0" in workflow, "the gate asks for the history"
 
 
 def test_the_home_pages_rule_is_the_readmes() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -15,6 +16,7 @@ import yaml
 
 from sleec_verify.cli.commands import sleec_verify
 from sleec_verify.report import FORMATS
+from tests.cli.repository import Repository
 
 ROOT = Path(__file__).parents[2]
 HOOKS: list[dict[str, Any]] = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))
@@ -156,6 +158,28 @@ def test_a_wrong_input_of_the_action_is_told(program: Path, tmp_path: Path) -> N
     assert "'xml' is not one of" in done.stderr
 
 
+@pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
+def test_with_a_base_the_action_is_the_gate(program: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "project"
+    folder.mkdir()
+    repository = Repository(folder)
+    repository.put("sleec-verify.toml", 'rulesets = ["rules"]\n')
+    repository.put("rules/a.sleec", "WHEN Rung THEN Open\n")
+    repository.put("others/b.sleec", "WHEN")
+    repository.commit()
+    done, outputs = act(program, folder, base="main")
+    assert (done.returncode, outputs) == (0, "exit-code=0\n"), done.stderr
+    assert done.stdout.endswith("passed: no rulesets examined, 1 the same as in main\n")
+    repository.put("rules/a.sleec", CLASH)
+    done, outputs = act(program, folder, base="main", options="--no-cache\n")
+    assert (done.returncode, outputs) == (1, "exit-code=1\n")
+    assert done.stdout.startswith("::error file=rules/a.sleec,line=1,")
+    done, _ = act(program, folder, base="main", paths="others")
+    assert done.returncode == 0
+    done, _ = act(program, folder, base="--summary=x")
+    assert (done.returncode, "there is no revision --summary=x" in done.stderr) == (2, True)
+
+
 # What docs/ci.md says ----------------------------------------------------------------------------------------
 
 
@@ -164,7 +188,7 @@ def test_the_examples_name_hooks_and_inputs_that_exist() -> None:
     assert {hook["id"] for hook in hooks} == {hook["id"] for hook in HOOKS}
     jobs = [job for one in EXAMPLES for job in one.get("jobs", {}).values()]
     uses = [step for job in jobs for step in job["steps"] if "/sleec-verify@" in step["uses"]]
-    assert len(uses) == 2
+    assert len(uses) == 3
     for step in uses:
         assert set(step["with"]) <= set(ACTION["inputs"])
 

@@ -93,6 +93,12 @@ def test_links_out_of_the_docs_lead_to_the_same_in_the_site() -> None:
     assert links.within_the_site("[a](../CHANGELOG.md)", "times.md") == "[a](changelog.md)"
 
 
+def test_links_by_the_name_of_a_file_say_the_title() -> None:
+    assert links.within_the_site("([gate.md](gate.md#in-ci))", "times.md") == (
+        "([The gate: may this change go in?](gate.md#in-ci))"
+    )
+
+
 def test_every_page_is_in_the_navigation() -> None:
     navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").partition("\nnav:")[2]
     for path in [*DOCS.rglob("*.md"), *(DOCS / name for name in copied.pages())]:

@@ -1,0 +1,20 @@
+"""The rulesets of a folder."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+
+SUFFIX = ".sleec"
+
+
+def rulesets_below(folder: str, refused: Callable[[OSError], None]) -> list[str]:
+    """The paths of the rulesets at or below `folder`, sorted. `refused` is told of each folder that may not be read.
+
+    What git keeps for itself is left out: a branch may be called fix.sleec, and is no ruleset.
+    """
+    found = []
+    for parent, folders, names in os.walk(folder, onerror=refused):
+        folders[:] = [name for name in folders if name != ".git"]
+        found += [os.path.join(parent, name) for name in names if name.endswith(SUFFIX)]
+    return sorted(found)

@@ -1,0 +1,106 @@
+"""What `gate` found, as outcomes of checks, so that every format can tell them as it tells those of `check`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
+from sleec_verify.report.outcome import Checked, Outcome, Unusable
+
+if TYPE_CHECKING:
+    from sleec_runtime.errors import SleecError
+    from sleec_runtime.model import Ruleset
+    from sleec_verify.gate.result import Conformed, Examined, Gated
+
+_OWN = ("findings", "dead-hedges")
+"""Policies whose reasons to block are findings, which are there already."""
+
+
+def outcomes(found: Gated) -> list[Outcome]:
+    """An outcome for each ruleset that was examined or that an assertion was asked of, and for each target.
+
+    Findings that are allowed, or that the baseline has, are left out. A reason to block that is no finding of a check
+    is told as one of a check that is called as the policy is.
+    """
+    made: list[Outcome] = []
+    blocks = _by_path(found)
+    for one in found.examined:
+        made += (Unusable(one.path, _of_path(error, one)) for error in one.errors)
+        ruleset = one.ruleset or _gone(one)
+        if ruleset is not None:
+            results = [replace(result, verdict=_counted(result.verdict, one.findings)) for result in one.results]
+            made.append(Checked(ruleset, (*results, *_of_policies(one), *blocks.pop(one.path, ()))))
+    for _, ruleset, _ in found.asked:
+        asked = blocks.pop(found.paths[ruleset.source.path], ())
+        if asked:
+            made.append(Checked(ruleset, tuple(asked)))
+    for conformed in found.conformed:
+        made += _of_code(conformed)
+    return made
+
+
+def _by_path(found: Gated) -> dict[str, list[CheckResult]]:
+    """What blocks besides the findings of checks, and assertions that are not decided."""
+    grouped: dict[str, dict[str, list[Finding]]] = {}
+    for block in found.blocks:
+        if block.policy not in _OWN and block.finding is not None:
+            grouped.setdefault(block.where, {}).setdefault(block.policy, []).append(block.finding)
+    results = {
+        path: [CheckResult(name, Refuted(tuple(findings)), 0.0) for name, findings in policies.items()]
+        for path, policies in grouped.items()
+    }
+    for assertion, ruleset, answer in found.asked:
+        if isinstance(answer, str):
+            unknown = CheckResult("assertions", Unknown(f"{assertion.text}: {answer}"), 0.0)
+            results.setdefault(found.paths[ruleset.source.path], []).append(unknown)
+    return results
+
+
+def _counted(verdict: Verdict, counting: Iterable[Finding]) -> Verdict:
+    """A verdict without the findings that do not count."""
+    if isinstance(verdict, Proved):
+        return verdict
+    wanted = {id(finding) for finding in counting}
+    findings = tuple(finding for finding in verdict.findings if id(finding) in wanted)
+    if isinstance(verdict, Unknown):
+        return Unknown(verdict.why, findings)
+    return Refuted(findings) if findings else Proved()
+
+
+def _of_policies(one: Examined) -> Iterator[CheckResult]:
+    """What the comparison and the cases leave open."""
+    for what, why in () if one.difference is None else one.difference.undecided:
+        yield CheckResult("comparison", Unknown(f"{what}: {why}"), 0.0)
+    if one.coverage is not None and one.coverage.why is not None:
+        yield CheckResult("clause-coverage", Unknown(one.coverage.why), 0.0)
+
+
+def _of_path(error: SleecError, one: Examined) -> SleecError:
+    """An error as one of the file as it is now: of what is wrong in the base, the places are places of another text."""
+    from sleec_runtime.errors import LanguageError, SleecError
+
+    if not isinstance(error, LanguageError) or one.ruleset is None:
+        return error
+    return SleecError(str(error).partition("\n")[0])
+
+
+def _gone(one: Examined) -> Ruleset | None:
+    """No rules, under the path at which there were some."""
+    if one.difference is None:
+        return None
+    return replace(one.difference.new, source=replace(one.difference.new.source, path=one.path))
+
+
+def _of_code(one: Conformed) -> Iterator[Outcome]:
+    if one.error is not None:
+        yield Unusable(one.target.code, one.error)
+    elif one.ruleset is not None and one.result is not None:
+        known = {id(finding) for finding in one.known}
+        counting = [finding for finding in one.result.findings if id(finding) not in known]
+        yield Checked(one.ruleset, (replace(one.result, verdict=_counted(one.result.verdict, counting)),))
+    elif one.ruleset is not None and one.why is not None:
+        from sleec_verify.conformance.structure import NAME
+
+        yield Checked(one.ruleset, (CheckResult(NAME, Unknown(one.why), 0.0),))
