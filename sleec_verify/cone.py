@@ -187,10 +187,14 @@ class Cones:
         from sleec_verify.question import Question
 
         always: set[str] = set()
+        seen: set[int] = set()
         for assumption in self.assumptions:
-            related = self.assumptions_about(names_in(assumption.formula))
+            if id(assumption) in seen:
+                continue
+            related = self.assumptions_about(names_in(assumption.formula)) or [assumption]
+            seen.update(map(id, related))
             triggers = {name for a in related for kind, name in names_in(a.formula) if kind == "trigger"}
-            if triggers <= always:
+            if not triggers:
                 continue
             with Question(self, assuming=False) as question:
                 for other in related:

@@ -32,7 +32,7 @@ def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = (
         rails.require_value(measure)
     wanted = {*names_in(formula), *(("condition", measure) for measure in valued)} if cones.assumptions else set()
     for assumption in cones.assumptions:
-        if not wanted.isdisjoint(names_in(assumption.formula)) or not _holds_of_nothing(assumption.formula):
+        if not wanted.isdisjoint(names_in(assumption.formula)) or not holds_of_nothing(assumption.formula):
             wanted.update(names_in(assumption.formula))
     for assumption in cones.assumptions_about(wanted):
         rails.encoder.clauses.append([rails.in_completion(assumption.formula)])
@@ -172,12 +172,12 @@ class _Counter:
             self.at_least = extended
 
 
-def _holds_of_nothing(formula: Formula) -> bool:
+def holds_of_nothing(formula: Formula) -> bool:
     """Whether a formula is true where no trigger occurs, every condition is false and no measure has a value."""
     if isinstance(formula, Not):
-        return not _holds_of_nothing(formula.operand)
+        return not holds_of_nothing(formula.operand)
     if isinstance(formula, And):
-        return all(_holds_of_nothing(operand) for operand in formula.operands)
+        return all(holds_of_nothing(operand) for operand in formula.operands)
     if isinstance(formula, Or):
-        return any(_holds_of_nothing(operand) for operand in formula.operands)
+        return any(holds_of_nothing(operand) for operand in formula.operands)
     return isinstance(formula, Truth) and formula.value

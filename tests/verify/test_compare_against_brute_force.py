@@ -12,11 +12,12 @@ from hypothesis import given, settings
 from sleec_runtime.model import Assume, Never, Rule, Ruleset
 from sleec_verify.compare import compare, relation
 from tests import brute
-from tests.verify.edits import edited
+from tests.verify.edits import edited, tied
 from tests.verify.small import small_rulesets
 
 PLAIN = edited(small_rulesets(constraints=False, assumptions=False))
 CONSTRAINED = edited(small_rulesets(rules=3))
+TIED = edited(tied(small_rulesets(rules=3, hedges=1, nested=False, assumptions=False)))
 MEASURED = edited(small_rulesets(measures=True, rules=2, hedges=1, nested=False))
 
 
@@ -178,6 +179,12 @@ def test_constraints_and_assumptions(pair) -> None:
     agree(*pair)
 
 
+@settings(max_examples=100)
+@given(TIED)
+def test_triggers_that_assumptions_tie(pair) -> None:
+    agree(*pair)
+
+
 @settings(max_examples=25)
 @given(MEASURED)
 def test_measures(pair) -> None:
@@ -188,6 +195,13 @@ def test_measures(pair) -> None:
 @settings(max_examples=3000)
 @given(CONSTRAINED)
 def test_many(pair) -> None:
+    agree(*pair)
+
+
+@pytest.mark.long
+@settings(max_examples=2000)
+@given(TIED)
+def test_many_ties(pair) -> None:
     agree(*pair)
 
 
