@@ -147,6 +147,15 @@ def test_standard_input_is_one_side(cli: Cli, monkeypatch: pytest.MonkeyPatch) -
     assert "a.sleec -> <stdin>: stricter" in ran.out
 
 
+def test_an_assertion_about_names_of_an_unreadable_side_is_not_blamed(cli: Cli) -> None:
+    line = ("diff", "old.sleec", "new.sleec", "--assert", "never p when c", "--format", "json")
+    ran = cli(*line, files={"old.sleec": "WHEN", "new.sleec": OLD})
+    assert ran.code == 2
+    assert "old.sleec:1:" in ran.err
+    assert "never p" not in ran.err
+    assert json.loads(ran.out)["assertions"] == []
+
+
 def test_a_file_of_assertions(cli: Cli) -> None:
     files = {"a.sleec": OLD, "must.txt": "# safety\nnever p when not c\nalways o when t\n"}
     ran = cli("diff", "a.sleec", "a.sleec", "--assertions", "must.txt", files=files)
