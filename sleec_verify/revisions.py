@@ -77,6 +77,9 @@ def of_paths(old: str, new: str) -> list[Versions]:
         UnreadableFile: a file and a folder, a folder without rulesets, or both are standard input.
     """
     if os.path.isdir(old) != os.path.isdir(new):
+        for path in (old, new):
+            if path != "-" and not os.path.lexists(path):
+                raise UnreadableFile(f"there is no folder {path}", "check the spelling of its name")
         folder, file = (old, new) if os.path.isdir(old) else (new, old)
         raise UnreadableFile(f"{folder} is a folder, and {file} is not", "name two files, or two folders")
     if not os.path.isdir(old):
@@ -149,11 +152,19 @@ class Repository:
     def _hint(self, revision: str) -> str:
         from sleec_runtime.language.suggest import nearest
 
+        if revision == "HEAD":
+            return "commit something first"
+        if not revision or revision.startswith("-") or not revision.isprintable():
+            return "name a branch, a tag or a commit"
+        if ":" in revision:
+            return "name a commit, and the file behind it: --git {} {}".format(*revision.split(":", 1))
         done = _git("for-each-ref", "--format=%(refname:short)")
         near = nearest(revision, done.stdout.decode("utf-8", "replace").split())
         if near is not None:
             return f"did you mean {near}?"
-        return f"in CI, fetch it first: git fetch origin {revision}" if revision else "name a branch, a tag or a commit"
+        if any(mark in revision for mark in "~^@"):
+            return "in CI, fetch the whole history"
+        return f"in CI, fetch it first: git fetch origin {revision}"
 
     def merge_base(self, one: str, other: str) -> str:
         """The newest commit that two revisions have in common. Raises `GitError`."""
@@ -175,7 +186,7 @@ class Repository:
         first, last = first or "HEAD", last or "HEAD"
         old, new = self.commit(first), self.commit(last)
         if dots == "...":
-            old = self.merge_base(old, new)
+            old = self.merge_base(first, last)
             first = old[:10]
         return (first, old), (last, new)
 

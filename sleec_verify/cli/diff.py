@@ -92,6 +92,8 @@ def command(
     from sleec_verify.report.palette import Palette
 
     asserting = bool(assertions or file)
+    if file == "-" and "-" in paths and revision is None:
+        raise click.UsageError("standard input cannot be both a side and the assertions: name a file for one of them")
     try:
         versions, names = _versions(paths, revision)
         said = None if file is None else _source(file)

@@ -174,7 +174,11 @@ def test_a_file_of_assertions(cli: Cli) -> None:
         (["a.sleec", "a.sleec", "a.sleec"], "two files or two folders"),
         (["a.sleec", "nothing.sleec"], "there is no file nothing.sleec"),
         (["a.sleec", "."], ". is a folder, and a.sleec is not"),
+        (["empty", "nothing"], "there is no folder nothing"),
+        (["nothing", "empty"], "there is no folder nothing"),
+        (["-", "empty"], "empty is a folder, and - is not"),
         (["-", "-"], "standard input cannot be both sides"),
+        (["-", "a.sleec", "--assertions", "-"], "standard input cannot be both a side and the assertions"),
         (["empty", "empty"], "there is no .sleec file below"),
         (["a.sleec", "a.sleec", "--assertions", "nothing"], "there is no file nothing"),
         (["domains.sleec", "domains.sleec", "--domain", "hme"], "did you mean home?"),
@@ -288,7 +292,14 @@ def test_files_that_came_and_went(cli: Cli, repository: Repository) -> None:
         (["--git", "-q"], "there is no revision -q"),
         (["--git", ""], "there is no revision (empty)"),
         (["--git", "main..nowhere"], "there is no revision nowhere"),
-        (["--git", "main...alone"], "have no commit in common"),
+        (["--git", "main...alone"], "error: main and alone have no commit in common"),
+        (
+            ["--git", "main~7"],
+            "there is no revision main~7 in this repository\n  = help: in CI, fetch the whole history",
+        ),
+        (["--git", "main:a.sleec"], "name a commit, and the file behind it: --git main a.sleec"),
+        (["--git", "x\ty"], "name a branch, a tag or a commit"),
+        (["--git", "nowhere"], "in CI, fetch it first: git fetch origin nowhere"),
         (["--git", "main", "--", "c.sleec"], "there is no .sleec file at or below c.sleec, neither in main nor in"),
         (["--git", "main", "--", ".."], ".. is not in the repository"),
     ],
@@ -301,6 +312,14 @@ def test_what_git_cannot_do(cli: Cli, repository: Repository, arguments: list[st
     ran = cli("diff", *arguments)
     assert ran.code == 2
     assert message in ran.err
+
+
+@needs_git
+def test_a_repository_without_commits(cli: Cli, repository: Repository) -> None:
+    repository.write(a_sleec=OLD)
+    ran = cli("diff", "--git", "HEAD")
+    assert ran.code == 2
+    assert "there is no revision HEAD in this repository\n  = help: commit something first" in ran.err
 
 
 @needs_git

@@ -138,6 +138,7 @@ def agree(old: Ruleset, new: Ruleset) -> None:
                 # Where fewer of these literals clash already, the constraint that the entry is about may hold.
                 alone = [s for s in fired if not _fewer_clash(sides[side], s, one.literals)]
                 least, most = (len({projected(one.extent, s, new) for s in some}) for some in (alone, fired))
+                assert one.extent.affected is not None
                 assert least <= one.extent.affected <= most
             shown = Seen(old, new, one.witness.context())
             assert all(shown.allowed)
