@@ -158,12 +158,12 @@ class Repository:
             return "name a branch, a tag or a commit"
         if ":" in revision:
             return "name a commit, and the file behind it: --git {} {}".format(*revision.split(":", 1))
+        if any(mark in revision for mark in ("~", "^", "@{")):
+            return "in CI, fetch the whole history"
         done = _git("for-each-ref", "--format=%(refname:short)")
         near = nearest(revision, done.stdout.decode("utf-8", "replace").split())
         if near is not None:
             return f"did you mean {near}?"
-        if any(mark in revision for mark in "~^@"):
-            return "in CI, fetch the whole history"
         return f"in CI, fetch it first: git fetch origin {revision}"
 
     def merge_base(self, one: str, other: str) -> str:

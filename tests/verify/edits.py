@@ -21,7 +21,8 @@ def edited(draw, rulesets):
 
 @st.composite
 def tied(draw, rulesets):
-    """Rulesets of up to four triggers, with assumptions that tie these to one another and to conditions."""
+    """Rulesets of up to four triggers, with assumptions that tie these to one another and to conditions, and perhaps
+    an obligation that may be due with a trigger only, or without."""
     ruleset = draw(rulesets)
     names = ("t1", "t2", "t3", "t4")
     rules = [replace(rule, trigger=draw(st.sampled_from(names))) for rule in ruleset.rules]
@@ -35,7 +36,9 @@ def tied(draw, rulesets):
         inner, st.tuples(literals, inner).map(And).map(Not), st.tuples(literals, parts.map(And)).map(Or), literals
     )
     assumed = draw(st.lists(formulas.map(Assume), max_size=3))
-    return _with_rules(replace(ruleset, statements=(*ruleset.statements, *assumed)), rules)
+    obligation = st.sampled_from(("o1", "o2", "o3")).map(lambda name: Atom("obligation", name))
+    never = draw(st.lists(st.tuples(obligation, literals).map(And).map(Never), max_size=1))
+    return _with_rules(replace(ruleset, statements=(*ruleset.statements, *never, *assumed)), rules)
 
 
 def _with_rules(ruleset: Ruleset, rules) -> Ruleset:

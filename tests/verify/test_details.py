@@ -207,3 +207,11 @@ def test_names_in_nested_hedges_of_a_claim_are_used():
         "CONCERN c EXISTS t WHILE (o UNLESS x IN WHICH CASE (o UNLESS y IN WHICH CASE (o UNLESS z)))"
     )
     assert not found(text, "unused-name")
+
+
+def test_a_rule_that_only_a_constraint_brings_another_is_vacuous():
+    """Where A is due, the constraint and the assumption together bring about t2, and there A is forbidden."""
+    rules = "RULE r2\nWHEN t2 THEN NOT A\nRULE r1\nWHEN t1 THEN A\n"
+    for constraints in ("NEVER A AND c9\nASSUME c9 OR t2\n", "NEVER A AND NOT t2\n"):
+        (finding,) = found(constraints + rules, "vacuous-conflict")
+        assert finding.rules == ("r1", "r2")
