@@ -207,7 +207,7 @@ def _asked(
     `unread`, what seems wrong with an assertion may be right by that one's names, and it is only left out."""
     from sleec_verify.assertions import Vocabulary, ask, read_assertion, read_assertions
 
-    known = Vocabulary(ruleset for one in found for ruleset in (one.new, one.old))
+    known = Vocabulary([*(one.new for one in found), *(one.old for one in found)])
     assertions = []
     wrong: list[SleecError] = []
     for text in texts:

@@ -156,6 +156,23 @@ def test_an_assertion_about_names_of_an_unreadable_side_is_not_blamed(cli: Cli) 
     assert json.loads(ran.out)["assertions"] == []
 
 
+def test_an_assertion_is_read_as_the_new_rules_take_its_names(cli: Cli) -> None:
+    measured = "MEASURE c: number\nRULE a\nWHEN t THEN o\nUNLESS c > 2 IN WHICH CASE p\n"
+    files = {"old.sleec": OLD, "new.sleec": measured}
+    wrong = cli("diff", "old.sleec", "new.sleec", "--assert", "never p when c", files=files)
+    assert wrong.code == 2
+    assert "--assert:1:14: error: c is a measure, neither true nor false" in wrong.err
+    right = cli("diff", "old.sleec", "new.sleec", "--assert", "never p when c <= 2")
+    assert "holds: never p when c <= 2" in right.out
+    # Of several rulesets, one may take the name for something else: nobody can say what the assertion means to it.
+    both = {f"{side}/{name}.sleec": text for side in ("one", "two") for name, text in (("a", OLD), ("b", measured))}
+    several = cli("diff", "one", "two", "--assert", "never q when c", "--assert", "never o when c", files=both)
+    assert several.code == 2
+    several = cli("diff", "one", "two", "--assert", "never o when c")
+    assert several.code == 3
+    assert "(two/b.sleec): c is a measure in these rules, and a condition where the assertion was read" in several.out
+
+
 def test_a_file_of_assertions(cli: Cli) -> None:
     files = {"a.sleec": OLD, "must.txt": "# safety\nnever p when not c\nalways o when t\n"}
     ran = cli("diff", "a.sleec", "a.sleec", "--assertions", "must.txt", files=files)
