@@ -28,6 +28,7 @@ from sleec_runtime.model import (
 )
 
 if TYPE_CHECKING:
+    from sleec_verify.cutting import Cutting
     from sleec_verify.solver import Recorder
     from sleec_verify.timed.program import Program
 
@@ -228,25 +229,24 @@ class Cones:
         """
         if not (self._triggers_assumed or (keeping and self._triggers_constrained)):
             return self.by_trigger.get(trigger, [])
-        triggers = {trigger, *self.always}
-        rules = {position for t in triggers for position in self.by_trigger.get(t, ())}
-        while True:
-            names = {("trigger", t) for t in triggers}
+
+        def named(triggers: set[str]) -> Iterator[Name]:
+            rules = {position for t in triggers for position in self.by_trigger.get(t, ())}
             for position in rules:
-                names.update(names_of_rule(self.rules[position]))
+                yield from names_of_rule(self.rules[position])
             if keeping:
-                names.update(self._names_of_constraints(rules))
-            tied = {
-                name
-                for assumption in self.assumptions_about(names)
-                for kind, name in names_in(assumption.formula)
-                if kind == "trigger"
-            }
-            tied.update(name for kind, name in names if kind == "trigger")
-            if tied <= triggers:
-                return sorted(rules)
-            triggers |= tied
-            rules.update(position for t in tied for position in self.by_trigger.get(t, ()))
+                yield from self._names_of_constraints(rules)
+
+        triggers, _ = self.cutting.reached([trigger], named)
+        return sorted(position for t in triggers for position in self.by_trigger.get(t, ()))
+
+    @cached_property
+    def cutting(self) -> Cutting:
+        """The assumptions, to be cut to what may have to occur. What constraints speak of is never left out."""
+        from sleec_verify.cutting import Cutting
+
+        forbidden = {name for c in self.constraints for kind, name in _situations_in(c) if kind == "trigger"}
+        return Cutting((one.formula for one in self.assumptions), forbidden, self.ruleset.measures.values())
 
     def _names_of_constraints(self, rules: Iterable[int]) -> Iterator[Name]:
         """What the constraints about the obligations of some rules say of situations, with those about none."""

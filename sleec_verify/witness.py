@@ -30,12 +30,13 @@ def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = (
     valued = set(valued)
     for measure in sorted(valued):
         rails.require_value(measure)
-    wanted = {*names_in(formula), *(("condition", measure) for measure in valued)} if cones.assumptions else set()
-    for assumption in cones.assumptions:
-        if not wanted.isdisjoint(names_in(assumption.formula)) or not holds_of_nothing(assumption.formula):
-            wanted.update(names_in(assumption.formula))
-    for assumption in cones.assumptions_about(wanted):
-        rails.encoder.clauses.append([rails.in_completion(assumption.formula)])
+    if cones.assumptions:
+        named = set(names_in(formula))
+        # A trigger that need not occur makes no situation smaller.
+        occurring = cones.cutting.occurring_with(name for kind, name in named if kind == "trigger")
+        named.update(("condition", measure) for measure in valued)
+        for assumed in cones.cutting.kept_by(named, occurring):
+            rails.encoder.clauses.append([rails.in_completion(assumed)])
     rails.encoder.close()
     return rails.smallest()
 
@@ -170,14 +171,3 @@ class _Counter:
                 elif k - 1 in self.at_least:
                     self.clauses.append([-literal, -self.at_least[k - 1], register])
             self.at_least = extended
-
-
-def holds_of_nothing(formula: Formula) -> bool:
-    """Whether a formula is true where no trigger occurs, every condition is false and no measure has a value."""
-    if isinstance(formula, Not):
-        return not holds_of_nothing(formula.operand)
-    if isinstance(formula, And):
-        return all(holds_of_nothing(operand) for operand in formula.operands)
-    if isinstance(formula, Or):
-        return any(holds_of_nothing(operand) for operand in formula.operands)
-    return isinstance(formula, Truth) and formula.value

@@ -26,10 +26,10 @@ from sleec_runtime.model import (
 )
 from sleec_verify.clashes import Clash, clashes, opposite
 from sleec_verify.compare.align import Pair, align, depends_on_reading
-from sleec_verify.compare.cutting import Cutting, without
 from sleec_verify.compare.sides import Side, common, mentions, side
 from sleec_verify.compare.times import implies
 from sleec_verify.cone import Cones, Name, names_in, names_of_rule, obligations_in
+from sleec_verify.cutting import Cutting
 from sleec_verify.equation import Implication, conjunction, disjunction, implications
 from sleec_verify.timed.scope import Untimed
 
@@ -152,22 +152,17 @@ class World:
         return found
 
     def _cone(self, given: frozenset[str]) -> Cone:
-        may = self._cutting.occurring_with(given)
-        wanted = {*given, *(may - self._cutting.anywhere), *self._always}
-        while True:
-            rows = self.rows_of(wanted)
-            constraints = self._constraints_on(rows)
-            names: set[Name] = {("trigger", trigger) for trigger in wanted}
-            names.update(name for row in rows for name in names_of_rule(self._plain(self.rows[row])))
-            names.update(name for constraint in constraints for name in names_in(constraint.formula))
-            tied = self._cutting.about(names, may)
-            reached = {name for formula in tied for kind, name in names_in(formula) if kind == "trigger"}
-            reached.update(name for kind, name in names if kind == "trigger")
-            if reached <= wanted:
-                break
-            wanted |= reached
-        # A situation that is shown keeps the other assumptions as well. It can, without any other trigger (`_always`).
-        return Cone(rows, self._cones((), self._cutting.kept_by(names, wanted)))
+        wanted, names = self._cutting.reached(given, self._named_at)
+        # A situation that is shown keeps the other assumptions as well. It can, without any other trigger.
+        return Cone(self.rows_of(wanted), self._cones((), self._cutting.kept_by(names, wanted)))
+
+    def _named_at(self, triggers: set[str]) -> Iterator[Name]:
+        """What the rules of these triggers speak of, and the constraints on them."""
+        rows = self.rows_of(triggers)
+        for row in rows:
+            yield from names_of_rule(self._plain(self.rows[row]))
+        for constraint in self._constraints_on(rows):
+            yield from names_in(constraint.formula)
 
     def rows_of(self, triggers: Iterable[str]) -> list[int]:
         """The rows of these triggers, in the order of the text."""
@@ -175,13 +170,8 @@ class World:
 
     @cached_property
     def _cutting(self) -> Cutting:
-        return Cutting((one.formula for one in self.cones.assumptions), self._triggers_forbidden)
-
-    @cached_property
-    def _always(self) -> frozenset[str]:
-        """The triggers of which some occur in every situation."""
-        cut = (without(formula, self._cutting.anywhere) for formula in self._cutting.formulas)
-        return self._cones((), cut).always
+        assumed = (one.formula for one in self.cones.assumptions)
+        return Cutting(assumed, self._triggers_forbidden, self.vocabulary.measures.values())
 
     @cached_property
     def _triggers_forbidden(self) -> set[str]:

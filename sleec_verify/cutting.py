@@ -7,17 +7,16 @@ a trigger stays a question about its own rules, though the assumptions that name
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 
-from sleec_runtime.model import And, Atom, Formula, Not, Or, Truth
-from sleec_verify.cone import Name, names_in
+from sleec_runtime.model import And, Assume, Atom, Formula, Measure, Not, Or, Ruleset, Truth
+from sleec_verify.cone import Cones, Name, names_in
 from sleec_verify.equation import conjunction, disjunction
-from sleec_verify.witness import holds_of_nothing
 
 
 class Cutting:
-    """The assumptions of a comparison, to be cut to one question after the other.
+    """Some assumptions, to be cut to one question after the other.
 
     A trigger *may have to occur* where others do if some assumption, with those that need not occur taken not to,
     could fail without it. Any other trigger can be taken out of a possible situation, and what is left is possible:
@@ -25,8 +24,9 @@ class Cutting:
     assumptions) to make; a question costs what it concerns.
     """
 
-    def __init__(self, assumed: Iterable[Formula], kept: Iterable[str]) -> None:
-        """`kept` are triggers that no question may leave out."""
+    def __init__(self, assumed: Iterable[Formula], kept: Iterable[str], measures: Iterable[Measure] = ()) -> None:
+        """`kept` are triggers that no question may leave out, `measures` those that the assumptions compare."""
+        self._measures = tuple(measures)
         self.formulas = list(dict.fromkeys(conjuncts(assumed)))
         self._asked_for = [frozenset(_asked_for(formula, True)) for formula in self.formulas]
         self._naming: dict[Name, list[int]] = {}
@@ -52,6 +52,31 @@ class Cutting:
 
     def _naming_trigger(self, name: str) -> list[int]:
         return self._naming.get(("trigger", name), [])
+
+    def reached(
+        self, triggers: Iterable[str], naming: Callable[[set[str]], Iterable[Name]]
+    ) -> tuple[set[str], set[Name]]:
+        """The triggers that may have to occur where `triggers` do and the assumptions tie to what is named there, and
+        all that is named: `naming` says what the rules of some triggers speak of, and the constraints on these."""
+        given = set(triggers)
+        may = self.occurring_with(given)
+        wanted = given | (may - self.anywhere) | self._always
+        while True:
+            names: set[Name] = {("trigger", trigger) for trigger in wanted}
+            names.update(naming(wanted))
+            reached = {name for kind, name in names if kind == "trigger"}
+            reached.update(
+                name for formula in self.about(names, may) for kind, name in names_in(formula) if kind == "trigger"
+            )
+            if reached <= wanted:
+                return wanted, names
+            wanted |= reached
+
+    @cached_property
+    def _always(self) -> frozenset[str]:
+        """The triggers of which some occur in every situation."""
+        cut = (Assume(without(formula, self.anywhere)) for formula in self.formulas)
+        return Cones(Ruleset((*self._measures, *cut))).always
 
     def about(self, names: Iterable[Name], occurring: set[str]) -> list[Formula]:
         """The assumptions that share names with `names`, directly or through one another, where no triggers but these
@@ -79,7 +104,7 @@ class Cutting:
 
     @cached_property
     def _restless(self) -> list[Formula]:
-        return [formula for formula in self.formulas if not holds_of_nothing(formula)]
+        return [formula for formula in self.formulas if not _holds_of_nothing(formula)]
 
 
 def conjuncts(formulas: Iterable[Formula]) -> Iterator[Formula]:
@@ -127,3 +152,14 @@ def without(formula: Formula, occurring: set[str]) -> Formula:
             return Truth(not deciding.value)
         return disjunction(operands) if deciding.value else conjunction(operands)
     return formula
+
+
+def _holds_of_nothing(formula: Formula) -> bool:
+    """Whether a formula is true where no trigger occurs, every condition is false and no measure has a value."""
+    if isinstance(formula, Not):
+        return not _holds_of_nothing(formula.operand)
+    if isinstance(formula, And):
+        return all(_holds_of_nothing(operand) for operand in formula.operands)
+    if isinstance(formula, Or):
+        return any(_holds_of_nothing(operand) for operand in formula.operands)
+    return isinstance(formula, Truth) and formula.value
