@@ -33,6 +33,8 @@ from sleec_runtime.model import (
     Span,
     Term,
     Truth,
+    leaves,
+    measures_of,
 )
 from sleec_verify.compare.result import Deciding
 from sleec_verify.compare.sides import instants
@@ -87,6 +89,9 @@ def ask(ruleset: Ruleset, assertion: Assertion, domain: str | None = None, known
     Unsatisfiable exactly when it holds: the situation of the assertion, and every literal of a `never` obliged, or some
     literal of an `always` obliged by no rule. A model is a counterexample; the smallest is replayed by the evaluator.
     """
+    apart = next(_read_otherwise(ruleset, assertion, known), None) if known is not None else None
+    if apart is not None:
+        return Asked(assertion, ruleset, apart)
     domains: Sequence[str | None] = ruleset.domains or (None,) if domain is None else (domain,)
     measures = {**(known.measures if known is not None else {}), **ruleset.measures}
     try:
@@ -97,6 +102,27 @@ def ask(ruleset: Ruleset, assertion: Assertion, domain: str | None = None, known
     except Undecided as error:
         return Asked(assertion, ruleset, str(error))
     return Asked(assertion, ruleset, None)
+
+
+def _read_otherwise(ruleset: Ruleset, assertion: Assertion, known: Vocabulary) -> Iterator[str]:
+    """The names of the assertion that these rules take for something else than `known` does, by which it was read."""
+    kinds = (
+        ("a trigger", ruleset.triggers, known.triggers),
+        ("a condition", ruleset.conditions, known.conditions),
+        ("a measure", ruleset.measures.keys(), known.measures.keys()),
+    )
+    for leaf in leaves(assertion.when):
+        for name in (leaf.name,) if isinstance(leaf, Atom) else measures_of(leaf):
+            mine, theirs = ([kind for kind, *names in kinds if name in names[side]] for side in (0, 1))
+            if mine and mine != theirs:
+                yield f"{name} is {mine[0]} in these rules, and {theirs[0]} where the assertion was read"
+            elif name in ruleset.measures and ruleset.measures[name].values != known.measures[name].values:
+                yield f"{name} has another scale in these rules than where the assertion was read"
+        for side in () if isinstance(leaf, Atom) else (leaf.left, leaf.right):
+            if not isinstance(side, Number) or side.constant is None or side.constant not in ruleset.constants:
+                continue
+            if ruleset.constants[side.constant].value != side.value:
+                yield f"{side.constant} is another number in these rules than where the assertion was read"
 
 
 def _broken(ruleset: Ruleset, assertion: Assertion, measures: Mapping[str, Measure]) -> Broken | None:
@@ -155,7 +181,8 @@ def _replayed(
 
 
 class Vocabulary:
-    """The names that assertions may use: those of some rulesets."""
+    """The names that assertions may use: those of some rulesets. Where these take a name for different things, the
+    first of them says what it is."""
 
     def __init__(self, rulesets: Iterable[Ruleset]) -> None:
         self.triggers: set[str] = set()
@@ -164,11 +191,13 @@ class Vocabulary:
         self.measures: dict[str, Measure] = {}
         self.constants: dict[str, Rational] = {}
         for ruleset in rulesets:
-            self.triggers |= ruleset.triggers
-            self.conditions |= ruleset.conditions
+            said = self.triggers | self.conditions | self.measures.keys()
+            self.triggers |= ruleset.triggers - said
+            self.conditions |= ruleset.conditions - said
             self.obligations |= ruleset.obligations
             for name, measure in ruleset.measures.items():
-                self.measures.setdefault(name, measure)
+                if name not in said:
+                    self.measures[name] = measure
             for name, constant in ruleset.constants.items():
                 self.constants.setdefault(name, constant.value)
 

@@ -30,6 +30,7 @@ from sleec_runtime.model import (
 )
 
 if TYPE_CHECKING:
+    from sleec_verify.cutting import Cutting
     from sleec_verify.solver import Recorder
     from sleec_verify.timed.program import Program
 
@@ -63,6 +64,12 @@ def obligations_in(constraint: Exclusive | Never) -> Iterator[str]:
         for leaf in leaves(constraint.formula):
             if isinstance(leaf, Atom) and leaf.kind == "obligation":
                 yield leaf.name
+
+
+def _situations_in(constraint: Exclusive | Never) -> Iterator[Name]:
+    """The triggers, conditions and measures that a constraint speaks of."""
+    if isinstance(constraint, Never):
+        yield from names_in(constraint.formula)
 
 
 def names_of_rule(rule: Rule) -> Iterator[Name]:
@@ -199,16 +206,29 @@ class Cones:
         return any(kind == "trigger" for kind, _ in self._assumptions_by_name)
 
     @cached_property
+    def _triggers_constrained(self) -> bool:
+        return any(kind == "trigger" for constraint in self.constraints for kind, _ in _situations_in(constraint))
+
+    @cached_property
+    def _constraints_of_situations(self) -> list[Exclusive | Never]:
+        """The constraints that speak of no obligation."""
+        return [constraint for constraint in self.constraints if not any(obligations_in(constraint))]
+
+    @cached_property
     def always(self) -> frozenset[str]:
         """The triggers of assumptions that do not hold where none of their triggers occurs: some of these occur in
         every situation."""
         from sleec_verify.question import Question
 
         always: set[str] = set()
+        seen: set[int] = set()
         for assumption in self.assumptions:
-            related = self.assumptions_about(names_in(assumption.formula))
+            if id(assumption) in seen:
+                continue
+            related = self.assumptions_about(names_in(assumption.formula)) or [assumption]
+            seen.update(map(id, related))
             triggers = {name for a in related for kind, name in names_in(a.formula) if kind == "trigger"}
-            if triggers <= always:
+            if not triggers:
                 continue
             with Question(self, assuming=False) as question:
                 for other in related:
@@ -219,27 +239,38 @@ class Cones:
                     always |= triggers
         return frozenset(always)
 
-    def together_with(self, trigger: str) -> list[int]:
+    def together_with(self, trigger: str, keeping: bool = False) -> list[int]:
         """The rules that may be forced to be active when `trigger` occurs: its own, and those of the triggers that
-        assumptions tie to it or to the conditions of such rules, or force in any case. In the order of the text."""
-        if not self._triggers_assumed:
+        assumptions tie to it or to the conditions of such rules, or force in any case. In the order of the text.
+
+        With `keeping`, forced also by keeping the constraints about what these rules oblige.
+        """
+        if not (self._triggers_assumed or (keeping and self._triggers_constrained)):
             return self.by_trigger.get(trigger, [])
-        triggers = {trigger, *self.always}
-        rules = {position for t in triggers for position in self.by_trigger.get(t, ())}
-        while True:
-            names = {("trigger", t) for t in triggers}
+
+        def named(triggers: set[str]) -> Iterator[Name]:
+            rules = {position for t in triggers for position in self.by_trigger.get(t, ())}
             for position in rules:
-                names.update(names_of_rule(self.rules[position]))
-            tied = {
-                name
-                for assumption in self.assumptions_about(names)
-                for kind, name in names_in(assumption.formula)
-                if kind == "trigger"
-            }
-            if tied <= triggers:
-                return sorted(rules)
-            triggers |= tied
-            rules.update(position for t in tied for position in self.by_trigger.get(t, ()))
+                yield from names_of_rule(self.rules[position])
+            if keeping:
+                yield from self._names_of_constraints(rules)
+
+        triggers, _ = self.cutting.reached([trigger], named)
+        return sorted(position for t in triggers for position in self.by_trigger.get(t, ()))
+
+    @cached_property
+    def cutting(self) -> Cutting:
+        """The assumptions, to be cut to what may have to occur. What constraints speak of is never left out."""
+        from sleec_verify.cutting import Cutting
+
+        forbidden = {name for c in self.constraints for kind, name in _situations_in(c) if kind == "trigger"}
+        return Cutting((one.formula for one in self.assumptions), forbidden, self.ruleset.measures.values())
+
+    def _names_of_constraints(self, rules: Iterable[int]) -> Iterator[Name]:
+        """What the constraints about the obligations of some rules say of situations, with those about none."""
+        due = {o.name for position in rules for clause in self.clauses[position] for o in clause.obligations}
+        for constraint in (*self.constraints_about(due), *self._constraints_of_situations):
+            yield from _situations_in(constraint)
 
     def rivals(self, position: int) -> list[int]:
         """The other rules that may oblige what the rule at `position` obliges, in situations that trigger it. In the

@@ -4,7 +4,7 @@ A solver finds one situation, a count needs all. Here every name is a variable o
 has two, a scale its values, a number one for each region that the comparisons at hand can tell apart. Numbers that are
 compared with one another are one variable, whose values are the orders and regions that numbers can have. Two formulas
 are equal in every situation exactly when they are the same node (reduced ordered diagrams, Bryant 1986, with many
-values). The size may grow exponentially with the names: past `MOST_NODES` or `MOST_CELLS` it is given up.
+values). The size may grow exponentially with the names: past `MOST_NAMES`, `MOST_NODES` or `MOST_CELLS` it is given up.
 """
 
 from __future__ import annotations
@@ -37,6 +37,9 @@ if TYPE_CHECKING:
 MOST_NODES = 200_000
 """Nodes of one diagram."""
 
+MOST_NAMES = 250
+"""Variables of one diagram. What is asked of it recurs once for each, and twice in `some`."""
+
 MOST_CELLS = 2_000
 """Combinations of regions and orders that are tried for numbers compared with one another."""
 
@@ -65,7 +68,7 @@ class Diagram:
     """The diagrams of any formulas over the names of `formulas`, in the order in which these are first named."""
 
     def __init__(self, formulas: Sequence[Formula], measures: Mapping[str, Measure]) -> None:
-        """Raises `TooLarge` where numbers compared with one another have too many regions."""
+        """Raises `TooLarge` for too many names, or where numbers compared with one another have too many regions."""
         self._measures = measures
         self._nodes: list[tuple[int, tuple[int, ...]]] = [(-1, ()), (-1, ())]
         self._unique: dict[tuple[int, tuple[int, ...]], int] = {}
@@ -101,6 +104,8 @@ class Diagram:
         for name in found:
             if name not in self._part_of:
                 self._add(name, cuts, clusters, pairs)
+                if len(self.parts) > MOST_NAMES:
+                    raise TooLarge(f"it concerns more than {MOST_NAMES:,} names")
 
     def _add(
         self,
@@ -195,10 +200,10 @@ class Diagram:
         if found is None:
             (part, mine), (other, theirs) = self._nodes[a], self._nodes[b]
             first = min(part, other)
-            ways = range(self.parts[first].ways)
-            one = mine if part == first else (a,) * len(ways)
-            two = theirs if other == first else (b,) * len(ways)
-            found = self._node(first, tuple(self.both(one[way], two[way]) for way in ways))
+            ways = self.parts[first].ways
+            one = mine if part == first else (a,) * ways
+            two = theirs if other == first else (b,) * ways
+            found = self._node(first, tuple(map(self.both, one, two)))
             self._both[key] = found
         return found
 
@@ -207,7 +212,7 @@ class Diagram:
         found = self._opposite.get(node)
         if found is None:
             part, children = self._nodes[node]
-            found = self._node(part, tuple(self.opposite(child) for child in children))
+            found = self._node(part, tuple(map(self.opposite, children)))
             self._opposite[node] = found
             self._opposite[found] = node
         return found
@@ -307,7 +312,7 @@ class Diagram:
         def walk(at: int) -> int:
             if at not in known:
                 part, children = self._nodes[at]
-                projected = tuple(walk(child) for child in children)
+                projected = tuple(map(walk, children))
                 if part in kept:
                     known[at] = self._node(part, projected)
                 else:
@@ -334,7 +339,9 @@ class Diagram:
                 return at
             if at not in known:
                 here = level(at)
-                known[at] = sum(walk(child) * _product(sizes[here + 1 : level(child)]) for child in self._nodes[at][1])
+                known[at] = 0
+                for child in self._nodes[at][1]:
+                    known[at] += walk(child) * _product(sizes[here + 1 : level(child)])
             return known[at]
 
         return walk(node) * _product(sizes[: level(node)])

@@ -82,6 +82,9 @@ def of_paths(old: str, new: str) -> list[Versions]:
         UnreadableFile: a file and a folder, a folder without rulesets, or both are standard input.
     """
     if os.path.isdir(old) != os.path.isdir(new):
+        for path in (old, new):
+            if path != "-" and not os.path.lexists(path):
+                raise UnreadableFile(f"there is no folder {path}", "check the spelling of its name")
         folder, file = (old, new) if os.path.isdir(old) else (new, old)
         raise UnreadableFile(f"{folder} is a folder, and {file} is not", "name two files, or two folders")
     if not os.path.isdir(old):
@@ -158,10 +161,16 @@ class Repository:
 
         if _git("rev-list", "--max-count=1", "--all", "HEAD", "--").returncode:
             return "nothing has been committed yet; a first commit has nothing to be compared with"
+        if not revision or revision.startswith("-") or not revision.isprintable():
+            return "name a branch, a tag or a commit"
+        if ":" in revision:
+            return "name a commit, and the file behind it: --git {} {}".format(*revision.split(":", 1))
+        if any(mark in revision for mark in ("~", "^", "@{")):
+            return "in CI, fetch the whole history"
         done = _git("for-each-ref", "--format=%(refname:short)")
         names = done.stdout.decode("utf-8", "replace").split()
         # A clone has branches of others under the name of where it got them, too.
-        near = next((name for name in names if revision and name.endswith(f"/{revision}")), nearest(revision, names))
+        near = next((name for name in names if name.endswith(f"/{revision}")), nearest(revision, names))
         if near is not None:
             return f"did you mean {near}?"
         branch = revision.removeprefix("origin/")
@@ -191,7 +200,7 @@ class Repository:
         first, last = first or "HEAD", last or "HEAD"
         old, new = self.commit(first), self.commit(last)
         if dots == "...":
-            old = self.merge_base(old, new)
+            old = self.merge_base(first, last)
             first = old[:10]
         return (first, old), (last, new)
 

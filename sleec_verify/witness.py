@@ -30,11 +30,13 @@ def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = (
     valued = set(valued)
     for measure in sorted(valued):
         rails.require_value(measure)
-    wanted = {*names_in(formula), *(("condition", measure) for measure in valued)} if cones.assumptions else set()
-    for assumption in cones.demanding:
-        wanted.update(names_in(assumption.formula))
-    for assumption in cones.assumptions_about(wanted):
-        rails.encoder.clauses.append([rails.in_completion(assumption.formula)])
+    if cones.assumptions:
+        named = set(names_in(formula))
+        # A trigger that need not occur makes no situation smaller.
+        occurring = cones.cutting.occurring_with(name for kind, name in named if kind == "trigger")
+        named.update(("condition", measure) for measure in valued)
+        for assumed in cones.cutting.kept_by(named, occurring):
+            rails.encoder.clauses.append([rails.in_completion(assumed)])
     rails.encoder.close()
     return rails.smallest()
 

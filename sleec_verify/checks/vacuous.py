@@ -53,7 +53,7 @@ def _at_stake(
     cones: Cones, trigger: str, by_literal: dict[Obligation | None, list[Clash]]
 ) -> tuple[list[int], list[Clash]]:
     """The clashes that the rules active with `trigger` can come to, and those of the rules that oblige part of one."""
-    group = cones.together_with(trigger)
+    group = cones.together_with(trigger, keeping=True)
     due = {literal for other in group for literal in literals_of(cones.clauses[other])}
     # In an order, so that the same rules make the same clauses.
     found = [c for literal in (None, *sorted(due, key=str)) for c in by_literal.get(literal, ()) if c.literals <= due]

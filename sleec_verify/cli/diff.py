@@ -92,6 +92,8 @@ def command(
     from sleec_verify.report.palette import Palette
 
     asserting = bool(assertions or file)
+    if file == "-" and "-" in paths and revision is None:
+        raise click.UsageError("standard input cannot be both a side and the assertions: name a file for one of them")
     try:
         versions, names = _versions(paths, revision)
         said = None if file is None else _source(file)
@@ -108,7 +110,8 @@ def command(
         if found.difference is not None:
             rulesets.append(found.difference)
     _check_domain(domain, rulesets)
-    asked = _asked(assertions, said, rulesets, domain) if asserting else ()
+    unread = any(one.errors for one in compared)
+    asked = _asked(assertions, said, rulesets, domain, unread) if asserting else ()
     if asked is None:
         return exits.UNUSABLE
     report = Report(tuple(compared), len(versions) - len(left), asked)
@@ -198,28 +201,30 @@ def _check_domain(domain: str | None, found: Sequence[Difference]) -> None:
 
 
 def _asked(
-    texts: Sequence[str], said: Source | None, found: Sequence[Difference], domain: str | None
+    texts: Sequence[str], said: Source | None, found: Sequence[Difference], domain: str | None, unread: bool
 ) -> tuple[Asked, ...] | None:
-    """The answers to all assertions, of all new rulesets; None where some are none, which is told."""
+    """The answers to all assertions, of all new rulesets; None where some are none, which is told. Where a ruleset is
+    `unread`, what seems wrong with an assertion may be right by that one's names, and it is only left out."""
     from sleec_verify.assertions import Vocabulary, ask, read_assertion, read_assertions
 
-    known = Vocabulary(ruleset for one in found for ruleset in (one.new, one.old))
-    assertions, wrong = [], False
+    known = Vocabulary([*(one.new for one in found), *(one.old for one in found)])
+    assertions = []
+    wrong: list[SleecError] = []
     for text in texts:
         try:
             assertions.append(read_assertion(text, known))
         except SleecError as error:
-            complain(error)
-            wrong = True
+            wrong.append(error)
     if said is not None:
         try:
             assertions += read_assertions(said, known)
         except SleecError as error:
-            complain(error)
-            wrong = True
-    if wrong:
+            wrong.append(error)
+    if wrong and not unread:
+        for one in wrong:
+            complain(one)
         return None
-    return tuple(ask(one.new, assertion, domain, known) for one in found for assertion in assertions)
+    return tuple(ask(each.new, assertion, domain, known) for each in found for assertion in assertions)
 
 
 def _exit_code(report: Report, fail_on: FailOn) -> int:

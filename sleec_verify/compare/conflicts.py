@@ -19,8 +19,8 @@ from sleec_verify.equation import disjunction
 from sleec_verify.solver import Undecided
 from sleec_verify.witness import smallest_situation
 
-MOST = 1_000
-"""How many causes are tried on each side. Contradicting rules multiply, and so many have one cause at bottom."""
+MOST, MOST_PER_RULE = 2_000, 10
+"""How many causes are tried on each side: so many, and so many more for each rule. Contradicting rules multiply."""
 
 
 def conflict_changes(world: World) -> Iterator[Union[ConflictChange, Undecidable]]:
@@ -39,9 +39,10 @@ def conflict_changes(world: World) -> Iterator[Union[ConflictChange, Undecidable
 
 def _on(world: World, which: Which, way: Way) -> Iterator[Union[ConflictChange, Undecidable]]:
     seen: dict[frozenset[Obligation], list[tuple[frozenset[int], Formula]]] = {}
+    most = MOST + MOST_PER_RULE * len(world.rows)
     for tried, (clash, rows) in enumerate(_causes(world, which)):
-        if tried >= MOST:
-            yield Undecidable("conflicts", f"only the first {MOST:,} sets of rules that might clash were tried")
+        if tried >= most:
+            yield Undecidable("conflicts", f"only the first {most:,} sets of rules that might clash were tried")
             return
         within = [region for smaller, region in seen.get(clash.literals, ()) if smaller < rows]
         region = _region(world, which, clash, rows)
@@ -124,14 +125,14 @@ def _found(
 ) -> ConflictChange | None:
     rules = [rule for rule in (world.rows[row].on(which) for row in sorted(rows)) if rule is not None]
     triggers = {rule.trigger for rule in rules}
-    cone = world.rows_with(triggers) if triggers else world.rows_with(())
-    peace = world.conflict(cone, other(which))
+    cone = world.cone(triggers)
+    peace = world.conflict(cone.rows, other(which))
     excluded = [*within, peace]
     situation = all_of([region, *not_both(excluded)])
     own = conditions_of(world.sides[which].plain(rule) for rule in rules)
     try:
         everything = [*own, region, *excluded]
-        counting = Counting(everything, world.in_force(all_of(everything)), triggers, world.measures)
+        counting = Counting(everything, cone.in_force(all_of(everything)), triggers, world.measures)
         node = counting.where(region, excluded)
         if node == FALSE:
             return None
@@ -140,12 +141,12 @@ def _found(
         extent = counting.extent(node, [*named_in(own), *named_in(clash.labels)])
     except TooLarge as error:
         extent = not_counted(triggers, str(error))
-    witness = smallest_situation(world.cones, situation)
+    witness = smallest_situation(cone.cones, situation)
     if witness is None:
         assert extent.affected is None, "a solver and a diagram disagree"
         return None
     context = witness.context()
-    said = {one: deciding(world, one, context, cone) for one in SIDES}
+    said = {one: deciding(world, one, context) for one in SIDES}
     replayed = all(possible(world, one, context) for one in SIDES) and all(
         conflicting(world, one, context, said[one]) == (one == which) for one in SIDES
     )

@@ -11,7 +11,7 @@ from sleec_verify.compare.extent import Counting, all_of, conditions_of, named_i
 from sleec_verify.compare.replaying import deciding, shows_change
 from sleec_verify.compare.result import Change, Extent, Undecidable
 from sleec_verify.compare.times import implies, why_not
-from sleec_verify.compare.world import SIDES, Which, World, not_both, other
+from sleec_verify.compare.world import SIDES, Cone, Which, World, not_both, other
 from sleec_verify.diagram import FALSE, TooLarge
 from sleec_verify.finding import Witness
 from sleec_verify.solver import Undecided
@@ -54,7 +54,8 @@ def changes(world: World) -> Iterator[Found]:
 def _of_pair(world: World, pair: Pair, places: dict[Which, int]) -> Iterator[Found]:
     rules = [rule for rule in pair if rule is not None]
     triggers = {rule.trigger for rule in rules}
-    rows = world.rows_with(triggers)
+    cone = world.cone(triggers)
+    rows = cone.rows
     found: list[_Candidate] = []
     for which, row in places.items():
         for literal in world.literals(row, which):
@@ -71,29 +72,29 @@ def _of_pair(world: World, pair: Pair, places: dict[Which, int]) -> Iterator[Fou
         return
     conflicts = [world.conflict(rows, which) for which in SIDES]
     try:
-        groups = _grouped(world, pair, found, conflicts, triggers)
+        groups = _grouped(world, pair, found, conflicts, triggers, cone)
     except TooLarge as error:
         why = str(error)
         peace = not_both(conflicts)
         groups = [_Group([one], all_of([one.region, *peace]), not_counted(triggers, why)) for one in found]
     for group in groups:
-        witness = smallest_situation(world.cones, group.situation)
+        witness = smallest_situation(cone.cones, group.situation)
         if witness is None:
             # Only without a diagram: it has no node for what no situation makes true.
             assert group.extent.affected is None, "a solver and a diagram disagree"
             continue
-        yield _change(world, pair, group, witness, rows)
+        yield _change(world, pair, group, witness)
 
 
 def _grouped(
-    world: World, pair: Pair, found: list[_Candidate], conflicts: list[Formula], triggers: set[str]
+    world: World, pair: Pair, found: list[_Candidate], conflicts: list[Formula], triggers: set[str], cone: Cone
 ) -> list[_Group]:
     """The candidates that some situation shows, together where the same situations do."""
     both = zip(SIDES, (pair.old, pair.new))
     own = conditions_of(world.sides[which].plain(rule) for which, rule in both if rule is not None)
     regions = [one.region for one in found]
     everything = [*own, *regions, *conflicts]
-    counting = Counting(everything, world.in_force(all_of(everything)), triggers, world.measures)
+    counting = Counting(everything, cone.in_force(all_of(everything)), triggers, world.measures)
     by_node: dict[int, list[_Candidate]] = {}
     for one in found:
         node = counting.where(one.region, conflicts)
@@ -108,11 +109,11 @@ def _grouped(
     return groups
 
 
-def _change(world: World, pair: Pair, group: _Group, witness: Witness, rows: list[int]) -> Change:
+def _change(world: World, pair: Pair, group: _Group, witness: Witness) -> Change:
     added = tuple(one.literal for one in group.members if one.which == "new")
     removed = tuple(one.literal for one in group.members if one.which == "old")
     context = witness.context()
-    said = {which: deciding(world, which, context, rows) for which in SIDES}
+    said = {which: deciding(world, which, context) for which in SIDES}
     if not shows_change(world, context, said, added, removed):
         raise Undecided("a situation did not replay, which is a bug in sleec-verify")
     labels = [None if rule is None else rule.label for rule in pair]

@@ -12,11 +12,11 @@ from sleec_verify.compare.times import implies
 from sleec_verify.compare.world import SIDES, Which, World, triggered
 
 
-def deciding(world: World, which: Which, context: Context, rows: Iterable[int]) -> tuple[Deciding, ...]:
+def deciding(world: World, which: Which, context: Context) -> tuple[Deciding, ...]:
     """The clauses that decide on one side, in the order of its text, as the evaluator has it."""
     stated = world.sides[which].stated
     found = []
-    for rule in triggered(world, which, context, rows):
+    for rule in triggered(world, which, context):
         decision = decide(rule, context, stated.reading, stated.measures)
         if decision is not None:
             span = list(rule.clauses())[decision.clause].span

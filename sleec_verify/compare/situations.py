@@ -36,10 +36,10 @@ def situation_changes(world: World) -> Iterator[Union[SituationChange, Undecidab
 
 def _allowed(world: World, by: Which, given: Given, way: Way) -> SituationChange | None:
     """The situations that `by` allows and that break `given`."""
-    cones = world.situations_of(by)
     broken = Not(given.formula)
+    cones = world.situations_about(by, broken)
     witness = smallest_situation(cones, broken)
-    if witness is None or not cones.possible:
+    if witness is None or not world.situations_of(by).possible:
         return None
     context = witness.context()
     if not possible(world, by, context) or _keeps(world, other(by), given, context):

@@ -1,6 +1,6 @@
 """Two rulesets in one domain, as formulas over the situations that both allow.
 
-What is asked about a rule concerns the rules of the triggers that its own trigger brings along (`rows_with`): any other
+What is asked about a rule concerns the rules of the triggers that its own trigger brings along (`cone`): any other
 trigger need not occur, and where it does not, its rules oblige nothing and conflict with nothing. So whatever differs
 anywhere differs in a situation in which nothing else occurs, and it is looked for only there.
 """
@@ -13,7 +13,6 @@ from typing import Literal, NamedTuple
 
 from sleec_runtime.model import (
     Assume,
-    Atom,
     Context,
     Exclusive,
     Formula,
@@ -24,13 +23,13 @@ from sleec_runtime.model import (
     Rule,
     Ruleset,
     Truth,
-    leaves,
 )
 from sleec_verify.clashes import Clash, clashes, opposite
 from sleec_verify.compare.align import Pair, align, depends_on_reading
 from sleec_verify.compare.sides import Side, common, mentions, side
 from sleec_verify.compare.times import implies
-from sleec_verify.cone import Cones, obligations_in
+from sleec_verify.cone import Cones, Name, names_in, names_of_rule, obligations_in
+from sleec_verify.cutting import Cutting
 from sleec_verify.equation import Implication, conjunction, disjunction, implications
 from sleec_verify.timed.scope import Untimed
 
@@ -50,6 +49,18 @@ class Row(NamedTuple):
 
     def on(self, which: Which) -> Rule | None:
         return self.old if which == "old" else self.new
+
+
+class Cone(NamedTuple):
+    """The rows that may have to be at work where some triggers occur, and the assumptions that count there: what these
+    say where no trigger of another row occurs."""
+
+    rows: list[int]
+    cones: Cones
+
+    def in_force(self, formula: Formula) -> list[Formula]:
+        """The assumptions that share names with a formula, directly or through one another."""
+        return [assumption.formula for assumption in self.cones.assumptions_about(names_in(formula))]
 
 
 class World:
@@ -77,6 +88,7 @@ class World:
                     self.rows.append(Row(rule, None) if which == "old" else Row(None, rule))
             self.changed.append((pair, places))
         self._guards: dict[tuple[int, Which], list[Implication]] = {}
+        self._cones_of: dict[frozenset[str], Cone] = {}
         self._conflicts: dict[tuple[Which, tuple[int, ...]], Formula] = {}
         given = [one.formula for which in SIDES for one in self.sides[which].given]
         self.cones = self._cones([self._plain(row) for row in self.rows], given)
@@ -97,7 +109,22 @@ class World:
 
     def situations_of(self, which: Which) -> Cones:
         """The assumptions of one side alone."""
-        return self._cones((), [one.formula for one in self.sides[which].given])
+        return self._situations[which]
+
+    @cached_property
+    def _situations(self) -> dict[Which, Cones]:
+        return {which: self._cones((), [one.formula for one in self.sides[which].given]) for which in SIDES}
+
+    @cached_property
+    def _cutting_of(self) -> dict[Which, Cutting]:
+        return {which: Cutting([one.formula for one in self.sides[which].given], ()) for which in SIDES}
+
+    def situations_about(self, which: Which, formula: Formula) -> Cones:
+        """The assumptions of one side alone that may matter to the formula, where no trigger occurs that need not."""
+        cutting, named = self._cutting_of[which], set(names_in(formula))
+        return self._cones(
+            (), cutting.kept_by(named, cutting.occurring_with(name for kind, name in named if kind == "trigger"))
+        )
 
     @cached_property
     def _constraints(self) -> dict[Which, Cones]:
@@ -115,26 +142,57 @@ class World:
 
     # The cone ----------------------------------------------------------------------------------------------
 
-    def rows_with(self, triggers: Iterable[str]) -> list[int]:
-        """The rows that may have to be active where these triggers occur, by assumptions or because a constraint on
-        what is due then speaks of their trigger."""
-        wanted = {*triggers, *self.cones.always} if self.cones.assumptions else set(triggers)
-        while True:
-            found = {row for trigger in wanted for row in self.cones.together_with(trigger)}
-            reached = {self._plain(self.rows[row]).trigger for row in found} | self._triggers_of_constraints(found)
-            if reached <= wanted:
-                return sorted(found)
-            wanted |= reached
+    def cone(self, triggers: Iterable[str]) -> Cone:
+        """What may have to be at work where these triggers occur, by assumptions or because a constraint on what is due
+        then speaks of another trigger."""
+        given = frozenset(triggers)
+        found = self._cones_of.get(given)
+        if found is None:
+            found = self._cones_of[given] = self._cone(given)
+        return found
 
-    def _triggers_of_constraints(self, rows: Iterable[int]) -> set[str]:
+    def _cone(self, given: frozenset[str]) -> Cone:
+        wanted, names = self._cutting.reached(given, self._named_at)
+        # A situation that is shown keeps the other assumptions as well. It can, without any other trigger.
+        return Cone(self.rows_of(wanted), self._cones((), self._cutting.kept_by(names, wanted)))
+
+    def _named_at(self, triggers: set[str]) -> Iterator[Name]:
+        """What the rules of these triggers speak of, and the constraints on them."""
+        rows = self.rows_of(triggers)
+        for row in rows:
+            yield from names_of_rule(self._plain(self.rows[row]))
+        for constraint in self._constraints_on(rows):
+            yield from names_in(constraint.formula)
+
+    def rows_of(self, triggers: Iterable[str]) -> list[int]:
+        """The rows of these triggers, in the order of the text."""
+        return sorted(row for trigger in triggers for row in self.cones.by_trigger.get(trigger, ()))
+
+    @cached_property
+    def _cutting(self) -> Cutting:
+        assumed = (one.formula for one in self.cones.assumptions)
+        return Cutting(assumed, self._triggers_forbidden, self.vocabulary.measures.values())
+
+    @cached_property
+    def _triggers_forbidden(self) -> set[str]:
+        """The triggers that constraints speak of: without one of these, what was no conflict might be one."""
         return {
-            leaf.name
+            name
+            for which in SIDES
+            for constraint in self.sides[which].constraints
+            if isinstance(constraint, Never)
+            for kind, name in names_in(constraint.formula)
+            if kind == "trigger"
+        }
+
+    def _constraints_on(self, rows: Iterable[int]) -> list[Never]:
+        """The constraints that speak of situations too, and may forbid something that these rows oblige."""
+        return [
+            constraint
             for which in SIDES
             for constraint in self.constraints_about(which, {o.name for row in rows for o in self.literals(row, which)})
             if isinstance(constraint, Never)
-            for leaf in leaves(constraint.formula)
-            if isinstance(leaf, Atom) and leaf.kind == "trigger"
-        }
+        ]
 
     # Formulas ----------------------------------------------------------------------------------------------
 
@@ -196,14 +254,6 @@ class World:
     def _due_exactly(self, rows: Iterable[int], which: Which, literal: Obligation) -> Formula:
         return disjunction([self.obliges(row, which, literal.__eq__) for row in rows])
 
-    def in_force(self, formula: Formula) -> list[Formula]:
-        """The assumptions of both sides that share names with a formula, directly or through one another."""
-        from sleec_verify.cone import names_in
-
-        return [assumption.formula for assumption in self.cones.assumptions_about(names_in(formula))]
-
-    # Places ------------------------------------------------------------------------------------------------
-
     def label(self, row: int, which: Which) -> str:
         rule = self.rows[row].on(which)
         assert rule is not None, "asked of a rule that this side has"
@@ -215,9 +265,9 @@ def not_both(conflicts: Iterable[Formula]) -> list[Formula]:
     return [Not(formula) for formula in conflicts if formula != Truth(False)]
 
 
-def triggered(world: World, which: Which, context: Context, rows: Iterable[int]) -> Iterator[Rule]:
+def triggered(world: World, which: Which, context: Context) -> Iterator[Rule]:
     """The rules of one side, as they stand in its text, whose trigger occurs."""
-    for row in rows:
+    for row in world.rows_of(context.triggers):
         rule = world.rows[row].on(which)
-        if rule is not None and rule.trigger in context.triggers:
+        if rule is not None:
             yield rule

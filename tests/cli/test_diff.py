@@ -147,6 +147,32 @@ def test_standard_input_is_one_side(cli: Cli, monkeypatch: pytest.MonkeyPatch) -
     assert "a.sleec -> <stdin>: stricter" in ran.out
 
 
+def test_an_assertion_about_names_of_an_unreadable_side_is_not_blamed(cli: Cli) -> None:
+    line = ("diff", "old.sleec", "new.sleec", "--assert", "never p when c", "--format", "json")
+    ran = cli(*line, files={"old.sleec": "WHEN", "new.sleec": OLD})
+    assert ran.code == 2
+    assert "old.sleec:1:" in ran.err
+    assert "never p" not in ran.err
+    assert json.loads(ran.out)["assertions"] == []
+
+
+def test_an_assertion_is_read_as_the_new_rules_take_its_names(cli: Cli) -> None:
+    measured = "MEASURE c: number\nRULE a\nWHEN t THEN o\nUNLESS c > 2 IN WHICH CASE p\n"
+    files = {"old.sleec": OLD, "new.sleec": measured}
+    wrong = cli("diff", "old.sleec", "new.sleec", "--assert", "never p when c", files=files)
+    assert wrong.code == 2
+    assert "--assert:1:14: error: c is a measure, neither true nor false" in wrong.err
+    right = cli("diff", "old.sleec", "new.sleec", "--assert", "never p when c <= 2")
+    assert "holds: never p when c <= 2" in right.out
+    # Of several rulesets, one may take the name for something else: nobody can say what the assertion means to it.
+    both = {f"{side}/{name}.sleec": text for side in ("one", "two") for name, text in (("a", OLD), ("b", measured))}
+    several = cli("diff", "one", "two", "--assert", "never q when c", "--assert", "never o when c", files=both)
+    assert several.code == 2
+    several = cli("diff", "one", "two", "--assert", "never o when c")
+    assert several.code == 3
+    assert "(two/b.sleec): c is a measure in these rules, and a condition where the assertion was read" in several.out
+
+
 def test_a_file_of_assertions(cli: Cli) -> None:
     files = {"a.sleec": OLD, "must.txt": "# safety\nnever p when not c\nalways o when t\n"}
     ran = cli("diff", "a.sleec", "a.sleec", "--assertions", "must.txt", files=files)
@@ -165,7 +191,11 @@ def test_a_file_of_assertions(cli: Cli) -> None:
         (["a.sleec", "a.sleec", "a.sleec"], "two files or two folders"),
         (["a.sleec", "nothing.sleec"], "there is no file nothing.sleec"),
         (["a.sleec", "."], ". is a folder, and a.sleec is not"),
+        (["empty", "nothing"], "there is no folder nothing"),
+        (["nothing", "empty"], "there is no folder nothing"),
+        (["-", "empty"], "empty is a folder, and - is not"),
         (["-", "-"], "standard input cannot be both sides"),
+        (["-", "a.sleec", "--assertions", "-"], "standard input cannot be both a side and the assertions"),
         (["empty", "empty"], "there is no .sleec file below"),
         (["a.sleec", "a.sleec", "--assertions", "nothing"], "there is no file nothing"),
         (["domains.sleec", "domains.sleec", "--domain", "hme"], "did you mean home?"),
@@ -279,7 +309,14 @@ def test_files_that_came_and_went(cli: Cli, repository: Repository) -> None:
         (["--git", "-q"], "there is no revision -q"),
         (["--git", ""], "there is no revision (empty)"),
         (["--git", "main..nowhere"], "there is no revision nowhere"),
-        (["--git", "main...alone"], "have no commit in common"),
+        (["--git", "main...alone"], "error: main and alone have no commit in common"),
+        (
+            ["--git", "main~7"],
+            "there is no revision main~7 in this repository\n  = help: in CI, fetch the whole history",
+        ),
+        (["--git", "main:a.sleec"], "name a commit, and the file behind it: --git main a.sleec"),
+        (["--git", "x\ty"], "name a branch, a tag or a commit"),
+        (["--git", "nowhere"], "in CI, fetch it first (git fetch origin nowhere)"),
         (["--git", "main", "--", "c.sleec"], "there is no .sleec file at or below c.sleec, neither in main nor in"),
         (["--git", "main", "--", ".."], ".. is not in the repository"),
     ],
@@ -292,6 +329,14 @@ def test_what_git_cannot_do(cli: Cli, repository: Repository, arguments: list[st
     ran = cli("diff", *arguments)
     assert ran.code == 2
     assert message in ran.err
+
+
+@needs_git
+def test_a_repository_without_commits(cli: Cli, repository: Repository) -> None:
+    repository.write(a_sleec=OLD)
+    ran = cli("diff", "--git", "HEAD")
+    assert ran.code == 2
+    assert "there is no revision HEAD in this repository\n  = help: nothing has been committed yet" in ran.err
 
 
 @needs_git

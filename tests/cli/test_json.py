@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import jsonschema
 import pytest
 
 from sleec_verify.checks import CHECKS
+from sleec_verify.solver import Undecided
 from tests.cli.conftest import Cli
 
 SCHEMAS = Path(__file__).parents[2] / "docs" / "schema"
@@ -21,7 +23,7 @@ def schema(name: str) -> dict[str, Any]:
     return read
 
 
-REPORT, ENTAILMENT, KINDS, CASES = (schema(name) for name in ("check", "entail", "rules", "cases"))
+REPORT, ENTAILMENT, KINDS, CASES, DIFFERENCE = (schema(name) for name in ("check", "entail", "rules", "cases", "diff"))
 
 CLASH = """\
 MEASURE Pain: number
@@ -180,6 +182,128 @@ def test_entailments_with_more_to_tell_fit_the_schema(rules: str, cli: Cli) -> N
 def test_cases_fit_the_schema(criterion: str, cli: Cli) -> None:
     ran = cli("cases", "a.sleec", "--coverage", criterion, "--format", "json", files={"a.sleec": CLASH})
     jsonschema.validate(json.loads(ran.out), CASES)
+
+
+ONCE = """\
+DOMAIN home
+MEASURE Age: number
+MEASURE Risk: low < high
+EXCLUSIVE Open, Shut
+ASSUME NOT (Night AND Noon)
+RULE one
+WHEN Rung THEN Open
+UNLESS Age < 0.3 AND Risk = high IN WHICH CASE Ask
+RULE two
+WHEN Rung AND Late THEN Greet
+"""
+DSL = """\
+def_start
+    event A
+    event B
+    measure c: boolean
+def_end
+rule_start
+    R1 when A then B unless {c}
+rule_end
+"""
+WEIGHED = ONCE.replace("Late", "Age > Weight").replace("MEASURE Age", "MEASURE Weight: number\nMEASURE Age")
+FLAT = "WHEN A THEN B UNLESS C IN WHICH CASE D"
+SOON = "WHEN A THEN B WITHIN 5 minutes"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "relation"),
+    [
+        pytest.param(ONCE, ONCE, "equivalent", id="the same"),
+        pytest.param(ONCE, ONCE.replace("RULE two", "RULE due"), "equivalent", id="renamed"),
+        pytest.param(ONCE, ONCE.replace("AND Late", "AND NOT NOT Late"), "equivalent", id="rewritten"),
+        pytest.param(ONCE, ONCE.replace("0.3", "0.5"), "incomparable", id="another number"),
+        pytest.param(ONCE, ONCE.replace("low < high", "low < middle < high"), "stricter", id="another scale"),
+        pytest.param(ONCE, ONCE.replace("Greet", "Shut"), "incomparable", id="a new conflict"),
+        pytest.param(ONCE.replace("Greet", "Shut"), ONCE, "incomparable", id="a conflict that is gone"),
+        pytest.param(ONCE, ONCE.replace("home", "shop"), "incomparable", id="another domain"),
+        pytest.param(ONCE, ONCE.replace("NOT (Night AND Noon)", "Night"), "incomparable", id="situations"),
+        pytest.param(ONCE, WEIGHED, "incomparable", id="numbers"),
+        pytest.param(ONCE, ONCE.replace("AND Late", "AND Age"), "unknown", id="no ruleset"),
+        pytest.param(FLAT, FLAT.replace("C IN", "C > 2 IN"), "unknown", id="a condition that is a measure"),
+        pytest.param(SOON, SOON.replace("5", "9"), "laxer", id="times"),
+        pytest.param(SOON, f"{SOON} OTHERWISE C", "laxer", id="times with alternatives"),
+        pytest.param(SOON, SOON.replace("THEN", "THEN NOT"), "incomparable", id="when"),
+        pytest.param("WHEN A THEN B", DSL, "laxer", id="two languages"),
+    ],
+)
+def test_differences_fit_the_schema(old: str, new: str, relation: str, cli: Cli) -> None:
+    files = {"old.sleec": old + "\n", "new.sleec": new + "\n"}
+    said = json.loads(cli("diff", "old.sleec", "new.sleec", "--format", "json", files=files).out)
+    jsonschema.validate(said, DIFFERENCE)
+    assert said["relation"] == relation
+
+
+def test_differences_that_are_not_counted_fit_the_schema(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sleec_verify.diagram.MOST_NAMES", 1)
+    files = {"old.sleec": FLAT, "new.sleec": f"{FLAT} AND E"}
+    said = json.loads(cli("diff", "old.sleec", "new.sleec", "--format", "json", files=files).out)
+    jsonschema.validate(said, DIFFERENCE)
+    (change,) = said["changes"]
+    assert change["situations"]["reason"] == "it concerns more than 1 names"
+
+
+def test_assertions_fit_the_schema(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that holds, one that does not, and, as where a solver gives up, one of which nobody can tell."""
+    asserted = ("never Ask when Age > 1", "never Open", "always Greet when Late")
+    options = [part for one in asserted for part in ("--assert", one)]
+    line = ("diff", "a.sleec", "a.sleec", *options, "--format", "json")
+    said = json.loads(cli(*line, files={"a.sleec": ONCE}).out)
+    jsonschema.validate(said, DIFFERENCE)
+    assert [one["holds"] for one in said["assertions"]] == [True, False, False]
+
+    def undecided(*_: object) -> None:
+        raise Undecided("the solver gave up")
+
+    monkeypatch.setattr("sleec_verify.assertions.smallest_situation", undecided)
+    said = json.loads(cli(*line).out)
+    jsonschema.validate(said, DIFFERENCE)
+    assert None in [one["holds"] for one in said["assertions"]]
+
+
+def test_differences_of_folders_fit_the_schema(cli: Cli) -> None:
+    files = {"one/a.sleec": ONCE, "one/b.sleec": ONCE, "two/a.sleec": ONCE, "two/c.sleec": "WHEN"}
+    for arguments in ([], ["--missing-as-empty"]):
+        said = json.loads(cli("diff", "one", "two", *arguments, "--format", "json", files=files).out)
+        jsonschema.validate(said, DIFFERENCE)
+        assert len(said["rulesets"]) == 3
+
+
+def test_every_key_of_a_difference_is_in_the_schema(cli: Cli) -> None:
+    """Strict at every level: an unknown key anywhere, and a key that is missing anywhere, are refused."""
+    files = {
+        "old.sleec": ONCE,
+        "new.sleec": ONCE.replace("Greet", "Shut").replace("0.3", "0.5").replace("Noon", "Late"),
+    }
+    line = ("old.sleec", "new.sleec", "--assert", "never Open", "--assert", "never Ask when Age > 3")
+    said = json.loads(cli("diff", *line, "--format", "json", files=files).out)
+    assert all(said[key] for key in ("changes", "conflicts", "situations", "names", "rulesets", "assertions"))
+    fits = jsonschema.Draft202012Validator(DIFFERENCE).is_valid
+    assert fits(said)
+    for one in _objects(said):
+        one["Unknown"] = {}
+        assert not fits(said)
+        del one["Unknown"]
+        for key in list(one):
+            kept = one.pop(key)
+            assert not fits(said), key
+            one[key] = kept
+
+
+def _objects(value: Any) -> Iterator[dict[str, Any]]:
+    """All objects in it, but for situations: their keys are names."""
+    if isinstance(value, dict):
+        yield value
+        for key, inner in value.items():
+            yield from () if key == "conditions" else _objects(inner)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from _objects(inner)
 
 
 @pytest.mark.parametrize("broken", [{"rulesets": []}, {"tool": {}, "rulesets": [{"path": "a"}], "summary": {}}])

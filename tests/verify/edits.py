@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from hypothesis import strategies as st
 
-from sleec_runtime.model import Assume, Exclusive, Never, Not, Rule, Ruleset
+from sleec_runtime.model import And, Assume, Atom, Exclusive, Never, Not, Or, Rule, Ruleset
 
 
 @st.composite
@@ -17,6 +17,28 @@ def edited(draw, rulesets):
     for _ in range(draw(st.integers(1, 3))):
         new = draw(st.sampled_from(EDITS))(draw, new, donor)
     return old, new
+
+
+@st.composite
+def tied(draw, rulesets):
+    """Rulesets of up to four triggers, with assumptions that tie these to one another and to conditions, and perhaps
+    an obligation that may be due with a trigger only, or without."""
+    ruleset = draw(rulesets)
+    names = ("t1", "t2", "t3", "t4")
+    rules = [replace(rule, trigger=draw(st.sampled_from(names))) for rule in ruleset.rules]
+    atoms = st.sampled_from(
+        [*(Atom("trigger", name) for name in names), *(Atom("condition", name) for name in ("c1", "c2", "c3"))]
+    )
+    literals = st.one_of(atoms, atoms.map(Not))
+    parts = st.lists(literals, min_size=2, max_size=3, unique=True).map(tuple)
+    inner = st.one_of(parts.map(Or), parts.map(And).map(Not))
+    formulas = st.one_of(
+        inner, st.tuples(literals, inner).map(And).map(Not), st.tuples(literals, parts.map(And)).map(Or), literals
+    )
+    assumed = draw(st.lists(formulas.map(Assume), max_size=3))
+    obligation = st.sampled_from(("o1", "o2", "o3")).map(lambda name: Atom("obligation", name))
+    never = draw(st.lists(st.tuples(obligation, literals).map(And).map(Never), max_size=1))
+    return _with_rules(replace(ruleset, statements=(*ruleset.statements, *never, *assumed)), rules)
 
 
 def _with_rules(ruleset: Ruleset, rules) -> Ruleset:

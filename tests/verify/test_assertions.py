@@ -151,3 +151,36 @@ def test_all_problems_of_a_file_are_told() -> None:
 def test_a_file_without_assertions_is_a_mistake() -> None:
     with pytest.raises(LanguageError, match="no assertion"):
         read_assertions(Source("file", "# nothing\n"), KNOWN)
+
+
+MEASURING = "MEASURE c: number\nWHEN t THEN o UNLESS c > 1 IN WHICH CASE p\n"
+BESIDE = "MEASURE Age: integer\nMEASURE Risk: low < high\nCONSTANT Grown = 18\nWHEN t THEN o UNLESS c IN WHICH CASE p\n"
+
+
+@pytest.mark.parametrize(
+    ("when", "other", "why"),
+    [
+        ("c", MEASURING, "c is a measure in these rules, and a condition"),
+        ("c", "WHEN c THEN o\n", "c is a trigger in these rules, and a condition"),
+        ("t", "WHEN c THEN o UNLESS t IN WHICH CASE p\n", "t is a condition in these rules, and a trigger"),
+        ("Age > 3", "WHEN t THEN o UNLESS Age IN WHICH CASE p\n", "Age is a condition in these rules, and a measure"),
+        ("Risk > low", BESIDE.replace("low < high", "high < low"), "Risk has another scale in these rules"),
+        ("Age < Grown", BESIDE.replace("18", "21"), "Grown is another number in these rules"),
+    ],
+)
+def test_rules_that_take_a_name_otherwise_are_not_asked(when: str, other: str, why: str) -> None:
+    """The first ruleset says how the assertion is read; what it would mean to the other nobody said."""
+    rulesets = [parse(BESIDE), parse(other)]
+    known = Vocabulary(rulesets)
+    assertion = read_assertion(f"never o when {when}", known)
+    first, second = (ask(ruleset, assertion, known=known).answer for ruleset in rulesets)
+    assert not isinstance(first, str)
+    assert isinstance(second, str)
+    assert second.startswith(why)
+
+
+def test_rules_that_do_not_know_a_name_are_asked_all_the_same() -> None:
+    rulesets = [parse(BESIDE), parse("WHEN t THEN p\n")]
+    known = Vocabulary(rulesets)
+    asked = [ask(ruleset, read_assertion("never p when Age < Grown and c", known), known=known) for ruleset in rulesets]
+    assert all(isinstance(one.answer, Broken) for one in asked)

@@ -12,10 +12,12 @@ from sleec_verify.checks import run_checks
 from sleec_verify.checks.redundant import without_hedge
 from sleec_verify.finding import Proved, Refuted
 from tests import brute
+from tests.verify.edits import tied
 from tests.verify.small import small_rulesets
 
 BOOLEAN = small_rulesets()
 MEASURED = small_rulesets(measures=True, rules=2)
+TIED = tied(small_rulesets(rules=3, hedges=1, nested=False, assumptions=False))
 
 
 def findings(ruleset, check):
@@ -108,6 +110,16 @@ ALL = [check_conflicts, check_vacuous, check_dead, check_redundant, check_readin
 def test_boolean_rulesets(check):
     @settings(max_examples=120, deadline=None)
     @given(BOOLEAN)
+    def compare(ruleset):
+        check(ruleset)
+
+    compare()
+
+
+@pytest.mark.parametrize("check", ALL)
+def test_rulesets_whose_triggers_are_tied_to_one_another(check):
+    @settings(max_examples=60, deadline=None)
+    @given(TIED)
     def compare(ruleset):
         check(ruleset)
 

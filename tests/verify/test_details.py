@@ -226,3 +226,11 @@ def test_assumptions_that_a_situation_can_break():
         assert {a for a in asked if not holds(a.formula, context, cones.ruleset.measures)} == set(expected)
         broken += bool(expected)
     assert broken == 96 - 16, "a, b and u leave 4 of 8, c and x 4 of 6, d one of 2"
+
+
+def test_a_rule_that_only_a_constraint_brings_another_is_vacuous():
+    """Where A is due, the constraint and the assumption together bring about t2, and there A is forbidden."""
+    rules = "RULE r2\nWHEN t2 THEN NOT A\nRULE r1\nWHEN t1 THEN A\n"
+    for constraints in ("NEVER A AND c9\nASSUME c9 OR t2\n", "NEVER A AND NOT t2\n"):
+        (finding,) = found(constraints + rules, "vacuous-conflict")
+        assert finding.rules == ("r1", "r2")
