@@ -9,6 +9,7 @@ from sleec_runtime.model import Context, Obligation
 from sleec_verify.checks import run_checks
 from sleec_verify.entailment import Definition1, entail
 from sleec_verify.finding import ClauseRef
+from sleec_verify.question import Question
 
 
 def found(text, check):
@@ -128,6 +129,18 @@ def test_a_redundant_rule_names_what_covers_it():
     assert by_rule["b"] in {("a",), ("d",)}
     assert set(by_rule) == {"a", "b", "c", "d"}
     assert "c" in by_rule["a"]
+
+
+def test_many_copies_of_a_rule_take_few_questions(monkeypatch):
+    """What covers each copy is found in one formula: a ruleset may be made of copies."""
+    asked = []
+    ask = Question.ask
+    monkeypatch.setattr(Question, "ask", lambda *given: asked.append(None) or ask(*given))
+    copies = 60
+    findings = found("WHEN t THEN o AND p UNLESS c IN WHICH CASE q\n" * copies, "redundant-rule")
+    assert len(findings) == copies
+    assert all(len(finding.rules) == 2 for finding in findings)
+    assert len(asked) <= 8 * copies
 
 
 def test_the_reading_that_the_text_states_is_named():
