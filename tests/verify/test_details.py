@@ -214,6 +214,22 @@ def test_a_small_keyword_for_a_time_is_told_where_it_could_be_one():
     assert condition.help == "if you meant the keyword, write OTHERWISE"
 
 
+@pytest.mark.parametrize(
+    ("phrase", "told"),
+    [
+        ("call the nurse after 5 minutes", 1),
+        ("be there in 1 hour", 1),
+        ("wait for 5 minutes", 0),
+        ("wait 5 minutes", 0),
+        ("stand by 2 chairs", 0),
+    ],
+)
+def test_a_time_without_its_keyword_is_noted_where_it_tells_when(phrase, told):
+    findings = found(f"WHEN no answer in 5 minutes THEN {phrase}", "phrase-keyword")
+    assert len(findings) == told
+    assert all("WITHIN" in finding.help for finding in findings)
+
+
 def test_names_in_nested_hedges_of_a_claim_are_used():
     text = (
         "CONDITION x, y, z\nWHEN t THEN o\n"
