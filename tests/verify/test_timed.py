@@ -201,3 +201,13 @@ def test_what_comes_to_no_end_is_told_from_what_contradicts_itself():
     assert vacuous.note == "what it calls for never comes to an end"
     (vacuous,) = verdicts(f"{TIMED}WHEN A THEN NOT A WITHIN 5 minutes")["vacuous-conflict"].findings
     assert vacuous.note == "it contradicts itself"
+
+
+@pytest.mark.parametrize("rules", [7, 14])
+@pytest.mark.parametrize("window", ["3 minutes", "{} minutes", "1 TO {} minutes"])
+def test_many_rules_that_call_for_one_event_are_decided(rules, window):
+    """One occurrence does for all of them, so that there are instants enough; no event comes back to its trigger."""
+    found = verdicts("".join(f"WHEN A THEN B WITHIN {window.format(n)}\n" for n in range(1, rules + 1)))
+    assert found["conflict"].verdict == Proved()
+    assert found["vacuous-conflict"].verdict == Proved()
+    assert found["redundant-rule"].verdict != Proved()
