@@ -133,9 +133,14 @@ def test_a_redundant_rule_names_what_covers_it():
 
 def test_many_copies_of_a_rule_take_few_questions(monkeypatch):
     """What covers each copy is found in one formula: a ruleset may be made of copies."""
-    asked = []
+    asked: list[int] = []
     ask = Question.ask
-    monkeypatch.setattr(Question, "ask", lambda *given: asked.append(None) or ask(*given))
+
+    def counted(question: Question, *literals: int) -> bool:
+        asked.append(1)
+        return ask(question, *literals)
+
+    monkeypatch.setattr(Question, "ask", counted)
     copies = 60
     findings = found("WHEN t THEN o AND p UNLESS c IN WHICH CASE q\n" * copies, "redundant-rule")
     assert len(findings) == copies
