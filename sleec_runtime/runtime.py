@@ -76,6 +76,10 @@ class Sleec:
         self._strict = strict
         self._chains = chains
         self._strict_times = strict_times
+        if clock is not None:
+            from sleec_runtime.timed.clocks import check_clock
+
+            check_clock(clock)
         self._clock = clock
         self._own_clock: MonotonicClock | None = None
         self._on_error = on_error
@@ -469,12 +473,8 @@ class Sleec:
 
 def _read(ruleset: Ruleset, reading: Reading | None) -> Ruleset:
     if not isinstance(ruleset, Ruleset):
-        raise WrongType(
-            "what is to be in force",
-            ruleset,
-            "a Ruleset",
-            "read one: sleec_runtime.language.parse(text), or sleec_runtime.load(path) for a file",
-        )
+        hint = "read one: sleec_runtime.language.parse(text), or sleec_runtime.load(path) for a file"
+        raise WrongType("what is to be in force", ruleset, "a Ruleset", hint)
     return ruleset if reading is None else ruleset.read_as(reading)
 
 

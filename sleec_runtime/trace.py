@@ -114,13 +114,17 @@ def broken(ruleset: Ruleset, trace: Trace, untimed: Untimed = "at") -> tuple[Bro
     return tuple(_Replay(ruleset, trace.instants, untimed).broken())
 
 
-def broken_so_far(ruleset: Ruleset, history: Trace, untimed: Untimed = "at") -> tuple[Broken, ...]:
+def broken_so_far(
+    ruleset: Ruleset, history: Trace, untimed: Untimed = "at", apart: Rule | None = None
+) -> tuple[Broken, ...]:
     """All that `history` breaks whatever comes: the last of its instants is now, when more may still happen.
 
     A statement is broken, at an instant, if no further events of now and no later instants satisfy it there. Each is
-    looked at by itself: that two of them cannot be satisfied together does not show here. Raises WrongType as `broken`.
+    looked at by itself: that two of them cannot be satisfied together does not show here. Of the rule `apart`, each
+    response of now is, too: that its own responses contradict one another does not show either. Raises WrongType as
+    `broken`.
     """
-    return tuple(_Replay(ruleset, history.instants, untimed, goes_on=True).broken())
+    return tuple(_Replay(ruleset, history.instants, untimed, goes_on=True, apart=apart).broken())
 
 
 def claim_holds(claim: Claim, ruleset: Ruleset, trace: Trace, untimed: Untimed = "at") -> bool:
@@ -149,12 +153,14 @@ class _Due(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Replay:
-    """Some instants, with all that is needed to look at them. `goes_on`: the last is now, and anything may follow."""
+    """Some instants, with all that is needed to look at them. `goes_on`: the last is now, and anything may follow.
+    `apart` is a rule whose responses of now are looked at one by one."""
 
     ruleset: Ruleset
     instants: tuple[Instant, ...]
     untimed: Untimed
     goes_on: bool = False
+    apart: Rule | None = None
 
     def broken(self) -> Iterator[Broken]:
         laws = [s for s in self.ruleset.statements if isinstance(s, (Rule, Exclusive, Never, Assume, *RELATIONS))]
@@ -177,7 +183,17 @@ class _Replay:
     def _rule(self, rule: Rule, instant: Instant) -> bool:
         context = Context(instant.events, instant.conditions)
         decision = decide(rule, context, self.ruleset.reading, self.ruleset.measures)
+        if decision is not None and rule is self.apart and instant is self.instants[-1]:
+            return all(self._may_be_kept(obligation, instant.time, instant) for obligation in decision.obligations)
         return decision is None or self._kept(decision.obligations, instant)
+
+    def _may_be_kept(self, obligation: Obligation, due: Rational, instant: Instant) -> bool:
+        """Whether an obligation, or each of what stands in its place, can still be done, by itself."""
+        own = self._own(obligation, due, instant)
+        return self._can_be_done((own,)) or any(
+            all(self._may_be_kept(other, since, instant) for other in self._active(clause, instant))
+            for clause, since in _in_place(obligation, due, own)
+        )
 
     def _active(self, clause: Clause, instant: Instant) -> tuple[Obligation, ...]:
         """What a chain of its own obliges, such as one behind `otherwise`: as a rule with nothing but that chain."""
@@ -203,22 +219,21 @@ class _Replay:
             yield tuple(one for way in ways for one in way)
 
     def _ways_of(self, obligation: Obligation, due: Rational, instant: Instant) -> Iterator[tuple[_Due, ...]]:
-        timing = obligation.timing
-        window = None if timing is None else timing.window
+        own = self._own(obligation, due, instant)
+        yield (own,)
+        for clause, since in _in_place(obligation, due, own):
+            yield from self._ways(self._active(clause, instant), since, instant)
+
+    def _own(self, obligation: Obligation, due: Rational, instant: Instant) -> _Due:
+        """What an obligation asks for itself, without what may be done in its place."""
+        window = None if obligation.timing is None else obligation.timing.window
         last: Rational | None
         if window is None:
             first, last = due, due if self.untimed == "at" else None
         else:
             first = due + (0 if window.start is None else _seconds(window.start, instant))
             last = None if window.end is None else due + _seconds(window.end, instant)
-        yield (_Due(obligation.name, obligation.negated, first, last),)
-        if timing is None:
-            return
-        if timing.otherwise is not None:
-            over = due if window is None or last is None else last
-            yield from self._ways(self._active(timing.otherwise, instant), over, instant)
-        if timing.instead is not None:
-            yield from self._ways(self._active(timing.instead, instant), due, instant)
+        return _Due(obligation.name, obligation.negated, first, last)
 
     def _occurs(self, due: _Due) -> bool:
         return any(due.event in instant.events and due.covers(instant.time) for instant in self.instants)
@@ -279,6 +294,17 @@ class _Replay:
         # To have been obliged is nothing here: an obligation is the event.
         done = {a.name: a.name in instant.events for a in leaves(formula) if isinstance(a, Atom)}
         return bool(truth(formula, Situation(context, self.ruleset.measures, obliged=done)))
+
+
+def _in_place(obligation: Obligation, due: Rational, own: _Due) -> Iterator[tuple[Clause, Rational]]:
+    """The responses in place of an obligation, each with the time from which it is due."""
+    timing = obligation.timing
+    if timing is None:
+        return
+    if timing.otherwise is not None:
+        yield timing.otherwise, due if timing.window is None or own.last is None else own.last
+    if timing.instead is not None:
+        yield timing.instead, due
 
 
 def _seconds(length: Length, instant: Instant) -> Rational:

@@ -21,6 +21,7 @@ from sleec_verify.finding import Finding, Witness
 from sleec_verify.solver import MiniSat
 
 if TYPE_CHECKING:
+    from sleec_runtime.model_time import Relation
     from sleec_verify.chains import Step
     from sleec_verify.schedule import Entry
 
@@ -75,6 +76,7 @@ class Entailment:
     `chain` is what becomes due once that is done, and `schedule` what is due until when, where they were asked for
     (`sleec_verify.chains`, `sleec_verify.schedule`).
     `missing` are measures that were asked about and not given: comparisons with them count as false.
+    `broken_assumptions` are the assumptions by which the situation cannot be, and the relations, whatever else occurs.
     """
 
     consistent: bool
@@ -83,7 +85,7 @@ class Entailment:
     because: tuple[Because, ...]
     consequences: tuple[Consequence, ...]
     conflicts: tuple[Finding, ...]
-    broken_assumptions: tuple[Assume, ...]
+    broken_assumptions: tuple[Assume | Relation, ...]
     missing: tuple[str, ...]
     timed: tuple[Obligation, ...] = ()
     chain: tuple[Step, ...] = ()
@@ -149,9 +151,11 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     if domain is not None:
         ruleset = ruleset.in_domain(domain)
     stated = {rule.label: rule for rule in ruleset.rules if rule.trigger in context.triggers}
+    related: list[tuple[Relation, Formula]] = []
     if ruleset.is_timed:
-        from sleec_verify.timed.untimed import untimed
+        from sleec_verify.timed.untimed import of_one_instant, untimed
 
+        related = [(law, formula) for law, formula in of_one_instant(ruleset) if _is_given(formula, ruleset, context)]
         ruleset = untimed(ruleset)
     rules = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
     cones = Cones(ruleset)
@@ -163,7 +167,7 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     named += [name for formula in assumed for name in names_in(formula)]
     missing = {n for _, n in named if n in ruleset.measures and n not in context.conditions}
 
-    formulas = [*conditions, *labels, *assumed]
+    formulas = [*conditions, *labels, *assumed, *(formula for _, formula in related)]
     definition = Definition1(ruleset, rules, formulas, frozenset(ruleset.measures) - set(context.conditions))
     true = definition.facts(context)
     truth = {id(formula): true(literal) for formula, literal in zip(formulas, definition.formulas)}
@@ -194,10 +198,18 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
         ),
         consequences=tuple(_consequences(cones, obliged, context)) if consistent else (),
         conflicts=conflicts,
-        broken_assumptions=tuple(a for a in cones.assumptions if not truth[id(a.formula)]),
+        broken_assumptions=(
+            *(a for a in cones.assumptions if not truth[id(a.formula)]),
+            *(law for law, formula in related if not truth[id(formula)]),
+        ),
         missing=tuple(sorted(missing)),
         timed=tuple(later),
     )
+
+
+def _is_given(formula: Formula, ruleset: Ruleset, context: Context) -> bool:
+    """Whether all measures in the formula have a value: without, nobody knows whether the situation can be."""
+    return all(name not in ruleset.measures or name in context.conditions for _, name in names_in(formula))
 
 
 def _conditions(rule: Rule) -> Iterator[tuple[Formula, int | None, Span]]:

@@ -47,16 +47,35 @@ def _items(text: str) -> Iterator[str]:
     return (" ".join(item.split()) for item in text.split(",") if item.strip())
 
 
+def _triggers(ruleset: Ruleset) -> frozenset[str]:
+    """What can occur: in rules with time every event, also those that only a relation, a concern or a purpose names."""
+    if not ruleset.is_timed:
+        return ruleset.triggers
+    from sleec_verify.timed.names import beside_rules
+
+    return ruleset.triggers | ruleset.obligations | beside_rules(ruleset)[0]
+
+
+def _conditions(ruleset: Ruleset) -> frozenset[str]:
+    if not ruleset.is_timed:
+        return ruleset.conditions
+    from sleec_runtime.model import Atom, leaves
+    from sleec_verify.timed.names import beside_rules
+
+    named = (leaf for formula in beside_rules(ruleset)[1] for leaf in leaves(formula))
+    return ruleset.conditions | {leaf.name for leaf in named if isinstance(leaf, Atom)}
+
+
 def _trigger(ruleset: Ruleset, name: str) -> str:
-    if name in ruleset.triggers:
+    if name in _triggers(ruleset):
         return name
-    if name in ruleset.conditions or name in ruleset.measures:
+    if name in _conditions(ruleset) or name in ruleset.measures:
         raise SituationError(f"{name} is not a trigger", "give conditions and measures with --given")
-    raise _unknown(name, "trigger", ruleset.triggers)
+    raise _unknown(name, "trigger", _triggers(ruleset))
 
 
 def _assignment(ruleset: Ruleset, item: str) -> tuple[str, Value]:
-    if item in ruleset.conditions:
+    if item in _conditions(ruleset):
         return item, True
     name, equals, written = (part.strip() for part in item.partition("="))
     _check_form(ruleset, item, name, bool(equals))
@@ -64,7 +83,7 @@ def _assignment(ruleset: Ruleset, item: str) -> tuple[str, Value]:
         written = written.removeprefix("=").strip()  # == says = in the rules too
         if name in ruleset.measures:
             return name, _measured(ruleset, ruleset.measures[name], written)
-        if written.lower() not in _TRUTHS and name in ruleset.conditions:
+        if written.lower() not in _TRUTHS and name in _conditions(ruleset):
             raise SituationError(
                 f"{name} is a condition, true or false, and {shortened(written) or 'nothing'} is neither",
                 f"write {name} or not {name}",
@@ -81,27 +100,27 @@ def _check_form(ruleset: Ruleset, item: str, name: str, equals: bool) -> None:
     shown = shortened(item)
     if not name:
         raise SituationError(f"there is no name before the = in {shown}", "write Name=value, as in UserAge=15")
-    if not equals and item.lower() == "not" and item not in ruleset.conditions:
+    if not equals and item.lower() == "not" and item not in _conditions(ruleset):
         raise SituationError(f"there is no name after {item}", "write not and a name, as in not UserAsleep")
     if _COMPARES.search(item):
         raise SituationError(f"{shown} is a comparison", "a situation gives each measure one value, as in UserAge=15")
-    if equals and name not in ruleset.conditions and name.lower().startswith("not "):
+    if equals and name not in _conditions(ruleset) and name.lower().startswith("not "):
         raise SituationError(f"{shown} says both not and =", "write not Name, or Name=false")
     if not equals and _NUMBER.fullmatch(item):
         raise SituationError(f"{shown} is a number without a name", "write decimals with a point, as in 36.6")
 
 
 def _condition(ruleset: Ruleset, name: str) -> str:
-    if name in ruleset.conditions:
+    if name in _conditions(ruleset):
         return name
     if name in ruleset.measures:
         example = ruleset.measures[name].values[:1] or ("15",)
         raise SituationError(f"{name} is a measure, neither true nor false", f"give its value: {name}={example[0]}")
-    if name in ruleset.triggers:
+    if name in _triggers(ruleset):
         raise SituationError(f"{name} is a trigger", "give what occurs with --when")
     if name in ruleset.obligations:
         raise SituationError(f"{name} is an obligation", "a situation says what is the case, the rules what is due")
-    raise _unknown(name, "condition or measure", {*ruleset.conditions, *ruleset.measures})
+    raise _unknown(name, "condition or measure", {*_conditions(ruleset), *ruleset.measures})
 
 
 def _measured(ruleset: Ruleset, measure: Measure, written: str) -> Value:

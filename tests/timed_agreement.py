@@ -10,6 +10,7 @@ from __future__ import annotations
 import sys
 from typing import Any
 
+from sleec_runtime.language import parse
 from sleec_runtime.model_time import claims
 from sleec_runtime.trace import broken, broken_so_far, claim_holds
 from sleec_verify.solver import Undecided
@@ -18,6 +19,7 @@ from sleec_verify.timed.program import Program
 from sleec_verify.timed.questions import breaking, coming_about, triggering
 from sleec_verify.timed.replay import as_trace
 from tests import timed_oracle as oracle
+from tests.timed_english import timed_english
 from tests.timed_strategies import timed_ruleset
 
 SIZES: tuple[dict[str, Any], ...] = (
@@ -62,7 +64,7 @@ def compare(ruleset, untimed):
         if history is not None:
             count += 1
             if history[0] is not None:
-                assert broken_so_far(ruleset, as_trace(history[0].timeline), untimed) == ()
+                assert broken_so_far(ruleset, as_trace(history[0].timeline), untimed, apart=rule) == ()
                 assert rule.label in history[0].matter
             assert_same(
                 history[0] is not None,
@@ -87,6 +89,18 @@ def assert_same(ours, theirs):
             assert ours == theirs(7).found
     except oracle.Undecided:
         pass
+
+
+def compare_english(first: int, last: int) -> int:
+    """As `compare_all`, about rulesets in structured English."""
+    total = 0
+    for seed in range(first, last):
+        text = timed_english(seed)
+        try:
+            total += compare(parse(text), ("at", "eventually")[seed % 5 == 0])
+        except AssertionError as error:
+            raise AssertionError(f"seed {seed}: {error}\n{text}") from error
+    return total
 
 
 def compare_all(first: int, last: int, large: bool = False) -> int:

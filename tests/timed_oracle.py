@@ -11,6 +11,7 @@ continuation that the next history must not have (counterexample-guided refineme
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -495,14 +496,20 @@ class _Search:
         return z3.And(parts)
 
     def not_broken_so_far(self, history: list[Instant]) -> Any:
-        """Each statement at each instant has an extension of the history, of its own, that satisfies it there."""
+        """Each statement at each instant has an extension of the history, of its own, that satisfies it there; of the
+        rule that is asked about, each response of now."""
         parts = []
-        for place, law in enumerate(laws(self.ruleset)):
-            for index in range(len(history)):
-                own = self.continuation(history, f"law{place}.at{index}", _occurrences(law))
-                coming = own[len(history) :]
-                parts.append(ordered([own[len(history) - 1], *coming], first_used=True) if coming else TRUE)
-                parts.append(Meaning(self.ruleset, own, self.untimed).law(law, index))
+        stated = [
+            (part, index)
+            for law in laws(self.ruleset)
+            for index in range(len(history))
+            for part in (responses_apart(law) if law is self.rule and index == len(history) - 1 else (law,))
+        ]
+        for place, (law, index) in enumerate(stated):
+            own = self.continuation(history, f"law{place}.at{index}", _occurrences(law))
+            coming = own[len(history) :]
+            parts.append(ordered([own[len(history) - 1], *coming], first_used=True) if coming else TRUE)
+            parts.append(Meaning(self.ruleset, own, self.untimed).law(law, index))
         return z3.And(parts)
 
     def as_in(self, history: list[Instant], model: Any) -> Any:
@@ -552,6 +559,20 @@ def _reach(ruleset: Ruleset) -> int:
         elif isinstance(law, Lasting) and law.duration is not None:
             found.append(of_length(law.duration))
     return max(found)
+
+
+def responses_apart(rule: Rule) -> list[Rule]:
+    """The rule once for each response that one of its clauses has, without the others."""
+
+    def only(clause: Clause, number: int) -> Clause:
+        own = clause.obligations[number : number + 1]
+        return replace(clause, obligations=own, hedges=tuple(only(hedge, number) for hedge in clause.hedges))
+
+    most = max(len(clause.obligations) for clause in rule.clauses())
+    return [
+        replace(rule, default=only(rule.default, n), hedges=tuple(only(hedge, n) for hedge in rule.hedges))
+        for n in range(most)
+    ]
 
 
 def _occurrences(law: Any) -> int:

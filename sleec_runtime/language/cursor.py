@@ -244,6 +244,8 @@ class Cursor(TokenReader):
             self.at += 1
         if not words:
             return ""
+        if what == OBLIGATION and len(words) > 2:
+            self._no_time(first, words, camel)
         if camel and len(words) > 1:
             self._two_names(first, words)
         name = " ".join(words)
@@ -281,6 +283,20 @@ class Cursor(TokenReader):
                 return True
             at += 1
         return self.token_text(at) == "["
+
+    def _no_time(self, first: int, words: list[str], camel: bool) -> None:
+        """Refuses `SoundAlarm after 5 minutes` and `alarm BEFORE 5 minutes`; `wait 5 minutes` is something to do."""
+        for unit in range(2, len(words)):
+            if words[unit].casefold() not in UNITS or not words[unit - 1].isdecimal():
+                continue
+            # The preposition before the number belongs to it; the first word is the name.
+            begin = max(1, unit - 2)
+            if camel or (begin == unit - 2 and words[begin].isupper() and len(words[begin]) > 1):
+                self.fail(
+                    f"a time stands behind WITHIN, but here is {quoted(' '.join(words[begin:]))}",
+                    Span(self.starts[first + begin], self.ends[first + len(words) - 1]),
+                    "WITHIN 5 minutes is no later than that, and WITHIN 5 TO 10 minutes no sooner either",
+                )
 
     def _says(self, words: str, token: int) -> bool:
         return [self.token_text(token).casefold(), self.token_text(token + 1).casefold()] == words.split()

@@ -38,6 +38,13 @@ class Clock(Protocol):
         ...
 
 
+def check_clock(clock: object) -> None:
+    """Raises WrongType for what is no `Clock`, a class of clocks among them."""
+    methods = [getattr(clock, name, None) for name in ("now", "wake")]
+    if isinstance(clock, type) or not all(map(callable, methods)):
+        raise WrongType("clock", clock, "a clock, with now() and wake(at, call)", "as in clock=VirtualClock()")
+
+
 class _Alarms:
     """Calls to be made, by time."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from sleec_runtime.model import Clause, Obligation, Rule
@@ -53,13 +53,30 @@ def _differs(
 
 
 def _needed(cones: Cones, position: int, others: Sequence[int]) -> list[int]:
-    """A minimal part of `others` that makes the rule redundant: leave out one after the other."""
-    needed = list(others)
-    for other in others:
-        without = [kept for kept in needed if kept != other]
-        if not _makes_a_difference(cones, position, without):
-            needed = without
-    return needed
+    """A minimal part of `others` that makes the rule redundant: of those that one refutation needs, leave out one after
+    the other. One formula, in which each of the others has a switch: a hundred copies of one rule are no rarity."""
+    about = literals_of(cones.clauses[position])
+    with Question(cones) as question:
+        encoder = question.encoder
+        mine = question.due([position], about)
+        switches = {encoder.fresh(): other for other in others}
+        pairs = []
+        for switch, other in switches.items():
+            guards = question.guards(other)
+            pairs += [(c, encoder.both(switch, guard)) for c, guard in zip(cones.clauses[other], guards)]
+        differs = _differs(question, mine, {}, encoder.due(pairs))
+        question.ask(differs, *switches)
+        needed = _in_core(question, switches)
+        for switch in needed:
+            without = [kept for kept in needed if kept != switch]
+            if len(without) < len(needed) and not question.ask(differs, *without):
+                needed = _in_core(question, without)
+    return [switches[switch] for switch in needed]
+
+
+def _in_core(question: Question, assumed: Iterable[int]) -> list[int]:
+    core = set(question.core())
+    return [literal for literal in assumed if literal in core]
 
 
 def _redundant_hedges(cones: Cones) -> Iterator[Finding]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
+from sleec_runtime.language.units import UNITS
 from sleec_runtime.model import (
     Atom,
     Constant,
@@ -97,6 +99,8 @@ def _two_kinds(cones: Cones) -> Iterator[Finding]:
 _KEYWORDS = frozenset(("when", "then", "unless", "and", "or", "otherwise"))
 _TIMES = frozenset(("within", "eventually", "else"))
 """Keywords behind an obligation; a condition with one of these words can mean nothing but itself."""
+_TOLD = re.compile(rf".\b(?:before|after|in|by) [0-9]+ (?:{'|'.join(sorted(UNITS))})\b", re.IGNORECASE)
+"""A time in a phrase that most likely says when it is due; `wait for 5 minutes` is something to do."""
 
 
 def _lower_case_keywords(cones: Cones) -> Iterator[Finding]:
@@ -115,6 +119,14 @@ def _lower_case_keywords(cones: Cones) -> Iterator[Finding]:
                 span,
                 rules=rules,
                 help=f"if you meant the keyword, write {found[0].upper()}",
+            )
+        elif name in ruleset.obligations and _TOLD.search(name):
+            span, rules = mentions(ruleset, name)
+            yield PHRASE_KEYWORD.finding(
+                f"\u201c{name}\u201d is read as one name, the time included",
+                span,
+                rules=rules,
+                help="if you meant when it is due, write it behind WITHIN, as in: WITHIN 5 minutes",
             )
 
 
@@ -198,7 +210,7 @@ PHRASE_KEYWORD = Check(
             "note",
             "a phrase that holds a keyword in lower case",
             "Keywords are written in capitals. In lower case the word is part of the name, so `the user is alone and "
-            "asleep` is one condition, not two.",
+            "asleep` is one condition, not two. So is a time without WITHIN, as in `call the nurse after 5 minutes`.",
             "If you meant the keyword, write it in capitals. If it is part of the name, join the words, as in "
             "UserAloneAndAsleep, or put it in other words.",
             "WHEN the user calls THEN answer\nUNLESS the user is alone and asleep IN WHICH CASE wait\n",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from sleec_verify.report.outcome import Outcome, checked, counted, tally
+from sleec_verify.report.outcome import Outcome, checked, in_short
 from sleec_verify.report.words import listed
 
 if TYPE_CHECKING:
@@ -25,7 +25,6 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             yield f"{rules.path}: {palette('note', f'note[{name}]')} {why}\n"
         for name, why in outcome.undecided:
             yield f"{rules.path}: {palette('unknown', f'unknown[{name}]')} {why}\n"
-    counts = ", ".join(counted(number, severity) for severity, number in tally(outcomes).items())
     readings = sorted({outcome.ruleset.reading for outcome in checked(outcomes)})
     read_as = f" (reading {listed(readings)})" if readings else ""
-    yield f"{counted(len(outcomes), 'ruleset')}: {counts}{read_as}\n"
+    yield f"{in_short(outcomes)}{read_as}\n"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from sleec_runtime.model import Assume
 from sleec_verify.chains import lines
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.words import listed
@@ -128,10 +129,14 @@ def _chain_json(steps: tuple[Step, ...]) -> Json:
 def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
     """What to know about the situation itself: that it cannot be, or is not wholly given."""
     if answer.broken_assumptions:
-        lines = listed(str(ruleset.source.place(assume.span).line) for assume in answer.broken_assumptions)
+        laws: dict[str, list[str]] = {}
+        for law in answer.broken_assumptions:
+            kind = "ASSUME" if isinstance(law, Assume) else "relation"
+            laws.setdefault(kind, []).append(str(ruleset.source.place(law.span).line))
+        by = listed(f"the {kind} of line {listed(lines)}" for kind, lines in laws.items())
         yield (
-            f"{palette('warning', 'warning')}: this situation cannot be, by the ASSUME of line {lines} "
-            f"of {ruleset.source.path}; checks leave it out\n"
+            f"{palette('warning', 'warning')}: this situation cannot be, by {by} of {ruleset.source.path}; "
+            "checks leave it out\n"
         )
     if answer.timed:
         yield (

@@ -28,7 +28,8 @@ def plays(known: Traces, finding: Finding) -> bool:
     rule = known.ruleset.by_label[finding.rules[0]]
     context = Context(now.events, now.conditions)
     triggered = decide(rule, context, known.ruleset.reading, known.ruleset.measures) is not None
-    return triggered and not broken_so_far(ruleset, trace, known.untimed)
+    # That the rule contradicts itself is a conflict, as it would be if it were two rules.
+    return triggered and not broken_so_far(ruleset, trace, known.untimed, apart=rule)
 
 
 def _about(known: Traces, trace: Trace) -> Ruleset:

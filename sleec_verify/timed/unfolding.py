@@ -352,8 +352,13 @@ class Unfolding:
             self.grow()
 
     def grow(self) -> None:
-        """Add an instant for each thing that the model found last trusts to come about at some other instant."""
-        for need in [need for need in self._needs if self.true(need.rest)]:
+        """Add an instant for each thing that the model found last trusts to come about at some other instant. If these
+        are too many, one for each event that is called for: one occurrence may well do for all who call for it."""
+        trusted = [need for need in self._needs if self.true(need.rest)]
+        if self._grown + len(trusted) > self._most:
+            events = {need.later: need for need in reversed(trusted) if need.later is not None}
+            trusted = [need for need in trusted if need.later is None or events[need.later] is need]
+        for need in trusted:
             self._grow(need)
 
     def _grow(self, need: _Need) -> None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
-from sleec_runtime.model import Clause, Rule, Ruleset
-from sleec_runtime.model_time import RELATIONS, Claim
+from sleec_runtime.model import And, Atom, Clause, Formula, Not, Or, Rule, Ruleset
+from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, MeasureRelation, Relation
 
 
 def untimed(ruleset: Ruleset) -> Ruleset:
@@ -18,6 +19,30 @@ def untimed(ruleset: Ruleset) -> Ruleset:
             if not isinstance(s, (Claim, *RELATIONS))
         ),
     )
+
+
+def of_one_instant(ruleset: Ruleset) -> Iterator[tuple[Relation, Formula]]:
+    """The relations that rule out situations, each with what is false in those: whatever else occurs there, and before
+    and after."""
+    for law in ruleset.statements:
+        if isinstance(law, EventRelation) and law.relation == "mutualExclusive":
+            yield law, Not(And((Atom("trigger", law.left), Atom("trigger", law.right))))
+        elif isinstance(law, Effect) and law.relation != "causation":
+            must = law.formula if law.relation == "includes" else Not(law.formula)
+            yield law, Or((Not(Atom("trigger", law.event)), must))
+        elif isinstance(law, MeasureRelation):
+            yield law, _at_every_instant(law)
+
+
+def _at_every_instant(law: MeasureRelation) -> Formula:
+    if law.right is None:
+        return law.left
+    if law.relation == "imply":
+        return Or((Not(law.left), law.right))
+    both = And((law.left, law.right))
+    if law.relation == "iff":
+        return Or((both, And((Not(law.left), Not(law.right)))))
+    return Not(both)
 
 
 def _untimed(clause: Clause) -> Clause:

@@ -220,3 +220,9 @@ def test_coroutines_that_nobody_would_await_are_refused():
     sleec.implement({"X": lambda: coroutine()})
     with pytest.raises(errors.NeedsAwait, match="returned a coroutine"):
         sleec.trigger("A")
+
+
+@pytest.mark.parametrize("given", [object(), 5, VirtualClock, "now"])
+def test_what_is_no_clock_is_refused_at_once(given):
+    with pytest.raises(errors.WrongType, match="clock is a clock"):
+        Sleec(parse("WHEN A THEN B"), clock=given)

@@ -13,6 +13,7 @@ from sleec_verify.checks import run_checks
 from sleec_verify.cone import Cones
 from sleec_verify.entailment import Definition1, entail
 from sleec_verify.finding import ClauseRef
+from sleec_verify.question import Question
 
 
 def found(text, check):
@@ -134,6 +135,23 @@ def test_a_redundant_rule_names_what_covers_it():
     assert "c" in by_rule["a"]
 
 
+def test_many_copies_of_a_rule_take_few_questions(monkeypatch):
+    """What covers each copy is found in one formula: a ruleset may be made of copies."""
+    asked: list[int] = []
+    ask = Question.ask
+
+    def counted(question: Question, *literals: int) -> bool:
+        asked.append(1)
+        return ask(question, *literals)
+
+    monkeypatch.setattr(Question, "ask", counted)
+    copies = 60
+    findings = found("WHEN t THEN o AND p UNLESS c IN WHICH CASE q\n" * copies, "redundant-rule")
+    assert len(findings) == copies
+    assert all(len(finding.rules) == 2 for finding in findings)
+    assert len(asked) <= 8 * copies
+
+
 def test_the_reading_that_the_text_states_is_named():
     text = "WHEN t THEN o UNLESS a IN WHICH CASE p UNLESS b IN WHICH CASE q"
     (silent,) = found(text, "reading")
@@ -203,6 +221,22 @@ def test_a_small_keyword_for_a_time_is_told_where_it_could_be_one():
     assert obligation.message.startswith("\u201cstay within reach")
     (condition,) = found("WHEN t THEN wait UNLESS the nurse is away otherwise call", "phrase-keyword")
     assert condition.help == "if you meant the keyword, write OTHERWISE"
+
+
+@pytest.mark.parametrize(
+    ("phrase", "told"),
+    [
+        ("call the nurse after 5 minutes", 1),
+        ("be there in 1 hour", 1),
+        ("wait for 5 minutes", 0),
+        ("wait 5 minutes", 0),
+        ("stand by 2 chairs", 0),
+    ],
+)
+def test_a_time_without_its_keyword_is_noted_where_it_tells_when(phrase, told):
+    findings = found(f"WHEN no answer in 5 minutes THEN {phrase}", "phrase-keyword")
+    assert len(findings) == told
+    assert all("WITHIN" in finding.help for finding in findings)
 
 
 def test_names_in_nested_hedges_of_a_claim_are_used():

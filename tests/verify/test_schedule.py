@@ -8,11 +8,14 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
-from sleec_runtime.trace import Instant, Trace, broken
+from sleec_runtime.trace import Instant, Trace, broken, broken_so_far
 from sleec_verify.chains import chain
 from sleec_verify.entailment import entail
+from sleec_verify.report.entailment import caveats
+from sleec_verify.report.palette import PLAIN
 from sleec_verify.report.schedule import chart, in_words
 from sleec_verify.schedule import Entry, schedule
+from sleec_verify.situation import parse_situation
 from sleec_verify.timed.scope import Untimed
 
 SMOKE = """RULE smoke
@@ -122,3 +125,48 @@ def test_to_do_all_as_scheduled_keeps_the_rules(late: bool) -> None:
     times = {"A": 0, "B": b.end, "C": b.end + c.end + late}
     trace = Trace(tuple(Instant(time, frozenset({event})) for event, time in times.items()))
     assert bool(broken(parse(text), trace)) == late
+
+
+RELATED = """MEASURE n: integer
+RELATION A EXCLUDES B
+RELATION A INCLUDES p
+RELATION B FORBIDS q AND n > 3
+RELATION ALWAYS p IMPLIES r
+RELATION ALWAYS p EQUALS r
+RELATION ALWAYS p EXCLUDES s
+RELATION ALWAYS n < 9
+RELATION C CAUSES s
+RELATION A WITNESSES C
+RELATION D EQUALS C
+RELATION D PRECEDES A
+RELATION WHEN A THEN p FOR 5 minutes
+ASSUME NOT (A AND t)
+WHEN A THEN C
+WHEN B THEN D UNLESS t
+"""
+
+
+@pytest.mark.parametrize("when", ["", "A", "B", "A,B", "A,D", "C,D"])
+@pytest.mark.parametrize("given", ["", "p,r", "p", "q", "q,n=4", "q,n=3,s", "p,r,s,t", "p,r,n=9"])
+def test_a_situation_that_relations_rule_out_is_told(when: str, given: str) -> None:
+    """What the evaluator of traces finds broken, whatever else occurs at this instant; where a measure is not given, a
+    relation that asks for it says nothing."""
+    ruleset = parse(RELATED)
+    context = parse_situation(ruleset, when, given)
+    lasting = (" PRECEDES ", " FOR ")
+    told = {ruleset.source.place(law.span).line for law in entail(ruleset, context).broken_assumptions}
+    instant = Instant(0, context.triggers, {"n": 0, **context.conditions})
+    found = {ruleset.source.place(b.statement.span).line for b in broken_so_far(ruleset, Trace((instant,)))}
+    lines = RELATED.splitlines()
+    assert told == {
+        line
+        for line in found
+        if lines[line - 1].startswith(("RELATION", "ASSUME")) and not any(w in lines[line - 1] for w in lasting)
+    }
+
+
+def test_the_warning_names_assumptions_and_relations() -> None:
+    ruleset = parse(RELATED)
+    answer = entail(ruleset, parse_situation(ruleset, "A,B", "p,r,t"))
+    (line, *_) = caveats(ruleset, answer, PLAIN)
+    assert "by the ASSUME of line 14 and the relation of line 2 of" in line

@@ -168,3 +168,46 @@ def test_equation_1_has_no_times(form, tmp_path):
     path.write_text(text("B eventually"), encoding="utf-8")
     result = CliRunner().invoke(command, [str(path), "--to", form])
     assert isinstance(result.exception, UnsupportedTimes)
+
+
+TIMED = "WHEN X THEN Y WITHIN 5 minutes\n"
+
+
+@pytest.mark.parametrize(
+    "response",
+    [
+        "B AND NOT B",
+        "B WITHIN 5 minutes AND NOT B WITHIN 10 minutes",
+        "B EVENTUALLY AND NOT B EVENTUALLY",
+        "B AND (NOT B ELSE (C AND NOT C))",
+        "(NOT A ELSE (C AND NOT C))",
+        "(NOT A WITHIN 1 second OTHERWISE (C WITHIN 2 seconds AND NOT C WITHIN 3 seconds))",
+    ],
+)
+def test_a_response_that_contradicts_itself_is_a_conflict(response):
+    """As it is without times, and as it is when each of its obligations is a rule of its own."""
+    found = verdicts(f"{TIMED}RULE r WHEN A THEN B UNLESS m IN WHICH CASE ({response})")
+    assert found["vacuous-conflict"].verdict == Proved()
+    (finding,) = found["conflict"].findings
+    assert (finding.rules, finding.help) == (("r",), "mend the response")
+    always = verdicts(f"{TIMED}RULE r WHEN A THEN ({response})")
+    (finding,) = always["conflict"].findings
+    (vacuous,) = always["vacuous-conflict"].findings
+    assert (finding.rules, vacuous.rules, vacuous.note) == (("r",), ("r",), "it contradicts itself")
+
+
+def test_what_comes_to_no_end_is_told_from_what_contradicts_itself():
+    (vacuous,) = verdicts(f"{TIMED}WHEN A THEN A WITHIN 1 TO 5 minutes")["vacuous-conflict"].findings
+    assert vacuous.note == "what it calls for never comes to an end"
+    (vacuous,) = verdicts(f"{TIMED}WHEN A THEN NOT A WITHIN 5 minutes")["vacuous-conflict"].findings
+    assert vacuous.note == "it contradicts itself"
+
+
+@pytest.mark.parametrize("rules", [7, 14])
+@pytest.mark.parametrize("window", ["3 minutes", "{} minutes", "1 TO {} minutes"])
+def test_many_rules_that_call_for_one_event_are_decided(rules, window):
+    """One occurrence does for all of them, so that there are instants enough; no event comes back to its trigger."""
+    found = verdicts("".join(f"WHEN A THEN B WITHIN {window.format(n)}\n" for n in range(1, rules + 1)))
+    assert found["conflict"].verdict == Proved()
+    assert found["vacuous-conflict"].verdict == Proved()
+    assert found["redundant-rule"].verdict != Proved()

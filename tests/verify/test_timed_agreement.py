@@ -9,13 +9,19 @@ from pathlib import Path
 
 import pytest
 
-from tests.timed_agreement import compare_all
+from tests.timed_agreement import compare_all, compare_english
 
 ROOT = Path(__file__).parents[2]
 
 
 def test_some_random_rulesets_are_answered_as_z3_answers_them():
     compare_all(300, 320)
+
+
+@pytest.mark.timeout(300)
+def test_structured_english_is_answered_as_z3_answers_it():
+    """Both readings, several obligations in a response, which may contradict one another, numbers, constraints."""
+    compare_english(0, 20)
 
 
 @pytest.mark.timeout(600)
@@ -47,3 +53,10 @@ def test_random_rulesets_are_answered_as_z3_answers_them():
 @pytest.mark.parametrize("first", range(320, 5_020, 100))
 def test_many_random_rulesets_are_answered_as_z3_answers_them(first):
     compare_all(first, min(first + 100, 5_020), large=True)
+
+
+@pytest.mark.long
+@pytest.mark.timeout(3600)
+@pytest.mark.parametrize("first", range(20, 1_020, 100))
+def test_much_structured_english_is_answered_as_z3_answers_it(first):
+    compare_english(first, first + 100)

@@ -190,7 +190,9 @@ class FormulaParser(Cursor):
         self.at += 1
         if "." in text:
             self.fail(
-                f"{quoted(text)} is no whole number", self.span(first), "choose a smaller unit: tenths, or seconds"
+                f"{quoted(text)} is no whole number",
+                self.span(first),
+                "count in a smaller unit, as in 90 seconds for 1.5 minutes",
             )
         if len(text) > MAX_DIGITS:
             self.fail(f"this number has more than {MAX_DIGITS} digits", self.span(first), "is a blank missing?")

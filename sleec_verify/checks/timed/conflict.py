@@ -34,7 +34,7 @@ def _conflicts(cones: Cones) -> Iterator[Finding]:
             obligations=tuple(sorted(_contested(known, history.matter))),
             witness=Witness(now.events, now.conditions),
             timeline=history.timeline,
-            help="decide which should give way, and say so with a hedge",
+            help="decide which should give way, and say so with a hedge" if words else "mend the response",
             related=tuple(
                 (other.label_span if other.labelled else other.span, "with this one")
                 for other in (known.ruleset.by_label[label] for label in rules_in(known, others))

@@ -12,7 +12,10 @@ from sleec_verify.checks.vacuous import VACUOUS_CONFLICT as OF_SITUATIONS
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding
 from sleec_verify.question import Question
+from sleec_verify.solver import Undecided
+from sleec_verify.timed.program import Program
 from sleec_verify.timed.questions import triggering
+from sleec_verify.timed.traces import Traces
 
 
 def _vacuous(cones: Cones) -> Iterator[Finding]:
@@ -28,11 +31,23 @@ def _vacuous(cones: Cones) -> Iterator[Finding]:
             f"{rule.label} can be triggered, but never without a conflict",
             rule.label_span if rule.labelled else rule.span,
             rules=(rule.label, *rules_in(known, answer.matter, but=rule.label)),
-            note=f"it always meets {listed(others)}" if others else "what it calls for never comes to an end",
+            note=f"it always meets {listed(others)}" if others else _alone(known, rule),
             help="no course of events is left in which it is triggered and all is kept; mend it, or what it meets",
         )
 
     yield from each(((rule.label, rule) for rule in known.rules), of)
+
+
+def _alone(cones: Traces, rule: Rule) -> str:
+    """Why a rule that meets no other cannot be kept."""
+    program = Program(
+        replace(cones.ruleset, statements=(rule,), inferred=tuple(cones.ruleset.measures.values())), cones.untimed
+    )
+    try:
+        contradicts = triggering(program, rule).trace is None and not program.impossible()
+    except Undecided:
+        contradicts = False
+    return "it contradicts itself" if contradicts else "what it calls for never comes to an end"
 
 
 def _by_itself(cones: Cones, rule: Rule) -> bool:
