@@ -27,6 +27,9 @@ from sleec_verify.timed.unfolding import Unfolding
 MOST_PAST = 8
 """Instants before now that are tried."""
 
+MOST_LATER = 24
+"""Instants that may be added to a history, for what its instants before now call for."""
+
 MOST_PLANS = 200
 
 
@@ -47,7 +50,7 @@ class _Search:
         self.cone = cone
         self.rule = rule
         # Now, the rule need not be kept.
-        self.outer = Unfolding(program, impossible=program.impossible(frozenset({rule.label})))
+        self.outer = Unfolding(program, impossible=program.impossible(frozenset({rule.label})), most=MOST_LATER)
         self.true = self.outer.formula.true
         self.add = self.outer.add
         # Histories of fewer instants have been looked at before.
@@ -167,7 +170,7 @@ def conflict(program: Program, rule: Rule) -> History | None:
         if found is not None:
             return _shown(program, rule, _smaller(program, rule, found))
     if most > tried or not known:
-        raise Undecided(f"no conflict with up to {tried} instants before now")
+        raise Undecided(f"no conflict with up to {tried} instants before now, and more could matter")
     return None
 
 

@@ -35,7 +35,7 @@ from sleec_verify.timed.program import Law, Program, law_name
 from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
 from sleec_verify.timed.times import Times
 
-MOST = 24
+MOST = 12
 """Instants that may be added before the search for a trace is given up. Published rulesets need three."""
 
 MOST_CLAUSES = 20_000

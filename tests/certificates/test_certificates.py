@@ -148,7 +148,7 @@ def test_an_unknown_verdict_is_listed_as_such(tmp_path: Path, monkeypatch: pytes
 def print_digests() -> None:
     """For another process."""
     texts = [CONSTRAINED, random_rules(60, names_per_rule=0.3), random_rules(40, seed=3, names_per_rule=0.1)]
-    for ruleset in (*map(parse, texts), *map(timed_ruleset, range(8))):
+    for ruleset in (*map(parse, texts), *map(timed_ruleset, (0, 1, 2, 4, 5, 6))):
         for name, text in certify(ruleset).texts():
             sys.stdout.write(f"{name} {hashlib.sha256(text.encode()).hexdigest()}\n")
 
@@ -181,6 +181,7 @@ def test_certificates_of_random_rulesets_hold(tmp_path: Path, ruleset: Ruleset) 
     check_certificate(ruleset, str(tmp_path / "c"), IN_PYTHON)
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("seed", sorted({*range(20)} - {3, 8}))  # these two take long
 def test_certificates_of_rulesets_with_times_hold(tmp_path: Path, seed: int) -> None:
     ruleset = source(timed_ruleset(seed).source.text, tmp_path)
