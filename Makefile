@@ -11,11 +11,12 @@ DOCS_LOCKED := $(VENV)/docs-lock-$(firstword $(shell cksum <requirements-docs.lo
 # Where the index lacks a folder that pip was told of, pip says so once for each package.
 PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input
 
-.PHONY: help setup demo test lint types check-tests site long proofs theorems bench mutants lock clean
+.PHONY: help setup demo test lint types check-tests coverage site long proofs theorems bench mutants lock clean
 
 help:
 	@echo 'make demo     check the shipped rulesets and ask one question of them'
 	@echo 'make test     lint, types, and every test but the long ones'
+	@echo 'make coverage the branches that the tests reach, with a bound that fails'
 	@echo 'make site     the docs as a site, in site/'
 	@echo 'make long     the long tests'
 	@echo 'make proofs   all that is proved, checked by Coq, and the programs extracted from it (needs coq and ocaml-findlib)'
@@ -64,7 +65,10 @@ types: $(INSTALLED)
 	$(BIN)/mypy
 
 check-tests: $(INSTALLED)
-	$(BIN)/pytest -n auto --dist worksteal --cov --cov-report=term
+	$(BIN)/pytest -n auto --dist worksteal
+
+coverage: $(INSTALLED)
+	$(BIN)/pytest -n auto --dist worksteal -m 'not long and not slow' --cov --cov-report=term
 
 # What the site needs besides, into the same environment: the pages are made by running the commands.
 $(DOCS_LOCKED): requirements-docs.lock | $(INSTALLED)

@@ -153,6 +153,7 @@ def print_digests() -> None:
             sys.stdout.write(f"{name} {hashlib.sha256(text.encode()).hexdigest()}\n")
 
 
+@pytest.mark.slow
 def test_the_same_rules_give_the_same_bytes() -> None:
     """Whatever order Python's sets have in a process."""
 
@@ -181,7 +182,7 @@ def test_certificates_of_random_rulesets_hold(tmp_path: Path, ruleset: Ruleset) 
     check_certificate(ruleset, str(tmp_path / "c"), IN_PYTHON)
 
 
-@pytest.mark.no_cover
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", sorted({*range(20)} - {3, 8}))  # these two take long
 def test_certificates_of_rulesets_with_times_hold(tmp_path: Path, seed: int) -> None:
     ruleset = source(timed_ruleset(seed).source.text, tmp_path)

@@ -114,7 +114,7 @@ def test_no_dispatch_sees_half_of_a_change() -> None:
     dispatches(200_000)
 
 
-@pytest.mark.no_cover
+@pytest.mark.slow
 @pytest.mark.timeout(600)
 def test_ten_million_dispatches_see_no_half_of_a_change() -> None:
     dispatches_untraced(10_000_000)

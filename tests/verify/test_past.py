@@ -99,7 +99,7 @@ def answered_by_z3(ruleset, label, instants):
         return False
 
 
-@pytest.mark.no_cover
+@pytest.mark.slow
 @pytest.mark.parametrize("first", range(6_000, 6_010, 5))
 def test_no_history_with_more_instants_conflicts(first):
     for seed in range(first, first + 5):

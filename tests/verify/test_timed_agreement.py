@@ -14,18 +14,19 @@ from tests.timed_agreement import compare_all, compare_english
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.no_cover
+@pytest.mark.slow
 def test_some_random_rulesets_are_answered_as_z3_answers_them():
     compare_all(300, 320)
 
 
-@pytest.mark.no_cover
+@pytest.mark.slow
 @pytest.mark.timeout(300)
 def test_structured_english_is_answered_as_z3_answers_it():
     """Both readings, several obligations in a response, which may contradict one another, numbers, constraints."""
     compare_english(0, 20)
 
 
+@pytest.mark.slow
 @pytest.mark.timeout(600)
 def test_random_rulesets_are_answered_as_z3_answers_them():
     """In processes of their own, side by side, where no coverage is measured: that would take several times as long."""

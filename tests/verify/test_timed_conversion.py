@@ -108,7 +108,7 @@ def mean_the_same(one, other):
 # From one language to the other -----------------------------------------------------------------------------
 
 
-@pytest.mark.no_cover
+@pytest.mark.slow
 @settings(max_examples=150)
 @given(dsl_rulesets())
 def test_the_dsl_is_the_same_after_structured_english(ruleset):
@@ -126,7 +126,7 @@ def with_chain_of_default_first(statement):
     return replace(statement, default=replace(default, hedges=()), hedges=(*default.hedges, *hedges))
 
 
-@pytest.mark.no_cover
+@pytest.mark.slow
 @settings(max_examples=150)
 @given(timed_rulesets(phrases=False), st.sampled_from(("cascade", "priority")))
 def test_structured_english_means_the_same_in_the_dsl_and_back(ruleset, reading):
@@ -137,7 +137,7 @@ def test_structured_english_means_the_same_in_the_dsl_and_back(ruleset, reading)
     mean_the_same(ruleset, back)
 
 
-@pytest.mark.no_cover
+@pytest.mark.slow
 @settings(max_examples=80)
 @given(timed_rulesets(phrases=False))
 def test_sleec_tk_means_the_same_or_says_what_it_lacks(ruleset):
