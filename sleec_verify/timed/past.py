@@ -17,6 +17,7 @@ What is pending now is the sum of what each triggering left. Of many triggerings
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
+from functools import cached_property
 from typing import NamedTuple
 
 from sleec_runtime.model import Rule
@@ -109,8 +110,9 @@ class _Counting:
         """What is due within some time once an event occurs, all that comes at once with it included. What an event
         may do from then on, it does for all rules; what happens at once has been done."""
         found: set[Occurs] = set()
-        happens = self._at_once_with(trigger)
-        for rule in (rule for event in happens for rule in self._program.by_trigger.get(event, ())):
+        happens = self._at_once_with(trigger, surely=True)
+        events = self._at_once_with(trigger)
+        for rule in (rule for event in events for rule in self._program.by_trigger.get(event, ())):
             for occurrences in self._program.demands(rule):
                 if not any(self._done(what, happens) for what in occurrences):
                     found.update(
@@ -138,19 +140,34 @@ class _Counting:
                     ahead.append(answer.event)
         return True
 
-    def _at_once_with(self, trigger: str) -> set[str]:
+    def _at_once_with(self, trigger: str, surely: bool = False) -> set[str]:
+        """The events that may come at once with an event; `surely`, only those that do whatever the conditions."""
         found, ahead = {trigger}, [trigger]
         while ahead:
-            for what in self._answers(ahead.pop()):
-                if not what.negated and what.end == 0 and what.event not in found:
-                    found.add(what.event)
-                    ahead.append(what.event)
+            event = ahead.pop()
+            fresh = {what.event for what in self._answers(event, surely) if not what.negated and what.end == 0}
+            fresh |= self._tied.get(event, set())
+            ahead += fresh - found
+            found |= fresh
         return found
 
-    def _answers(self, event: str) -> Iterator[Occurs]:
+    @cached_property
+    def _tied(self) -> dict[str, set[str]]:
+        """The events that a relation has occur whenever another one does."""
+        found: dict[str, set[str]] = {}
+        for law in self._program.laws:
+            if isinstance(law, EventRelation) and law.relation in ("witness", "equal"):
+                found.setdefault(law.left, set()).add(law.right)
+                if law.relation == "equal":
+                    found.setdefault(law.right, set()).add(law.left)
+        return found
+
+    def _answers(self, event: str, surely: bool = False) -> Iterator[Occurs]:
         for rule in self._program.by_trigger.get(event, ()):
-            for occurrences in self._program.demands(rule):
-                yield from occurrences
+            if not surely or (rule.guard is None and len(list(rule.clauses())) == 1):
+                for occurrences in self._program.demands(rule):
+                    if not surely or len(occurrences) == 1:
+                        yield from occurrences
 
     def _inert(self, event: str) -> bool:
         return event not in self._program.by_trigger and event not in self._program.bound

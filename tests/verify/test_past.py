@@ -71,6 +71,16 @@ LATER = "RULE b WHEN t THEN Note WITHIN [1, 2] minutes"
         # And what it calls for, too.
         (f"{LATER}\nRULE c WHEN Note THEN File WITHIN [1, 2] minutes", Past(4, True)),
         (f"{LATER}\nRULE c WHEN Note THEN t WITHIN [1, 2] minutes", Past(2, False)),
+        # Done at once, but not whatever the conditions; or because of a relation.
+        (
+            "RULE b WHEN t THEN Note WITHIN 1 minute\nRULE c WHEN t THEN Note UNLESS c\nRULE d WHEN Note THEN NOT u",
+            Past(3, True),
+        ),
+        (
+            "RULE b WHEN t THEN Note WITHIN 1 minute\nRULE c WHEN t THEN Note\nRULE d WHEN Note THEN NOT u",
+            Past(2, True),
+        ),
+        ("RELATION t WITNESSES u\nRULE b WHEN u THEN Note WITHIN [1, 2] minutes", Past(3, True)),
         # What calls for itself from then on, and nothing that keeps it from being done at once.
         ("RULE b WHEN t THEN t WITHIN 1 minute\nRULE c WHEN Note THEN NOT t", Past(2, True)),
         ("RULE b WHEN t THEN Note WITHIN 1 minute\nRULE c WHEN Note THEN File WITHIN 1 minute", Past(2, True)),
