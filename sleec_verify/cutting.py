@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 
-from sleec_runtime.model import And, Assume, Atom, Formula, Measure, Not, Or, Ruleset, Truth
+from sleec_runtime.evaluation import holds
+from sleec_runtime.model import And, Assume, Atom, Context, Formula, Measure, Not, Or, Ruleset, Truth
 from sleec_verify.cone import Cones, Name, names_in
 from sleec_verify.equation import conjunction, disjunction
 
@@ -104,7 +105,7 @@ class Cutting:
 
     @cached_property
     def _restless(self) -> list[Formula]:
-        return [formula for formula in self.formulas if not _holds_of_nothing(formula)]
+        return [formula for formula in self.formulas if not holds(formula, Context())]
 
 
 def conjuncts(formulas: Iterable[Formula]) -> Iterator[Formula]:
@@ -152,14 +153,3 @@ def without(formula: Formula, occurring: set[str]) -> Formula:
             return Truth(not deciding.value)
         return disjunction(operands) if deciding.value else conjunction(operands)
     return formula
-
-
-def _holds_of_nothing(formula: Formula) -> bool:
-    """Whether a formula is true where no trigger occurs, every condition is false and no measure has a value."""
-    if isinstance(formula, Not):
-        return not _holds_of_nothing(formula.operand)
-    if isinstance(formula, And):
-        return all(_holds_of_nothing(operand) for operand in formula.operands)
-    if isinstance(formula, Or):
-        return any(_holds_of_nothing(operand) for operand in formula.operands)
-    return isinstance(formula, Truth) and formula.value

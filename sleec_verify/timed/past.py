@@ -16,8 +16,7 @@ What is pending now is the sum of what each triggering left. Of many triggerings
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
-from functools import cached_property
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from sleec_runtime.model import Rule
@@ -44,7 +43,6 @@ class _Counting:
         self._known = True
         self._single: dict[tuple[str, bool, bool], int] = {}
         self._more = 0
-        self._found: dict[str, int | None] = {}
 
     def of(self, rules: Iterable[Rule]) -> Past:
         for rule in rules:
@@ -65,14 +63,14 @@ class _Counting:
             if not what.negated:
                 missing.add(what.event)
             if _presses(what):
-                brought = self._brought(trigger, missing)
+                brought = self._program.brought.instants(trigger, missing)
                 if brought is None:
                     self._known = False
                     brought = 0
                 instants = 1 + done_all_the_same + brought
                 windows = self._windows(what)
                 if len(occurrences) == 1 and windows == 1:
-                    key = (what.event, what.negated, _later(what))
+                    key = (what.event, what.negated, what.is_later)
                     self._single[key] = max(self._single.get(key, 0), instants)
                 else:
                     self._more += instants * windows
@@ -82,7 +80,11 @@ class _Counting:
         """How many triggerings of one rule it takes to say all that they say together. Of those whose windows are open,
         one; of the others no more than there are seconds until then."""
         start = what.start or 0
-        if start <= 1 or (what.end is None and what.negated) or (not what.negated and self._inert(what.event)):
+        if (
+            start <= 1
+            or (what.end is None and what.negated)
+            or (not what.negated and self._program.is_inert(what.event))
+        ):
             return 1
         if not what.negated:
             return start
@@ -90,98 +92,8 @@ class _Counting:
         length = max(what.end - start + 1, 1)
         return 1 + min(start - 1, 2 * ((what.end - 1) // length))
 
-    def _brought(self, trigger: str, missing: Collection[str] = ()) -> int | None:
-        """How many instants the deadlines take that an event brings with it, and those of what they call for; None
-        where these come back to themselves. What is `missing` has not been done since."""
-        total = 0
-        for what in self._deadlines(trigger):
-            if what.event in missing:
-                continue
-            if what.event not in self._found:
-                self._found[what.event] = None
-                self._found[what.event] = self._brought(what.event)
-            further = self._found[what.event]
-            if further is None:
-                return None
-            total += 1 + further
-        return total
-
-    def _deadlines(self, trigger: str) -> set[Occurs]:
-        """What is due within some time once an event occurs, all that comes at once with it included. What an event
-        may do from then on, it does for all rules; what happens at once has been done."""
-        found: set[Occurs] = set()
-        happens = self._at_once_with(trigger, surely=True)
-        events = self._at_once_with(trigger)
-        for rule in (rule for event in events for rule in self._program.by_trigger.get(event, ())):
-            for occurrences in self._program.demands(rule):
-                if not any(self._done(what, happens) for what in occurrences):
-                    found.update(
-                        what if _later(what) else Occurs(what.event, 0, 1) for what in occurrences if _deadline(what)
-                    )
-        return found
-
-    def _done(self, what: Occurs, happens: set[str]) -> bool:
-        """Whether it happens at once, or can as well: nothing keeps it, or what it calls for, from that, and nothing is
-        forbidden by it."""
-        if what.negated or _later(what):
-            return False
-        if what.event in happens:
-            return True
-        found, ahead = {what.event}, [what.event]
-        while ahead:
-            event = ahead.pop()
-            if event in self._program.bound or event in self._program.forbidding:
-                return False
-            for answer in self._answers(event):
-                if answer.negated or _later(answer):
-                    return False
-                if answer.event not in found:
-                    found.add(answer.event)
-                    ahead.append(answer.event)
-        return True
-
-    def _at_once_with(self, trigger: str, surely: bool = False) -> set[str]:
-        """The events that may come at once with an event; `surely`, only those that do whatever the conditions."""
-        found, ahead = {trigger}, [trigger]
-        while ahead:
-            event = ahead.pop()
-            fresh = {what.event for what in self._answers(event, surely) if not what.negated and what.end == 0}
-            fresh |= self._tied.get(event, set())
-            ahead += fresh - found
-            found |= fresh
-        return found
-
-    @cached_property
-    def _tied(self) -> dict[str, set[str]]:
-        """The events that a relation has occur whenever another one does."""
-        found: dict[str, set[str]] = {}
-        for law in self._program.laws:
-            if isinstance(law, EventRelation) and law.relation in ("witness", "equal"):
-                found.setdefault(law.left, set()).add(law.right)
-                if law.relation == "equal":
-                    found.setdefault(law.right, set()).add(law.left)
-        return found
-
-    def _answers(self, event: str, surely: bool = False) -> Iterator[Occurs]:
-        for rule in self._program.by_trigger.get(event, ()):
-            if not surely or (rule.guard is None and len(list(rule.clauses())) == 1):
-                for occurrences in self._program.demands(rule):
-                    if not surely or len(occurrences) == 1:
-                        yield from occurrences
-
-    def _inert(self, event: str) -> bool:
-        return event not in self._program.by_trigger and event not in self._program.bound
-
-
-def _later(what: Occurs) -> bool:
-    return what.start is not None and what.start > 0
-
-
-def _deadline(what: Occurs) -> bool:
-    return not what.negated and what.end is not None and what.end > 0
-
 
 def _presses(what: Occurs) -> bool:
     """Whether it may still be demanded after its trigger. What is due at some time without end presses no more than if
     it had been triggered now."""
-    return _deadline(what) or (what.negated and what.end != 0)
+    return what.is_deadline or (what.negated and what.end != 0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from typing import Union
+from typing import TYPE_CHECKING, Union
 
 from sleec_runtime.model import (
     Agent,
@@ -24,6 +24,9 @@ from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, La
 from sleec_verify.solver import Recorder
 from sleec_verify.timed.responses import Occurs, Responses, occurrences
 from sleec_verify.timed.scope import Untimed
+
+if TYPE_CHECKING:
+    from sleec_verify.timed.brought import Brought
 
 Law = Union[Relation, Exclusive, Never, Assume]
 """What a ruleset demands besides its rules."""
@@ -135,10 +138,25 @@ class Program:
         Raises Undecided for a window whose length a measure says."""
         return self._demands[rule.label]
 
+    @cached_property
+    def _windows(self) -> dict[str, list[Occurs]]:
+        return {label: [one for demanded in demands for one in demanded] for label, demands in self._demands.items()}
+
     def windows(self, rule: Rule) -> list[Occurs]:
         """Every occurrence that a rule may come to call for or forbid. Raises Undecided for a window whose length a
         measure says."""
-        return [occurrence for demanded in self.demands(rule) for occurrence in demanded]
+        return self._windows[rule.label]
+
+    @cached_property
+    def brought(self) -> Brought:
+        """What each event brings with it."""
+        from sleec_verify.timed.brought import Brought
+
+        return Brought(self)
+
+    def is_inert(self, event: str) -> bool:
+        """Whether an event has no consequences: it triggers no rule, and no law speaks of it."""
+        return event not in self.by_trigger and event not in self.bound
 
     def is_timed(self, rule: Rule) -> bool:
         """Whether a rule demands anything of other instants than that of its trigger."""

@@ -21,6 +21,16 @@ class Occurs(NamedTuple):
     end: int | None
     negated: bool = False
 
+    @property
+    def is_later(self) -> bool:
+        """Whether its window opens only after the trigger."""
+        return self.start is not None and self.start > 0
+
+    @property
+    def is_deadline(self) -> bool:
+        """Whether it calls for the event by some time after the trigger."""
+        return not self.negated and self.end is not None and self.end > 0
+
 
 class Every(NamedTuple):
     parts: tuple[Demand, ...]
