@@ -15,8 +15,8 @@ from sleec_verify.certificates.checker import BUILT, checker
 from sleec_verify.certificates.elaboration import NotFollowing
 from sleec_verify.certificates.recording import Asked
 from sleec_verify.certificates.refutation import Disjunction
-from tests.certificates.conftest import require_coq
 from tests.certificates.formulas import asked, clauses, has_model
+from tests.coq import require_coq
 
 FORMULA = "p cnf 2 4\n1 2 0\n-1 2 0\n1 -2 0\n-1 -2 0\n"
 PROOF = "5 2 0 1 2 0\n5 d 1 2 0\n6 0 5 3 4 0\n"
@@ -182,10 +182,10 @@ def test_these_tests_are_skipped_without_coq_but_never_in_ci(monkeypatch: pytest
     monkeypatch.setattr("shutil.which", lambda name: None)
     monkeypatch.delenv("CI", raising=False)
     with pytest.raises(pytest.skip.Exception, match="apt-get install coq"):
-        require_coq()
+        require_coq("the proved checker")
     monkeypatch.setenv("CI", "true")
     with pytest.raises(pytest.fail.Exception, match="apt-get install coq"):
-        require_coq()
+        require_coq("the proved checker")
 
 
 def test_usage(proved: Path, tmp_path: Path) -> None:

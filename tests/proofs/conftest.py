@@ -1,23 +1,13 @@
 from __future__ import annotations
 
-import os
-import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 
+from tests.coq import require_coq
+
 PROOFS = Path(__file__).parents[2] / "proofs"
-
-
-def require_coq() -> None:
-    """Skips, with the reason, where the oracle cannot be built, but fails in CI."""
-    missing = [tool for tool in ("coqc", "ocamlfind", "make") if shutil.which(tool) is None]
-    if missing:
-        reason = f"the oracle cannot be built without {' and '.join(missing)} (apt-get install coq ocaml-findlib)"
-        if os.environ.get("CI") == "true":
-            pytest.fail(reason)
-        pytest.skip(reason)
 
 
 @pytest.fixture(scope="session")
@@ -26,7 +16,7 @@ def oracle() -> Path:
 
     Several tests may want it at once, each in a process of its own.
     """
-    require_coq()
+    require_coq("the oracle")
     import fcntl
 
     with (PROOFS / ".building").open("w") as lock:

@@ -18,8 +18,8 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.conformance.rulesets import rulesets
 from sleec_verify.theory.oracle import NoAnswer, answers
 from tests import brute
+from tests.coq import require_coq
 from tests.proofs.compared import compare, random_cases
-from tests.proofs.conftest import require_coq
 from tests.proofs.enumerated import pairs, single_rules
 
 # Whichever test comes first may have to compile the theory.
@@ -75,10 +75,10 @@ def test_these_tests_are_skipped_without_coq_but_never_in_ci(monkeypatch: pytest
     monkeypatch.setattr("shutil.which", lambda name: None)
     monkeypatch.delenv("CI", raising=False)
     with pytest.raises(pytest.skip.Exception, match="apt-get install coq"):
-        require_coq()
+        require_coq("the oracle")
     monkeypatch.setenv("CI", "true")
     with pytest.raises(pytest.fail.Exception, match="apt-get install coq"):
-        require_coq()
+        require_coq("the oracle")
 
 
 def test_what_is_no_question_is_not_answered(oracle: Path) -> None:
