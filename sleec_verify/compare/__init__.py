@@ -8,7 +8,7 @@ that is told by itself. Rules that are equal on both sides cancel; only what is 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from itertools import chain
 from typing import TypeVar, Union
 
 from sleec_runtime.model import Ruleset
@@ -48,7 +48,7 @@ __all__ = [
     "relation",
 ]
 
-_Told = TypeVar("_Told", bound=Union[Change, ConflictChange, SituationChange])
+_Told = TypeVar("_Told", Change, ConflictChange, SituationChange)
 _Any = Union[Change, ConflictChange, SituationChange, Undecidable]
 
 
@@ -80,14 +80,13 @@ def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Unti
     else:
         found = [_compared(whole, None)]
     told = [one for each in found for one in each]
-    difference = replace(
-        shared,
+    difference = shared._replace(
         changes=_merged([one for one in told if isinstance(one, Change)]),
         conflicts=_merged([one for one in told if isinstance(one, ConflictChange)]),
         situations=_merged([one for one in told if isinstance(one, SituationChange)]),
         undecided=tuple(dict.fromkeys((*shared.undecided, *(one for one in told if isinstance(one, Undecidable))))),
     )
-    return replace(difference, rewritten=_rewritten(whole, difference))
+    return difference._replace(rewritten=_rewritten(whole, difference))
 
 
 def _compared(world: World, domain: str | None) -> list[_Any]:
@@ -104,7 +103,7 @@ def _compared(world: World, domain: str | None) -> list[_Any]:
         found += changes(world)
     if domain is None:
         return found
-    return [one if isinstance(one, Undecidable) else replace(one, domains=(domain,)) for one in found]
+    return [one if isinstance(one, Undecidable) else one._replace(domains=(domain,)) for one in found]
 
 
 def _conditions_that_are_measures(world: World) -> Iterator[Undecidable]:
@@ -117,13 +116,14 @@ def _conditions_that_are_measures(world: World) -> Iterator[Undecidable]:
 
 def _merged(found: Sequence[_Told]) -> tuple[_Told, ...]:
     """Equal findings of several domains as one."""
-    merged: dict[str, _Told] = {}
+    merged: dict[str, list[_Told]] = {}
     for number, one in enumerate(found):
         # Only what several domains say can be the same twice.
-        key = repr(replace(one, domains=())) if one.domains else str(number)
-        known = merged.get(key)
-        merged[key] = one if known is None else replace(one, domains=(*known.domains, *one.domains))
-    return tuple(merged.values())
+        key = repr(one._replace(domains=())) if one.domains else str(number)
+        merged.setdefault(key, []).append(one)
+    return tuple(
+        same[0]._replace(domains=tuple(chain.from_iterable(s.domains for s in same))) for same in merged.values()
+    )
 
 
 def _rewritten(world: World, difference: Difference) -> tuple[tuple[str, ...], ...]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
@@ -15,8 +14,7 @@ Relation = Literal["equivalent", "stricter", "laxer", "incomparable", "unknown"]
 Way = Literal["added", "removed"]
 
 
-@dataclass(frozen=True)
-class Extent:
+class Extent(NamedTuple):
     """How many situations a change concerns.
 
     `affected` of `possible` situations, counted over `over`: what these names may be together, as far as the
@@ -41,8 +39,7 @@ class Deciding(NamedTuple):
     span: Span
 
 
-@dataclass(frozen=True)
-class Change:
+class Change(NamedTuple):
     """Obligations that a rule brings or no longer brings in the same situations: one cause, however many of these.
 
     `old_rule` and `new_rule` are the labels of the rule that changed; None where it is new, or gone. `witness` is a
@@ -65,8 +62,7 @@ class Change:
         return tuple(dict.fromkeys(label for label in (self.old_rule, self.new_rule) if label is not None))
 
 
-@dataclass(frozen=True)
-class ConflictChange:
+class ConflictChange(NamedTuple):
     """Situations in which what is due cannot all be done on one side only: the new one, where `way` is added.
 
     `literals` are those at odds, `rules` what obliges them on that side, `origins` the constraints that rule them out.
@@ -83,8 +79,7 @@ class ConflictChange:
     domains: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class SituationChange:
+class SituationChange(NamedTuple):
     """Situations that only one side allows, by its assumptions or by what a measure can be: the new one, where `way` is
     added. `what` is what the other side takes for granted; `witness` is None where it is not a matter of examples."""
 
@@ -110,8 +105,7 @@ class Undecidable(NamedTuple):
     why: str
 
 
-@dataclass(frozen=True)
-class Difference:
+class Difference(NamedTuple):
     """What differs between two rulesets.
 
     `renamed` are labels of rules that say the same, `rewritten` those of rules that are written otherwise and oblige

@@ -8,9 +8,8 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from importlib import import_module
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from sleec_runtime.errors import SleecError
 from sleec_verify.finding import SEVERITIES, Severity
@@ -24,8 +23,7 @@ class ConfigError(SleecError):
     """A configuration that cannot be used: missing, no TOML, or with a key or value that there is not."""
 
 
-@dataclass(frozen=True)
-class Target:
+class Target(NamedTuple):
     """A robot's code, and the rules whose structure it is to have. Paths are from the folder of the configuration."""
 
     code: str
@@ -33,8 +31,7 @@ class Target:
     domain: str | None = None
 
 
-@dataclass(frozen=True)
-class Policy:
+class Policy(NamedTuple):
     """What blocks.
 
     `findings`: findings of `check` and `conform` at least as grave as this; "never" for none. `new_conflicts`:
@@ -57,8 +54,7 @@ class Policy:
     certificates: bool = False
 
 
-@dataclass(frozen=True)
-class Config:
+class Config(NamedTuple):
     """All settings. `path` is where they were read, None where there are none; `folder` is what paths are from."""
 
     path: str | None = None

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.model import Ruleset, Span
@@ -18,8 +18,7 @@ _ALLOW = re.compile(r"allow\s+([\w-]+(?:\s*,\s*[\w-]+)*)(?:\s+because\b\s*(.*))?
 _EXAMPLE = "write: # sleec: allow SLEEC202 because the sensor comes next year"
 
 
-@dataclass(frozen=True)
-class Suppression:
+class Suppression(NamedTuple):
     """What is allowed (codes, or checks) in the lines from `first` to `last`, and why. `span` is the comment."""
 
     allowed: tuple[str, ...]

@@ -7,7 +7,6 @@ import os
 import re
 import shlex
 import shutil
-from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -75,9 +74,9 @@ def test_the_step_in_ci_is_a_command() -> None:
 def test_every_setting_is_told_of_with_its_default() -> None:
     text = PAGE.read_text(encoding="utf-8")
     told = dict(re.findall(r"^\| `\[*([a-z-]+)\]*` \| .* \| (.*) \|$", text, re.MULTILINE))
-    settings = {field.name.replace("_", "-") for field in (*fields(Config), *fields(Policy))}
+    settings = {field.replace("_", "-") for field in (*Config._fields, *Policy._fields)}
     assert settings - {"path", "folder", "block"} == set(told)
-    for field in fields(Policy):
-        default = getattr(Policy(), field.name)
+    for field in Policy._fields:
+        default = getattr(Policy(), field)
         written = {None: "not asked", (): "`[]`"}.get(default, f"`{str(default).lower()}`")
-        assert told[field.name.replace("_", "-")] in (written, f'`"{default}"`')
+        assert told[field.replace("_", "-")] in (written, f'`"{default}"`')
