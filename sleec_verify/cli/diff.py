@@ -120,7 +120,8 @@ def command(
 
 
 def _versions(paths: Sequence[str], revision: str | None) -> tuple[list[Versions], tuple[str, str]]:
-    """The rulesets on both sides, and what the sides are called."""
+    """The rulesets on both sides, in git those that moved under their new path, and what the sides are called."""
+    from sleec_verify.renames import with_renames
     from sleec_verify.revisions import Repository, of_paths
 
     if revision is None:
@@ -131,7 +132,7 @@ def _versions(paths: Sequence[str], revision: str | None) -> tuple[list[Versions
         return of_paths(*paths), (paths[0], paths[1])
     repository = Repository()
     old, new = repository.range(revision)
-    return repository.versions(old, new, paths or (".",)), (old[0], new[0])
+    return with_renames(repository.versions(old, new, paths or (".",)))[0], (old[0], new[0])
 
 
 def _source(path: str) -> Source:

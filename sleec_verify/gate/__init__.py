@@ -20,9 +20,9 @@ from sleec_verify.finding import CheckResult, Finding
 from sleec_verify.gate.baseline import Key, key
 from sleec_verify.gate.config import Config
 from sleec_verify.gate.policy import judge
-from sleec_verify.gate.renames import with_renames
 from sleec_verify.gate.result import Conformed, Examined, Gated
 from sleec_verify.gate.suppressions import suppressions
+from sleec_verify.renames import with_renames
 from sleec_verify.timed.scope import Untimed
 
 if TYPE_CHECKING:

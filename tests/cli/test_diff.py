@@ -291,13 +291,24 @@ def test_equal_files_of_two_revisions_are_not_read(cli: Cli, repository: Reposit
 @needs_git
 def test_files_that_came_and_went(cli: Cli, repository: Repository) -> None:
     repository.commit(a_sleec=OLD)
-    repository.write(a_sleec=None, b_sleec=OLD)
+    repository.write(a_sleec=None, b_sleec="RULE b\nWHEN u THEN x\n")
     ran = cli("diff", "--git", "main")
     assert ran.code == 2
     assert "a.sleec is not in the files as they are now: it was deleted" in ran.err
     assert "b.sleec is not in main: it was added" in ran.err
     assert cli("diff", "--git", "main", "--", "b.sleec").code == 2
     assert cli("diff", "--git", "main", "--missing-as-empty").code == 1
+
+
+@needs_git
+def test_a_file_that_moved_is_compared_with_what_it_was(cli: Cli, repository: Repository) -> None:
+    repository.commit(a_sleec=OLD)
+    repository.write(a_sleec=None, b_sleec=OLD)
+    assert "main:a.sleec -> b.sleec: equivalent" in cli("diff", "--git", "main").out
+    repository.commit(b_sleec=MORE)
+    ran = cli("diff", "--git", "main~..main")
+    assert (ran.code, ran.err) == (1, "")
+    assert "main~:a.sleec -> main:b.sleec: stricter" in ran.out
 
 
 @needs_git
