@@ -133,12 +133,17 @@ class Encoder:
 
     # Rules -------------------------------------------------------------------------------------------------
 
+    def triggered(self, rule: Rule) -> int:
+        """A literal equal to "the rule's trigger occurs and its guard, if it has one, holds"."""
+        trigger = self.variable(("trigger", rule.trigger))
+        return trigger if rule.guard is None else self.both(trigger, self.literal(rule.guard))
+
     def guards(self, rule: Rule, reading: Reading, triggered: int | None = None) -> list[int]:
         """For each clause of the rule, in the order of `Rule.clauses`, a literal equal to its guard. `triggered` stands
         in for the rule's trigger, if given."""
         if triggered is None:
-            triggered = self.variable(("trigger", rule.trigger))
-        if rule.guard is not None:
+            triggered = self.triggered(rule)
+        elif rule.guard is not None:
             triggered = self.both(triggered, self.literal(rule.guard))
         guards: list[int] = []
         decides = self._split(triggered, rule.hedges, reading, rule.label)

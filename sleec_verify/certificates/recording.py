@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 
 from sleec_runtime.errors import SleecError
 
@@ -44,7 +45,10 @@ class Recorder:
         Raises NoModel, if examining, where it is none.
         """
         self._models += 1
-        if self._examining and not (all(map(holds, literals)) and all(any(map(holds, clause)) for clause in clauses)):
+        if not self._examining:
+            return
+        true = set(filter(holds, {*literals, *chain.from_iterable(clauses)}))
+        if not true.issuperset(literals) or any(map(true.isdisjoint, clauses)):
             raise NoModel("a solver's model does not satisfy the question", "this is a bug; please report it")
 
     def take(self) -> tuple[list[Asked], int]:

@@ -13,7 +13,8 @@ from sleec_verify.question import Question
 from sleec_verify.witness import smallest_situation
 
 LONG = 30
-"""Chains of more hedges than this get a smallest situation for one pair of clauses, not for all pairs."""
+"""Chains of more hedges than this get a smallest situation for one pair of clauses, not for all pairs; and whether they
+part is one question, not one for each hedge."""
 
 OTHER: dict[Reading, Reading] = {"cascade": "priority", "priority": "cascade"}
 
@@ -31,6 +32,9 @@ def _readings(cones: Cones) -> Iterator[Finding]:
 def _parting(cones: Cones, position: int) -> tuple[int, int] | None:
     """The clauses that decide under the ruleset's reading and the other in some situation in which they part."""
     rule, clauses = cones.rules[position], cones.clauses[position]
+    if len(clauses) == 1 + len(rule.hedges) and len(rule.hedges) <= LONG:
+        found = _parting_in_chain(cones, rule)
+        return found if found is None or cones.ruleset.reading == "cascade" else found[::-1]
     with Question(cones) as question:
         encoder = question.encoder
         guards = (question.guards(position), encoder.guards(rule, OTHER[cones.ruleset.reading]))
@@ -40,6 +44,43 @@ def _parting(cones: Cones, position: int) -> tuple[int, int] | None:
             return None
         one, other = (next(n for n, guard in enumerate(each) if question.true(guard)) for each in guards)
         return one, other
+
+
+def _parting_in_chain(cones: Cones, rule: Rule) -> tuple[int, int] | None:
+    """The same of a chain without chains in it, the clause of `cascade` first.
+
+    They part where hedge j is the last that is true, and one before hedge j - 1 the last before the first false one,
+    and the two oblige different things. Each j is asked by itself, with clauses beside one another that oblige others
+    than it as one: so the answer "no" needs no search most of the time, and has a short refutation.
+    """
+    with Question(cones) as question:
+        encoder = question.encoder
+        conditions = [encoder.literal(hedge.condition) for hedge in rule.hedges if hedge.condition is not None]
+        triggered = encoder.triggered(rule)
+        reached = [triggered]
+        for condition in conditions[:-1]:
+            reached.append(encoder.both(reached[-1], condition))
+        last = [triggered]
+        for condition in reversed(conditions[2:]):
+            last.append(encoder.both(last[-1], -condition))
+        for j in range(2, len(conditions) + 1):
+            for first, behind in _unequal(rule, j):
+                if question.ask(reached[first], -reached[behind], conditions[j - 1], last[len(conditions) - j]):
+                    return next(k for k in range(first, behind) if not question.true(conditions[k])), j
+    return None
+
+
+def _unequal(rule: Rule, j: int) -> Iterator[tuple[int, int]]:
+    """The clauses before hedge j - 1 that oblige something else than hedge j, in runs: the first, and the one behind
+    the last."""
+    due = [frozenset(clause.obligations) for clause in (rule.default, *rule.hedges)]
+    first = None
+    for k in range(j):
+        if k < j - 1 and due[k] != due[j]:
+            first = k if first is None else first
+        elif first is not None:
+            yield first, k
+            first = None
 
 
 def _situations(rule: Rule, reading: Reading, deciding: tuple[int, int]) -> Formula:

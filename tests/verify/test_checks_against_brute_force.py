@@ -6,7 +6,9 @@ from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from sleec_runtime.language import parse
 from sleec_runtime.model import Ruleset
 from sleec_verify.checks import run_checks
 from sleec_verify.checks.redundant import without_hedge
@@ -134,3 +136,21 @@ def test_rulesets_with_measures(check):
         check(ruleset)
 
     compare()
+
+
+_OPERANDS = ("a", "b", "c", "d", "NOT a", "NOT b", "a AND b", "b OR c", "NOT (c AND d)", "a OR d", "b AND NOT c")
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    st.lists(st.tuples(st.sampled_from(_OPERANDS), st.sampled_from(("o", "p", "NOT o", "o AND p"))), max_size=7),
+    st.sampled_from(("", "ASSUME NOT (a AND b)\n", "ASSUME a OR b OR c\n")),
+    st.sampled_from(("", "READING priority\n")),
+    st.sampled_from((30, 3)),
+)
+def test_the_reading_of_long_chains(hedges, assumption, reading, long):
+    """Clauses that oblige the same stand beside one another and apart; of the longest, the way is another."""
+    chain = "".join(f"\nUNLESS {condition} IN WHICH CASE {response}" for condition, response in hedges)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("sleec_verify.checks.reading.LONG", long)
+        check_reading(parse(f"{reading}{assumption}RULE r\nWHEN t AND NOT d THEN o{chain}\n"))
