@@ -87,6 +87,8 @@ class Cursor(TokenReader):
             self._strange(at, what, hint)
         if kind == ":" and self.kinds[at + 1] == "WHEN" and self.kinds[at - 1] == "word":
             hint = f"a label stands behind RULE and without a colon: RULE {self.token_text(at - 1)} WHEN ..."
+        elif kind == ":" and self.kinds[at - 1] == "word" and hint is None:
+            hint = f"a measure is declared so: MEASURE {self.token_text(at - 1)}: ..."
         if kind == "end" or (kind in STATEMENTS and self.starts_line(at)):
             end = self.ends[at - 1] if at else 0
             self.fail(

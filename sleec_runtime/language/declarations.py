@@ -123,7 +123,7 @@ class DeclarationParser(FormulaParser):
             self.names.declare("condition", name, name_span)
             return Declaration("condition", (name,), span, (name_span,), comments)
         if len(values) == 1:
-            kind = _NUMERIC.get(values[0]) or self._no_type(values[0], spans[0])
+            kind = _NUMERIC.get(values[0]) or self._no_type(at_type, values[0], spans[0])
             measure = Measure(name, kind, (), True, span, comments)
         else:
             measure = Measure(name, "scale", tuple(values), True, span, comments)
@@ -131,7 +131,11 @@ class DeclarationParser(FormulaParser):
             self.names.declare_measure(measure, name_span, spans)
         return measure
 
-    def _no_type(self, written: str, span: Span) -> MeasureKind:
+    def _no_type(self, first: int, written: str, span: Span) -> MeasureKind:
+        for token in range(first + 1, self.at):
+            if self.starts_line(token) and self.text[span.start : self.ends[token - 1]] in (*_NUMERIC, "boolean"):
+                self.at = token
+                self.expected("the next statement", "a statement begins with a keyword, such as MEASURE, RULE or WHEN")
         near = _TYPE_SLIPS.get(written) or nearest(written, ("number", "integer", "boolean"))
         self.fail(
             f"{quoted(written)} is no kind of measure",
