@@ -64,10 +64,10 @@ class Oracle:
         finally:
             if watchdog is not None:
                 watchdog.cancel()
-        if answer.endswith("\n") and not answer.startswith("UNREADABLE: "):
-            return answer[:-1]
         if self._late:
             raise NoAnswer(f"the oracle did not answer in {self._seconds:g} s")
+        if answer.endswith("\n") and not answer.startswith("UNREADABLE: "):
+            return answer[:-1]
         said = answer.strip() or f"it ended with {self._process.wait()}"
         raise NoAnswer(f"the oracle did not answer: {said}")
 
