@@ -129,12 +129,17 @@ Proof.
   cbn [concat]. destruct (inner (snd h)); [exact (IH (S i) Q)|discriminate H].
 Qed.
 
-(** Where the readings choose clauses that oblige different things. *)
+(** Where the readings choose clauses that oblige different things: clause j, and one of
+    those that end before it has begun.  If each of these obliges something else, it does
+    not matter which it is. *)
+Definition parting_at (R : rule) (j : nat) : list (formula fact) :=
+  let others := filter (fun k => negb (same_literalsb (clause R k) (clause R j))) (seq 0 (j - 1)) in
+  if length others =? j - 1
+  then if 2 <=? j then [apart R j] else []
+  else map (fun k => differ R k j) others.
+
 Definition parting (R : rule) : list (formula fact) :=
-  flat_map (fun j =>
-    flat_map (fun k => if same_literalsb (clause R k) (clause R j) then [] else [differ R k j])
-             (seq 0 (j - 1)))
-    (seq 0 (S (length (hedges R)))).
+  flat_map (parting_at R) (seq 0 (S (length (hedges R)))).
 
 Lemma parting_none chi R :
   (forall f, In f (parting R) -> eval chi f = false) ->
@@ -143,8 +148,15 @@ Proof.
   intro N. apply agree_here. intros k j L B.
   destruct (same_literalsb (clause R k) (clause R j)) eqn:E.
   - left. apply same_literalsb_spec, E.
-  - right. apply N. unfold parting. apply in_flat_map. exists j. split; [apply in_seq; lia|].
-    apply in_flat_map. exists k. split; [apply in_seq; lia|]. rewrite E. left. reflexivity.
+  - right. assert (P : forall f, In f (parting_at R j) -> eval chi f = false).
+    { intros f I. apply N. unfold parting. apply in_flat_map. exists j.
+      split; [apply in_seq; lia|exact I]. }
+    unfold parting_at in P. destruct (_ =? _).
+    + apply not_true_is_false. intro D. apply apart_if_differ in D; [|exact L|exact B].
+      rewrite P in D; [discriminate|].
+      destruct (Nat.leb_spec 2 j); [left; reflexivity|lia].
+    + apply P, in_map_iff. exists k. split; [reflexivity|].
+      apply filter_In. rewrite E. split; [apply in_seq; lia|reflexivity].
 Qed.
 
 (** "The rule obliges something else under the other reading": one of these is true.
@@ -175,4 +187,40 @@ Proof.
   intros C chi R P I. apply accepted_unsatisfiable in C.
   rewrite questions_answered_no in C. apply parts_none. intros f F.
   apply (C chi f P), in_flat_map. eauto.
+Qed.
+
+(** * One question after the other *)
+
+(** What a ruleset is asked about. *)
+Inductive question :=
+  | AnyConflict
+  | AnyReading.
+
+Definition formula_of_question (r : reading) (Rs : list nested_rule) (Ks : list constraint)
+    (q : question) : Formula.formula :=
+  match q with
+  | AnyConflict => to_refute r Rs Ks
+  | AnyReading => reading_to_refute Rs Ks
+  end.
+
+(** What is true of the rules if its formula is unsatisfiable. *)
+Definition answered_no (r : reading) (Rs : list nested_rule) (Ks : list constraint)
+    (q : question) : Prop :=
+  match q with
+  | AnyConflict => never_conflicts r Rs Ks
+  | AnyReading => reads_alike Rs Ks
+  end.
+
+(** The formula, to be refuted by whoever can, and what judges the steps of that.  The
+    formula is made once for both. *)
+Definition ask (r : reading) (Rs : list nested_rule) (Ks : list constraint) (q : question)
+  : Formula.formula * (list Checker.step -> bool) :=
+  let f := formula_of_question r Rs Ks q in (f, accepted f).
+
+Theorem ask_sound r Rs Ks q steps :
+  snd (ask r Rs Ks q) steps = true -> answered_no r Rs Ks q.
+Proof.
+  destruct q; cbn [ask snd formula_of_question answered_no]; intro C.
+  - exact (certified_never_conflicts r Rs Ks steps C).
+  - exact (certified_reads_alike Rs Ks steps C).
 Qed.

@@ -9,5 +9,4 @@ Extraction Language OCaml.
 Extraction "oracle.ml"
   flatten all_due triggered algorithm_1 due contradictory
   entails_by_propagation entails_by_table formula_of
-  possible compatible_by_table to_refute certified
-  reading_to_refute certified_reading.
+  possible compatible_by_table ask.

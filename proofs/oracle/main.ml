@@ -16,11 +16,10 @@
        possible 0|1; consistent 0|1; due LITERAL…; entailed LITERAL…; said WHICH…
                                WHICH: of each rule that has no chain in a chain, - (not triggered), e (ε) or the hedge
      table count FACT…         to the letter, by all interpretations: possible 0|1; compatible 0|1; entailed LITERAL…
-     clauses                   the formula that is unsatisfiable exactly if no context conflicts: LITERAL… 0 LITERAL… 0 …
-     refuted STEP…             yes if these steps refute that formula, no if not
+     formula QUESTION          its formula, which is unsatisfiable exactly if the answer is no: LITERAL… 0 LITERAL… 0 …
+                               QUESTION: conflict (does some context?) | reading (does some rule depend on it?)
+     refuted STEP…             yes if these steps refute the formula that was asked for last, no if not
                                STEP: a N LITERAL… 0 N… 0 (clause N follows from those clauses) | d N… 0 (forget them)
-     clauses-of-reading, refuted-of-reading STEP…
-                               the same of the formula that is unsatisfiable exactly if no rule depends on the reading
 
    UNREADABLE: reason, exit 2, where a line is not of this kind. *)
 
@@ -50,23 +49,30 @@ let positive number =
 let rec int_of = function XH -> 1 | XO rest -> 2 * int_of rest | XI rest -> (2 * int_of rest) + 1
 let rec int_of_nat = function O -> 0 | S n -> 1 + int_of_nat n
 
-(* The words of one line, taken from the left. *)
-let words : string list ref = ref []
+(* One line, and how far it is read. A line may have millions of words, which are never all there at once. *)
+let line = ref "" and place = ref 0
+
+let at_end () =
+  while !place < String.length !line && !line.[!place] = ' ' do incr place done;
+  !place = String.length !line
 
 let word () =
-  match !words with
-  | [] -> unreadable "the line ends too early"
-  | first :: rest ->
-    words := rest;
-    first
+  if at_end () then unreadable "the line ends too early";
+  let start = !place in
+  while !place < String.length !line && !line.[!place] <> ' ' do incr place done;
+  String.sub !line start (!place - start)
 
 (* Digits only, and few enough to be a number here. OCaml's own conversion also takes 0x10, 1_000 and the like. *)
 let number text =
-  let digits = if text <> "" && text.[0] = '-' then String.sub text 1 (String.length text - 1) else text in
-  let is_digit = function '0' .. '9' -> true | _ -> false in
-  if digits = "" || String.length digits > 17 || not (String.for_all is_digit digits) then
-    unreadable "%S is not a number" text;
-  int_of_string text
+  let first = if text <> "" && text.[0] = '-' then 1 else 0 in
+  let digits = String.length text - first and value = ref 0 in
+  if digits = 0 || digits > 17 then unreadable "%S is not a number" text;
+  for i = first to String.length text - 1 do
+    match text.[i] with
+    | '0' .. '9' as digit -> value := (10 * !value) + Char.code digit - Char.code '0'
+    | _ -> unreadable "%S is not a number" text
+  done;
+  if first = 1 then - !value else !value
 
 let integer () = number (word ())
 let name () = positive (integer ())
@@ -172,7 +178,7 @@ let at { reading; literals; rules; constraints } chi =
       | None -> "e"
       | Some layer -> string_of_int (int_of_nat layer)
   in
-  Printf.printf "possible %d; consistent %d; due %s; entailed %s; said %s\n"
+  Printf.sprintf "possible %d; consistent %d; due %s; entailed %s; said %s"
     (bit (possible constraints chi))
     (bit (not (contradictory (due reading all chi))))
     (list shown (all_due reading chi rules))
@@ -182,16 +188,17 @@ let at { reading; literals; rules; constraints } chi =
 let table { reading; literals; rules; constraints } chi =
   let all = List.concat_map (flatten reading) rules in
   let entailed l = entails_by_table reading all chi (formula_of l) in
-  Printf.printf "possible %d; compatible %d; entailed %s\n"
+  Printf.sprintf "possible %d; compatible %d; entailed %s"
     (bit (possible constraints chi))
     (bit (compatible_by_table reading all constraints chi))
     (list shown (List.filter entailed literals))
 
 let clauses formula =
-  let shown = function Pos x -> string_of_int (int_of x) | Neg x -> string_of_int (-int_of x) in
-  let show clause = List.iter (fun l -> print_string (shown l ^ " ")) clause; print_string "0 " in
-  List.iter show formula;
-  print_newline ()
+  let text = Buffer.create 65536 in
+  let say number = Buffer.add_string text (string_of_int number); Buffer.add_char text ' ' in
+  let literal = function Pos x -> say (int_of x) | Neg x -> say (-int_of x) in
+  List.iter (fun clause -> List.iter literal clause; say 0) formula;
+  Buffer.contents text
 
 let steps () =
   let rec until_zero found =
@@ -201,50 +208,64 @@ let steps () =
   in
   let in_proof number = if number > 0 then Pos (positive number) else Neg (positive (-number)) in
   let rec take found =
-    match !words with
-    | [] -> List.rev found
-    | _ -> (
+    if at_end () then List.rev found
+    else
       match word () with
       | "a" ->
         let number = name () in
         let clause = List.map in_proof (until_zero []) in
         take (Add (number, clause, List.map positive (until_zero [])) :: found)
       | "d" -> take (Forget (List.map positive (until_zero [])) :: found)
-      | kind -> unreadable "%S is no step" kind)
+      | kind -> unreadable "%S is no step" kind
   in
   take []
 
-let verdict accepted = print_endline (if accepted then "yes" else "no")
+let verdict accepted = if accepted then "yes" else "no"
 
-let answer asked line =
-  words := List.filter (fun word -> word <> "") (String.split_on_char ' ' line);
-  let of_rules f =
-    match !asked with
-    | Some known -> f known
-    | None -> unreadable "a question before the rules"
-  in
-  (match word () with
-   | "rules" ->
-     asked := Some (ruleset ());
-     print_endline "ok"
-   | "at" -> of_rules (fun known -> at known (context ()))
-   | "table" -> of_rules (fun known -> table known (context ()))
-   | "clauses" ->
-     of_rules (fun { reading; rules; constraints; _ } -> clauses (to_refute reading rules constraints))
-   | "refuted" ->
-     of_rules (fun { reading; rules; constraints; _ } -> verdict (certified reading rules constraints (steps ())))
-   | "clauses-of-reading" -> of_rules (fun { rules; constraints; _ } -> clauses (reading_to_refute rules constraints))
-   | "refuted-of-reading" ->
-     of_rules (fun { rules; constraints; _ } -> verdict (certified_reading rules constraints (steps ())))
-   | other -> unreadable "%S is no question" other);
-  if !words <> [] then unreadable "something follows the question"
+let question () =
+  match word () with
+  | "conflict" -> AnyConflict
+  | "reading" -> AnyReading
+  | other -> unreadable "%S is no question" other
+
+(* The rules, and what judges refutations of the formula that was asked for last. *)
+let asked : asked option ref = ref None
+let judge : (step list -> bool) option ref = ref None
+
+let of_rules f =
+  match !asked with
+  | Some known -> f known
+  | None -> unreadable "a question before the rules"
+
+let answer () =
+  match word () with
+  | "rules" ->
+    asked := Some (ruleset ());
+    judge := None;
+    "ok"
+  | "at" -> of_rules (fun known -> at known (context ()))
+  | "table" -> of_rules (fun known -> table known (context ()))
+  | "formula" ->
+    of_rules (fun { reading; rules; constraints; _ } ->
+        let formula, judges = ask reading rules constraints (question ()) in
+        judge := Some judges;
+        clauses formula)
+  | "refuted" -> (
+    match !judge with
+    | Some accepts -> verdict (accepts (steps ()))
+    | None -> unreadable "steps before a formula")
+  | other -> unreadable "%S is no question" other
 
 let () =
-  let asked = ref None in
+  (* Most of what is made is there to the end, and no time goes into looking for what is not. *)
+  Gc.set { (Gc.get ()) with Gc.minor_heap_size = 1 lsl 20; space_overhead = 1000 };
   try
     while true do
-      answer asked (input_line stdin);
-      flush stdout
+      line := input_line stdin;
+      place := 0;
+      let said = answer () in
+      if not (at_end ()) then unreadable "something follows the question";
+      print_endline said
     done
   with
   | End_of_file -> ()

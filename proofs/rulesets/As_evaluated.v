@@ -49,7 +49,7 @@ Definition rules : list nested_rule :=
 Definition constraints : list constraint := [].
 
 Definition steps : list step :=
-  [ Add 63 [] [1] ].
+  [ Add 3 [] [1] ].
 
 End as_evaluated_hospital.
 
@@ -92,7 +92,7 @@ Definition rules : list nested_rule :=
 Definition constraints : list constraint := [].
 
 Definition steps : list step :=
-  [ Add 63 [] [1] ].
+  [ Add 3 [] [1] ].
 
 End as_evaluated_household.
 

@@ -47,7 +47,7 @@ Definition rules : list nested_rule :=
 Definition constraints : list constraint := [].
 
 Definition steps : list step :=
-  [ Add 63 [] [1] ].
+  [ Add 3 [] [1] ].
 
 End household.
 

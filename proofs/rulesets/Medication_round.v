@@ -35,7 +35,7 @@ Definition rules : list nested_rule :=
 Definition constraints : list constraint := [].
 
 Definition steps : list step :=
-  [ Add 54 [] [1] ].
+  [ Add 3 [] [1] ].
 
 End medication_round.
 

@@ -2,7 +2,7 @@
     formula that is unsatisfiable exactly if no context conflicts.  Its clauses are in
     [ConflictClauses.v]. *)
 
-From Coq Require Import List Bool PArith Arith Lia.
+From Coq Require Import List Bool PArith Arith Lia FMapPositive.
 From Sleec Require Import Model Evaluation Equation Entailment Clashes.
 Import ListNotations.
 
@@ -28,12 +28,54 @@ Proof.
   split; [|exact L]. apply nth_In. rewrite clauses_length. pose proof (active_bound r chi R). lia.
 Qed.
 
+(** Names as a set: to look for each among thousands. *)
+Definition set_of (os : list name) : PositiveMap.t unit :=
+  fold_right (fun o m => PositiveMap.add o tt m) (PositiveMap.empty unit) os.
+
+Lemma set_of_find o os : PositiveMap.find o (set_of os) = Some tt <-> In o os.
+Proof.
+  induction os as [|p os IH]; cbn [set_of fold_right].
+  - rewrite PositiveMap.gempty. split; [discriminate|intros []].
+  - destruct (Pos.eq_dec o p) as [->|N].
+    + rewrite PositiveMap.gss. split; [left; reflexivity|reflexivity].
+    + rewrite PositiveMap.gso by exact N. fold (set_of os). rewrite IH. simpl.
+      split; [auto|intros [E|I]; [congruence|exact I]].
+Qed.
+
+(** What a list of literals tells not to do. *)
+Definition to_avoid (ls : list literal) : list name :=
+  flat_map (fun l => match l with Do _ => [] | Avoid o => [o] end) ls.
+
+Lemma in_to_avoid o ls : In o (to_avoid ls) <-> In (Avoid o) ls.
+Proof.
+  unfold to_avoid. rewrite in_flat_map. split.
+  - intros [[p|p] [H I]]; simpl in I; [destruct I | destruct I as [->|[]]; assumption].
+  - intro H. exists (Avoid o). simpl. auto.
+Qed.
+
 (** A name and its negation, where rules oblige both. *)
 Definition direct_clashes (ls : list literal) : list clash :=
-  flat_map (fun l => match l with
-                     | Do o => if listed (Avoid o) ls then [Clash [Do o; Avoid o] []] else []
-                     | Avoid _ => []
-                     end) (nodup literal_eq_dec ls).
+  let avoided := set_of (to_avoid ls) in
+  flat_map (fun o => match PositiveMap.find o avoided with
+                     | Some _ => [Clash [Do o; Avoid o] []]
+                     | None => []
+                     end)
+           (map fst (PositiveMap.elements (set_of (to_do ls)))).
+
+Lemma in_direct_clashes c ls :
+  In c (direct_clashes ls) <->
+  exists o, c = Clash [Do o; Avoid o] [] /\ In (Do o) ls /\ In (Avoid o) ls.
+Proof.
+  unfold direct_clashes. rewrite in_flat_map. split.
+  - intros [o [I J]]. apply in_map_iff in I. destruct I as [[p []] [<- I]]. simpl in J.
+    apply PositiveMap.elements_complete, set_of_find, in_to_do in I.
+    destruct (PositiveMap.find p (set_of (to_avoid ls))) as [[]|] eqn:F; [|destruct J].
+    apply set_of_find, in_to_avoid in F. destruct J as [<-|[]]. eauto.
+  - intros [o [-> [I J]]]. exists o. split.
+    + apply in_map_iff. exists (o, tt). split; [reflexivity|].
+      apply PositiveMap.elements_correct, set_of_find, in_to_do, I.
+    + apply in_to_avoid, set_of_find in J. rewrite J. left. reflexivity.
+Qed.
 
 Definition all_clashes (G : ruleset) (Ks : list constraint) : list clash :=
   direct_clashes (obliged_literals G) ++ clashes Ks (obliged_literals G).
@@ -50,15 +92,13 @@ Lemma direct_clashes_spec chi ls ms :
   existsb (fun c => here chi c && within ms c) (direct_clashes ls) = contradictory ms.
 Proof.
   intro S. apply Bool.eq_true_iff_eq. rewrite existsb_exists, contradictory_spec. split.
-  - intros [c [I X]]. apply in_flat_map in I. destruct I as [[o|o] [I J]]; [|destruct J].
-    destruct (listed (Avoid o) ls); [|destruct J]. destruct J as [<-|[]].
+  - intros [c [I X]]. apply in_direct_clashes in I. destruct I as [o [-> _]].
     unfold here, within in X. simpl in X. rewrite andb_true_r, andb_true_iff in X.
     exists (Do o). simpl. rewrite <- !listed_In. exact X.
   - assert (E : forall o, In (Do o) ms -> In (Avoid o) ms ->
         exists c, In c (direct_clashes ls) /\ here chi c && within ms c = true).
     { intros o I J. exists (Clash [Do o; Avoid o] []). split.
-      - apply in_flat_map. exists (Do o). split; [apply nodup_In, S, I|].
-        rewrite (proj2 (listed_In (Avoid o) ls) (S _ J)). left. reflexivity.
+      - apply in_direct_clashes. exists o. auto.
       - unfold here, within. simpl. rewrite andb_true_r, andb_true_iff, !listed_In. auto. }
     intros [[o|o] [I J]]; eauto.
 Qed.

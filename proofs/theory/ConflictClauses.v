@@ -1,7 +1,7 @@
 (** The conflict check as clauses, linear in the rules ([sleec_verify/checks/conflict.py];
     issue 5, theorem 6): what a certificate of conflict-freeness refutes. *)
 
-From Coq Require Import List Bool PArith Arith Lia.
+From Coq Require Import List Bool PArith Arith Lia FMapPositive.
 From Sleec Require Import Model Evaluation Equation Entailment Clauses Cnf Clashes Conflict.
 Import ListNotations.
 
@@ -49,8 +49,17 @@ Definition clash_clauses (r : reading) (G : ruleset) (Ks : list constraint) (cs 
   | (xs, ys, s) => xs :: map (fun y => [y]) ys ++ built s
   end.
 
+(** The rules that oblige something about one of these names; the others have no part in
+    a clash among them. *)
+Definition concerned (os : list name) (G : ruleset) : ruleset :=
+  let known := set_of os in
+  filter (fun R => existsb (existsb (fun l =>
+            match PositiveMap.find (about l) known with Some _ => true | None => false end))
+          (clauses R)) G.
+
 Definition conflict_clauses (r : reading) (G : ruleset) (Ks : list constraint) : cnf :=
-  clash_clauses r G Ks (all_clashes G Ks).
+  let cs := all_clashes G Ks in
+  clash_clauses r (concerned (map about (flat_map literals cs)) G) Ks cs.
 
 (** ** What the gates are worth *)
 
@@ -286,13 +295,42 @@ Proof.
     exists a. exact T.
 Qed.
 
+Lemma concerned_due r G chi os l :
+  In (about l) os -> In l (due r (concerned os G) chi) <-> In l (due r G chi).
+Proof.
+  intro O. rewrite !in_due. split; intros [R [I H]]; exists R; (split; [|exact H]).
+  - apply filter_In in I. apply I.
+  - destruct H as [_ L]. apply filter_In. split; [exact I|]. apply existsb_exists.
+    exists (clause R (active r chi R)). split.
+    + apply nth_In. rewrite clauses_length. pose proof (active_bound r chi R). lia.
+    + apply existsb_exists. exists l. split; [exact L|].
+      rewrite (proj2 (set_of_find _ _) O). reflexivity.
+Qed.
+
+Lemma concerned_here r G chi cs :
+  one_here r (concerned (map about (flat_map literals cs)) G) chi cs = one_here r G chi cs.
+Proof.
+  unfold one_here. apply Bool.eq_true_iff_eq. rewrite !existsb_exists.
+  enough (E : forall c, In c cs ->
+    within (due r (concerned (map about (flat_map literals cs)) G) chi) c = within (due r G chi) c).
+  { split; intros [c [I H]]; exists c; (split; [exact I|]); [rewrite <- E by exact I|rewrite E by exact I];
+      exact H. }
+  intros c I. unfold within. apply Bool.eq_true_iff_eq. rewrite !forallb_forall.
+  assert (D : forall l, In l (literals c) ->
+    In l (due r (concerned (map about (flat_map literals cs)) G) chi) <-> In l (due r G chi)).
+  { intros l L. apply concerned_due, in_map, in_flat_map. eauto. }
+  split; intros H l L; specialize (H l L); rewrite listed_In in *; apply (D l L), H.
+Qed.
+
 (** Those of all clashes are satisfiable exactly if a context that can be conflicts. *)
 Theorem conflict_clauses_spec r G Ks :
   satisfiable (conflict_clauses r G Ks) <->
   exists chi, possible Ks chi = true /\ conflicts r G Ks chi.
 Proof.
   unfold conflict_clauses. rewrite clash_clauses_spec.
-  split; intros [chi [P C]]; exists chi; split; auto; apply conflicts_iff; exact C.
+  split; intros [chi [P C]]; exists chi; (split; [exact P|]).
+  - rewrite concerned_here in C. apply conflicts_iff. exact C.
+  - rewrite concerned_here. apply conflicts_iff in C. exact C.
 Qed.
 
 (** They are unsatisfiable exactly if no context conflicts. *)

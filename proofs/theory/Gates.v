@@ -46,11 +46,27 @@ Definition start : state := State 1 [[(true, 1%positive)]].
 
 Definition constant (b : bool) : lit := (b, 1%positive).
 
-Definition both (l m : lit) (s : state) : lit * state :=
+Definition gate (l m : lit) (s : state) : lit * state :=
   let g := (next s)~1%positive in
   ((true, g),
    State (Pos.succ (next s))
          ([(false, g); l] :: [(false, g); m] :: [(true, g); negate l; negate m] :: built s)).
+
+(** The value of a constant, if the literal is one. *)
+Definition constant_of (l : lit) : option bool :=
+  match l with
+  | (b, xH) => Some b
+  | _ => None
+  end.
+
+(** A gate, but where one of the two is a constant: there it is worth no more than one of
+    them. *)
+Definition both (l m : lit) (s : state) : lit * state :=
+  match constant_of l, constant_of m with
+  | Some true, _ | _, Some false => (m, s)
+  | Some false, _ | _, Some true => (l, s)
+  | None, None => gate l m s
+  end.
 
 Definition either (l m : lit) (s : state) : lit * state :=
   let (g, s') := both (negate l) (negate m) s in (negate g, s').
@@ -125,16 +141,16 @@ Definition gives_all (s : state) (out : list lit * state)
      (forall x, In x needs -> known f a (true, x)) ->
      forall l, In l ls -> known f a l).
 
-(** ** Both *)
+(** ** A gate *)
 
-Lemma both_extends l m s :
-  older s (snd l) -> older s (snd m) -> extends s (snd (both l m s)).
+Lemma gate_extends l m s :
+  older s (snd l) -> older s (snd m) -> extends s (snd (gate l m s)).
 Proof.
   intros Ol Om. set (g := (next s)~1%positive). split; [|split; [|split]].
   - simpl. lia.
   - intros c C. simpl. auto.
   - intros [T S]. split; [simpl; auto|].
-    assert (U : forall x, older s x -> older (snd (both l m s)) x).
+    assert (U : forall x, older s x -> older (snd (gate l m s)) x).
     { intro x. apply older_mono. simpl. lia. }
     intros c k C K. simpl in C.
     destruct C as [<-|[<-|[<-|C]]]; [| | |apply U; eapply S; eauto];
@@ -166,20 +182,20 @@ Proof.
       rewrite L; [exact T|]. destruct S as [_ S]. eapply S; eauto.
 Qed.
 
-Lemma both_value l m s a :
-  cnf_true a (built (snd (both l m s))) = true ->
-  lit_true a (fst (both l m s)) = lit_true a l && lit_true a m.
+Lemma gate_value l m s a :
+  cnf_true a (built (snd (gate l m s))) = true ->
+  lit_true a (fst (gate l m s)) = lit_true a l && lit_true a m.
 Proof.
-  unfold both. cbn [fst snd built]. unfold cnf_true, clause_true. cbn [forallb existsb].
+  unfold gate. cbn [fst snd built]. unfold cnf_true, clause_true. cbn [forallb existsb].
   rewrite !lit_true_negate, !lit_true_pair.
   destruct (a (next s)~1%positive), (lit_true a l), (lit_true a m); simpl; congruence.
 Qed.
 
-Lemma both_known l m s f a :
-  incl (built (snd (both l m s))) f -> cnf_true a (built (snd (both l m s))) = true ->
-  known f a l -> known f a m -> known f a (fst (both l m s)).
+Lemma gate_known l m s f a :
+  incl (built (snd (gate l m s))) f -> cnf_true a (built (snd (gate l m s))) = true ->
+  known f a l -> known f a m -> known f a (fst (gate l m s)).
 Proof.
-  intros I A L M. unfold known. rewrite both_value by exact A. unfold known in L, M.
+  intros I A L M. unfold known. rewrite gate_value by exact A. unfold known in L, M.
   set (g := (next s)~1%positive).
   assert (N : forall k, In [(false, g); k] f -> derives f (negate k) -> derives f (false, g)).
   { intros k K D. apply (unit_clause f _ _ K); [left; reflexivity|].
@@ -297,22 +313,50 @@ Proof. intros G S. apply (G S). Qed.
 Lemma gives_all_extends s l s1 v n : gives_all s (l, s1) v n -> sound s -> extends s s1.
 Proof. intros G S. apply (G S). Qed.
 
-Lemma both_gives s l m s1 v w n :
-  gives s (l, s1) v n -> gives s (m, s1) w n -> gives s (both l m s1) (fun a => v a && w a) n.
+Lemma gate_gives s l m s1 v w n :
+  gives s (l, s1) v n -> gives s (m, s1) w n -> gives s (gate l m s1) (fun a => v a && w a) n.
 Proof.
-  intros G H. pose proof (both_extends l m s1) as BE.
-  pose proof (both_value l m s1) as BV. pose proof (both_known l m s1) as BK.
-  destruct (both l m s1) as [g s2] eqn:B. cbn [fst snd] in *. intro S.
+  intros G H. pose proof (gate_extends l m s1) as BE.
+  pose proof (gate_value l m s1) as BV. pose proof (gate_known l m s1) as BK.
+  destruct (gate l m s1) as [g s2] eqn:B. cbn [fst snd] in *. intro S.
   destruct (G S) as [E [Ol [Vl Kl]]]. destruct (H S) as [_ [Om [Vm Km]]].
   specialize (BE Ol Om).
   split; [eapply extends_trans; eauto|]. split; [|split].
-  - unfold both in B. injection B as <- <-. simpl. lia.
+  - unfold gate in B. injection B as <- <-. simpl. lia.
   - intros a A. rewrite BV by exact A.
     rewrite Vl, Vm by (eapply extends_true; eauto). reflexivity.
   - intros f a I A N.
     assert (I1 : incl (built s1) f) by (eapply incl_extends; eauto).
     assert (A1 : cnf_true a (built s1) = true) by (eapply extends_true; eauto).
     apply BK; auto.
+Qed.
+
+Lemma constant_of_spec l b s a :
+  constant_of l = Some b -> sound s -> cnf_true a (built s) = true -> lit_true a l = b.
+Proof.
+  intros C S A. rewrite cnf_true_spec in A. specialize (A _ (proj1 S)).
+  destruct l as [c [x|x|]]; try discriminate C. injection C as ->.
+  simpl in A. unfold lit_true in *. simpl in *. destruct b, (a 1%positive); auto; discriminate.
+Qed.
+
+Lemma both_gives s l m s1 v w n :
+  gives s (l, s1) v n -> gives s (m, s1) w n -> gives s (both l m s1) (fun a => v a && w a) n.
+Proof.
+  intros G H.
+  assert (L : forall b, constant_of l = Some b -> gives s (if b then m else l, s1) (fun a => v a && w a) n).
+  { intros b C. destruct b; eapply gives_value_on; try exact G; try exact H; cbn beta; intros S a A;
+      destruct (G S) as [E [_ [V _]]];
+      rewrite <- (V a A), (constant_of_spec _ _ _ a C (extends_sound _ _ E S) A); reflexivity. }
+  assert (M : forall b, constant_of m = Some b -> gives s (if b then l else m, s1) (fun a => v a && w a) n).
+  { intros b C. destruct b; eapply gives_value_on; try exact G; try exact H; cbn beta; intros S a A;
+      destruct (H S) as [E [_ [W _]]];
+      rewrite <- (W a A), (constant_of_spec _ _ _ a C (extends_sound _ _ E S) A);
+      rewrite ?andb_true_r, ?andb_false_r; reflexivity. }
+  unfold both. destruct (constant_of l) as [[|]|].
+  - exact (L true eq_refl).
+  - destruct (constant_of m) as [[|]|]; [exact (L false eq_refl)|exact (M false eq_refl)|exact (L false eq_refl)].
+  - destruct (constant_of m) as [[|]|]; [exact (M true eq_refl)|exact (M false eq_refl)|].
+    apply gate_gives; assumption.
 Qed.
 
 Lemma negate_gives s l s1 v n :

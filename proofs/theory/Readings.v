@@ -238,6 +238,31 @@ Proof.
     split; apply guard_true; auto; lia.
 Qed.
 
+(** C0, not all of C1, …, C(j-1), and Cj ∧ ¬C(j+1) ∧ … ∧ ¬Cn: where clause j is the last
+    true one, and the cascade stops before it. *)
+Definition apart (R : rule) (j : nat) : formula fact :=
+  And (Not (conj (firstn (j - 1) (conditions R)))) (guard Priority R j).
+
+Lemma apart_if_differ chi R k j :
+  S k < j -> j <= length (hedges R) -> eval chi (differ R k j) = true -> eval chi (apart R j) = true.
+Proof.
+  intros L B D. unfold differ, apart in *. cbn [eval] in *. apply andb_true_iff in D.
+  destruct D as [C P]. rewrite P, andb_true_r. apply negb_true_iff, not_true_is_false.
+  rewrite eval_conj, forallb_forall. intro A.
+  apply guard_true in C; [|lia]. destruct C as [_ C].
+  assert (X : forall bs i, i < length bs -> longest_prefix bs = i ->
+              ~ forallb id (firstn (S i) bs) = true).
+  { clear. induction bs as [|[|] bs IH]; intros i I Q; simpl in *; [lia| |congruence].
+    subst i. intro F. apply (IH (longest_prefix bs)); [lia|reflexivity|exact F]. }
+  apply (X (truths chi R) k).
+  - unfold truths. rewrite map_length. lia.
+  - exact C.
+  - rewrite <- eval_conditions, firstn_map, forallb_map, forallb_forall. intros c I.
+    apply A. replace (S k) with (min (S k) (j - 1)) in I by lia.
+    rewrite <- firstn_firstn in I.
+    rewrite <- (firstn_skipn (S k) (firstn (j - 1) (conditions R))). apply in_app_iff. left. exact I.
+Qed.
+
 (** The readings agree exactly when, for every two clauses with a third between,
     they oblige the same or no context is as [differ] says. *)
 Theorem readings_agree_iff R :

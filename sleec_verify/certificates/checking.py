@@ -17,10 +17,10 @@ from sleec_runtime.model import READINGS
 from sleec_verify import __version__
 from sleec_verify.certificates.making import Rebuilt, rebuild
 from sleec_verify.certificates.manifest import check_json, manifest
+from sleec_verify.certificates.tying import Tied, tie
 from sleec_verify.cone import Cones
-from sleec_verify.finding import Proved, Witness
+from sleec_verify.finding import Witness
 from sleec_verify.replay import replays
-from sleec_verify.theory.oracle import NoAnswer, NotRefuted
 from sleec_verify.timed.scope import speaks_of_traces
 
 if TYPE_CHECKING:
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from sleec_verify.certificates.checker import Checker
     from sleec_verify.certificates.manifest import Shown
     from sleec_verify.finding import Finding
-    from sleec_verify.theory.proving import What
     from sleec_verify.timed.scope import Untimed
 
 
@@ -37,15 +36,6 @@ class Problem(NamedTuple):
 
     reason: str
     message: str
-
-
-@dataclass(frozen=True)
-class Tied:
-    """Whether the verdict of a check is proved, from the rules as they are read; if not, why that was not looked at."""
-
-    check: str
-    proved: bool
-    reason: str | None = None
 
 
 @dataclass(frozen=True)
@@ -95,32 +85,14 @@ def check_certificate(
     examined = _Examined(read, claimed, Path(folder), judge)
     problems = [*examined.files(), *examined.contents(progress)]
     tied: list[Tied] = []
-    for check in () if problems else examined.to_tie():
-        try:
-            tied.append(_tie(check, read, claimed.domain, oracle))
-        except NotRefuted as error:
-            problems.append(Problem("theory", f"the verdict of {check} is not what is proved of the rules: {error}"))
+    for one in () if problems else tie(examined.shown, read, claimed.domain, oracle):
+        if isinstance(one, Tied):
+            tied.append(one)
+        else:
+            problems.append(Problem("theory", str(one)))
     if problems:
         raise CertificateRefused(problems, _hint(claimed))
     return Confirmed(read, tuple(examined.shown), judge, (Path(folder) / SIGNATURE).exists(), tuple(tied))
-
-
-def _tie(check: What, ruleset: Ruleset, domain: str | None, oracle: Path | None) -> Tied:
-    """Have the oracle prove a verdict in each domain. Raises NotRefuted where it does not."""
-    from sleec_verify.theory.proving import not_modelled, prove
-
-    if oracle is None:
-        return Tied(check, False, "the oracle is not built (make proofs)")
-    domains = ruleset.domains if domain is None else (domain,)
-    for part in [ruleset.in_domain(name) for name in domains] or [ruleset]:
-        reason = not_modelled(part)
-        if reason is not None:
-            return Tied(check, False, reason)
-        try:
-            prove(oracle, part, check, MOST_SECONDS)
-        except NoAnswer as error:
-            return Tied(check, False, str(error.message))
-    return Tied(check, True)
 
 
 def _check_options(ruleset: Ruleset, claimed: Manifest, domain: str | None, reading: str | None) -> None:
@@ -160,15 +132,6 @@ class _Examined:
         self._judge = judge
         self._cones: dict[str, Cones] = {}
         self.shown: list[Shown] = []
-
-    def to_tie(self) -> Iterator[What]:
-        """The checks of `WHATS` that are proved, by a proof."""
-        from sleec_verify.theory.proving import WHATS
-
-        shown = {one.result.name: one for one in self.shown}
-        for check in WHATS:
-            if isinstance(shown[check].result.verdict, Proved) and shown[check].files:
-                yield check
 
     # Files ----------------------------------------------------------------------------------------------------
 
@@ -292,10 +255,6 @@ class _Examined:
             self._cones[domain] = Cones(self._ruleset.in_domain(domain) if domain else self._ruleset)
         return self._cones[domain]
 
-
-MOST_SECONDS = 60.0
-"""How long the oracle may take over one question. Many obligations that exclude one another take it long, and chains of
-hundreds of hedges."""
 
 _WITNESS = ("witness", "timeline")
 _FRACTION = re.compile(r"-?[0-9]{1,200}/[0-9]{1,200}")

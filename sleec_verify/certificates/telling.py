@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from sleec_runtime.errors import CertificateRefused
     from sleec_runtime.model import Ruleset
     from sleec_verify.certificates.checker import Checker
-    from sleec_verify.certificates.checking import Tied
     from sleec_verify.certificates.manifest import Shown
+    from sleec_verify.certificates.tying import Tied
 
 SHOWN_BY = {
     "proof": "",

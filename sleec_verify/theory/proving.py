@@ -1,30 +1,26 @@
 """Verdicts, from the rules on by what is proved: that no context conflicts, and that no rule depends on the reading.
 
-For each the oracle makes the theory's clauses and judges the steps that refute them (`to_refute` and `certified`,
-`reading_to_refute` and `certified_reading` in `proofs/oracle/Certified.v`). What is found here (by a solver, and by
-`sleec_verify.certificates.elaboration`) is not trusted.
+For each the oracle makes the theory's clauses and judges the steps that refute them (`ask` in
+`proofs/oracle/Certified.v`). What is found here (by a solver, and by `sleec_verify.certificates.elaboration`) is not
+trusted.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Literal
+from types import TracebackType
 
 from sleec_runtime.model import Ruleset
 from sleec_verify.certificates.elaboration import NotFollowing
 from sleec_verify.certificates.refutation import refute
 from sleec_verify.theory.boolean import Boolean
 from sleec_verify.theory.numbered import Numbered
-from sleec_verify.theory.oracle import NotRefuted, answers
+from sleec_verify.theory.oracle import NoAnswer, NotRefuted, Oracle
 from sleec_verify.timed.scope import speaks_of_traces
 
-What = Literal["conflict", "reading"]
-"""The check whose verdict is proved."""
-
-WHATS: tuple[What, ...] = ("conflict", "reading")
-
-_WORDS: dict[What, str] = {"conflict": "", "reading": "-of-reading"}
+WHATS = ("conflict", "reading")
+"""The checks whose verdicts are proved."""
 
 Step = tuple[int, tuple[int, ...], tuple[int, ...]]
 """The number of a clause, its literals, and the clauses that it follows from."""
@@ -34,24 +30,76 @@ def not_modelled(ruleset: Ruleset) -> str | None:
     """Why the theory does not speak of a ruleset, or None."""
     if speaks_of_traces(ruleset):
         return "the theory has no times, and nothing that is done happens in it"
-    compared = {name for name in Boolean(ruleset).compared if ruleset.measures[name].kind == "integer"}
-    if compared:
-        return f"whole numbers are compared with one another ({', '.join(sorted(compared))})"
-    return None
+    whole = {name for name, measure in ruleset.measures.items() if measure.kind == "integer"}
+    compared = sorted(whole & Boolean(ruleset).compared) if whole else []
+    return f"whole numbers are compared with one another ({', '.join(compared)})" if compared else None
 
 
-def steps_for(program: Path, numbered: Numbered, what: What = "conflict", seconds: float | None = None) -> list[Step]:
-    """A refutation of the theory's clauses. Raises NotRefuted where they have a model, NoAnswer as `answers` does."""
-    words = answers(program, [numbered.line, f"clauses{_WORDS[what]}"], seconds)[1].split()
-    clauses: list[tuple[int, ...]] = []
-    clause: list[int] = []
-    for word in words:
-        if word == "0":
-            clauses.append(tuple(clause))
-            clause = []
-        else:
-            clause.append(int(word))
-    # The first clause of each says that one of some questions is answered yes. Most are refuted one by one at once.
+class Theory:
+    """What is proved of a ruleset, as it is in one domain. One oracle answers all questions; after one that it does not
+    answer, another begins."""
+
+    def __init__(self, program: Path, ruleset: Ruleset, seconds: float | None = None) -> None:
+        """`seconds` is how long the oracle may take for a formula, and for judging its refutation."""
+        self.numbered = Numbered(Boolean(ruleset).ruleset)
+        self._program = program
+        self._seconds = seconds
+        self._oracle: Oracle | None = None
+
+    def prove(self, question: str) -> None:
+        """Have it proved that the answer to a question is no: `conflict`, that no context conflicts; `reading`, that no
+        rule obliges something else under the other reading in a context that can be.
+
+        Raises NotRefuted where it is not, NoAnswer where the oracle gives none.
+        """
+        steps = self.steps_for(question)
+        said = " ".join(f"a {number} {_joined(clause)}0 {_joined(hints)}0" for number, clause, hints in steps)
+        if self._ask(f"refuted {said}") != "yes":
+            raise NotRefuted("what was found to refute the clauses of the theory does not")
+
+    def steps_for(self, question: str) -> list[Step]:
+        """A refutation of the theory's clauses. Raises NotRefuted where they have a model, NoAnswer as `prove` does."""
+        return _refutation(_clauses(self._ask(f"formula {question}")))
+
+    def _ask(self, question: str) -> str:
+        try:
+            if self._oracle is None:
+                self._oracle = Oracle(self._program, self._seconds)
+                self._oracle.ask(self.numbered.line)
+            return self._oracle.ask(question)
+        except NoAnswer:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """End the oracle, if there is one at work."""
+        if self._oracle is not None:
+            self._oracle.close()
+            self._oracle = None
+
+    def __enter__(self) -> Theory:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        self.close()
+
+
+def _clauses(text: str) -> list[tuple[int, ...]]:
+    numbers = list(map(int, text.split()))
+    clauses = []
+    start = 0
+    while start < len(numbers):
+        end = numbers.index(0, start)
+        clauses.append(tuple(numbers[start:end]))
+        start = end + 1
+    return clauses
+
+
+def _refutation(clauses: list[tuple[int, ...]]) -> list[Step]:
+    if not clauses[0]:
+        # There is nothing to ask.
+        return [(len(clauses) + 1, (), (1,))]
+    # The first clause says that one of some questions is answered yes. Most are refuted one by one at once.
     questions = [(literal,) for literal in dict.fromkeys(clauses[0])]
     try:
         found, refuted = refute(clauses, questions)
@@ -67,9 +115,8 @@ def steps_for(program: Path, numbered: Numbered, what: What = "conflict", second
         return steps[-1][0]
 
     for place, literals in enumerate(clauses):
-        once = tuple(dict.fromkeys(literals))
-        if once != literals:
-            numbers[place] = add(once, [place + 1])
+        if len(set(literals)) < len(literals):
+            numbers[place] = add(tuple(dict.fromkeys(literals)), [place + 1])
     for step in found:
         numbers.append(add(step.literals, (numbers[hint] for hint in step.hints)))
     no = []
@@ -84,16 +131,5 @@ def steps_for(program: Path, numbered: Numbered, what: What = "conflict", second
     return steps
 
 
-def prove(program: Path, ruleset: Ruleset, what: What = "conflict", seconds: float | None = None) -> None:
-    """Have it proved of a ruleset, as it is in one domain, that no context conflicts, or that no rule obliges something
-    else under the other reading in a context that can be.
-
-    Raises NotRefuted where it is not, NoAnswer where the oracle gives none, in `seconds` for each of two questions.
-    """
-    numbered = Numbered(Boolean(ruleset).ruleset)
-    words = (
-        f"a {number} {' '.join(map(str, (*literals, 0, *hints, 0)))}"
-        for number, literals, hints in steps_for(program, numbered, what, seconds)
-    )
-    if answers(program, [numbered.line, f"refuted{_WORDS[what]} {' '.join(words)}"], seconds)[1] != "yes":
-        raise NotRefuted("what was found to refute the clauses of the theory does not")
+def _joined(numbers: Iterable[int]) -> str:
+    return "".join(f"{number} " for number in numbers)

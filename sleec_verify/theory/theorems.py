@@ -21,7 +21,7 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.theory.boolean import Boolean
 from sleec_verify.theory.numbered import Kind, Numbered
 from sleec_verify.theory.oracle import NotRefuted, built
-from sleec_verify.theory.proving import Step, not_modelled, steps_for
+from sleec_verify.theory.proving import Step, Theory, not_modelled
 
 STEPS = "Definition steps"
 """What comes from a solver begins with this."""
@@ -178,7 +178,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if reason is None:
                 try:
                     for module, part in modules(ruleset).items():
-                        steps[module] = steps_for(program, Numbered(Boolean(part).ruleset))
+                        with Theory(program, part) as theory:
+                            steps[module] = theory.steps_for("conflict")
                 except NotRefuted:
                     reason = "it may conflict"
             if reason is not None:

@@ -13,11 +13,12 @@ from hypothesis import HealthCheck, given, settings
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset
-from sleec_verify.certificates import checking
+from sleec_verify.certificates import tying
 from sleec_verify.certificates.checker import IN_PYTHON
-from sleec_verify.certificates.checking import Confirmed, Tied, check_certificate
+from sleec_verify.certificates.checking import Confirmed, check_certificate
 from sleec_verify.certificates.directory import write_folder
 from sleec_verify.certificates.making import certify
+from sleec_verify.certificates.tying import Tied
 from sleec_verify.checks import run_checks
 from sleec_verify.cli import run
 from sleec_verify.conformance.rulesets import rulesets
@@ -25,8 +26,8 @@ from sleec_verify.finding import Proved, Unknown
 from sleec_verify.theory import oracle as oracle_module
 from sleec_verify.theory.boolean import Boolean
 from sleec_verify.theory.numbered import Numbered
-from sleec_verify.theory.oracle import NoAnswer, NotRefuted, answers
-from sleec_verify.theory.proving import WHATS, What, not_modelled, prove, steps_for
+from sleec_verify.theory.oracle import NoAnswer, NotRefuted, Oracle, answers
+from sleec_verify.theory.proving import WHATS, Theory, not_modelled
 from tests.proofs.compared import random_cases
 
 pytestmark = pytest.mark.timeout(600)
@@ -36,7 +37,21 @@ RULES = "RULE a\nWHEN T THEN X\nUNLESS c IN WHICH CASE Y\nRULE b\nWHEN T AND c T
 CONFLICTING = "RULE a\nWHEN T THEN X\nRULE b\nWHEN T AND c THEN NOT X\n"
 
 
-def agree(oracle: Path, ruleset: Ruleset, what: What) -> bool:
+def prove(oracle: Path, ruleset: Ruleset, what: str) -> None:
+    with Theory(oracle, ruleset) as theory:
+        theory.prove(what)
+
+
+def steps_for(oracle: Path, ruleset: Ruleset, what: str) -> list[str]:
+    """The steps that refute the formula, as the oracle is told them."""
+    with Theory(oracle, ruleset) as theory:
+        return [
+            f"a {number} {' '.join(map(str, (*literals, 0, *hints, 0)))}"
+            for number, literals, hints in theory.steps_for(what)
+        ]
+
+
+def agree(oracle: Path, ruleset: Ruleset, what: str) -> bool:
     """Whether the check and the theory say the same of whether all is well; returns what."""
     verdict = run_checks(ruleset, [what])[0].verdict
     assert not isinstance(verdict, Unknown)
@@ -51,7 +66,7 @@ def agree(oracle: Path, ruleset: Ruleset, what: What) -> bool:
 
 
 @pytest.mark.parametrize("what", WHATS)
-def test_the_theory_and_the_check_find_the_same(oracle: Path, what: What) -> None:
+def test_the_theory_and_the_check_find_the_same(oracle: Path, what: str) -> None:
     found = [agree(oracle, ruleset, what) for ruleset, _ in random_cases(7, 150, each=1)]
     assert 20 < sum(found) < 130
 
@@ -66,22 +81,27 @@ def test_with_measures_and_domains_too(oracle: Path, ruleset: Ruleset) -> None:
 
 def test_no_step_is_believed(oracle: Path) -> None:
     """Steps of other rules, none, or too few prove nothing."""
-    line = Numbered(Boolean(parse(RULES)).ruleset)
-    other = Numbered(Boolean(parse(CONFLICTING)).ruleset)
-    steps = [
-        f"a {number} {' '.join(map(str, (*literals, 0, *hints, 0)))}"
-        for number, literals, hints in steps_for(oracle, line)
-    ]
+    line = Numbered(Boolean(parse(RULES)).ruleset).line
+    other = Numbered(Boolean(parse(CONFLICTING)).ruleset).line
+    steps = steps_for(oracle, parse(RULES), "conflict")
     whole = f"refuted {' '.join(steps)}"
-    assert answers(oracle, [line.line, whole])[1] == "yes"
-    for question in (
+    wrong = [
         "refuted",
         f"refuted {' '.join(steps[:-1])}",
         "refuted a 99 0 1 0",
         f"{whole[:7]} d 1 0 {whole[8:]}",
-    ):
-        assert answers(oracle, [line.line, question])[1] == "no"
-    assert answers(oracle, [other.line, whole])[1] == "no"
+    ]
+    asked = [line, "formula conflict", whole, *wrong, other, "formula conflict", whole]
+    said = answers(oracle, asked)
+    assert said[2:7] == ["yes", "no", "no", "no", "no"]
+    assert said[-1] == "no"
+    # Other rules have no formula yet.
+    with Oracle(oracle) as fresh:
+        fresh.ask(line)
+        fresh.ask("formula conflict")
+        fresh.ask(other)
+        with pytest.raises(NoAnswer, match="steps before a formula"):
+            fresh.ask(whole)
 
 
 def checked(folder: Path, rules: Path | str, oracle: Path | None) -> Confirmed:
@@ -108,17 +128,17 @@ def test_where_rules_conflict_there_is_nothing_to_tie(oracle: Path, tmp_path: Pa
 
 
 @pytest.mark.parametrize("what", WHATS)
-def test_conditions_said_twice(oracle: Path, what: What) -> None:
+def test_conditions_said_twice(oracle: Path, what: str) -> None:
     """Clauses come to say a literal twice, and are no units to the checker."""
     text = "RULE a\nWHEN T THEN X\nUNLESS c AND c IN WHICH CASE Y\nUNLESS c AND (d OR d) IN WHICH CASE Z\n"
     rules = text + "RULE b\nWHEN T AND (c OR c) AND (c AND c) THEN NOT X\n"
-    clauses = answers(oracle, [Numbered(Boolean(parse(rules)).ruleset).line, "clauses"])[1].split(" 0 ")
+    clauses = answers(oracle, [Numbered(Boolean(parse(rules)).ruleset).line, "formula conflict"])[1].split(" 0 ")
     assert any(len(set(clause.split())) < len(clause.split()) for clause in clauses)
     assert agree(oracle, parse(rules), what)
 
 
 @pytest.mark.parametrize("what", WHATS)
-def test_assumptions_that_nothing_satisfies(oracle: Path, what: What) -> None:
+def test_assumptions_that_nothing_satisfies(oracle: Path, what: str) -> None:
     rules = CONFLICTING + "UNLESS d IN WHICH CASE X\nUNLESS e IN WHICH CASE Y\n"
     prove(oracle, parse(f"{rules}ASSUME c\nASSUME NOT c\n"), what)
     with pytest.raises(NotRefuted):
@@ -138,13 +158,10 @@ def test_the_reading_is_tied_with_assumptions_and_chains_in_chains(oracle: Path)
     assert agree(oracle, parse(READ_ALIKE), "reading")
     assert not agree(oracle, parse(READ_ALIKE.replace("ASSUME NOT (d AND NOT c)\n", "")), "reading")
     # Steps for the one formula are none for the other.
-    line = Numbered(Boolean(parse(READ_ALIKE)).ruleset)
-    steps = " ".join(
-        f"a {number} {' '.join(map(str, (*literals, 0, *hints, 0)))}"
-        for number, literals, hints in steps_for(oracle, line, "reading")
-    )
-    assert answers(oracle, [line.line, f"refuted-of-reading {steps}"])[1] == "yes"
-    assert answers(oracle, [line.line, f"refuted {steps}", "refuted-of-reading"])[1:] == ["no", "no"]
+    line = Numbered(Boolean(parse(READ_ALIKE)).ruleset).line
+    steps = f"refuted {' '.join(steps_for(oracle, parse(READ_ALIKE), 'reading'))}"
+    said = answers(oracle, [line, "formula reading", steps, "formula conflict", steps, "formula reading", steps])
+    assert said[2::2] == ["yes", "no", "yes"]
 
 
 @pytest.mark.parametrize(
@@ -181,7 +198,7 @@ def program(folder: Path, body: str) -> Path:
 def test_an_oracle_that_does_not_answer(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, body: str, reason: str
 ) -> None:
-    monkeypatch.setattr(checking, "MOST_SECONDS", 0.2)
+    monkeypatch.setattr(tying, "MOST_SECONDS", 0.2)
     (tied,) = checked(tmp_path / "c", RULES, program(tmp_path, body)).tied
     assert not tied.proved
     assert reason in (tied.reason or "")
@@ -193,11 +210,18 @@ def test_an_oracle_that_does_not_answer(
 )
 def test_a_verdict_that_is_not_proved_of_the_rules_is_refused(tmp_path: Path, clauses: str) -> None:
     body = (
-        f'while read word rest; do case $word in rules) echo ok;; clauses) echo "{clauses}";; *) echo no;; esac; done'
+        f'while read word rest; do case $word in rules) echo ok;; formula) echo "{clauses}";; *) echo no;; esac; done'
     )
     with pytest.raises(CertificateRefused) as refusal:
         checked(tmp_path / "c", RULES, program(tmp_path, body))
     assert [reason for reason, _ in refusal.value.problems] == ["theory"]
+
+
+@pytest.mark.parametrize("body", ["exec sleep 30", "exec yes"])
+def test_lines_longer_than_a_pipe_holds(tmp_path: Path, body: str) -> None:
+    """Whether it does not read what it is told, or does not wait for it: it is not waited for in vain."""
+    with Oracle(program(tmp_path, body), 0.3) as oracle, pytest.raises(NoAnswer, match="did not answer in 0.3 s"):
+        oracle.ask("at " * 1_000_000)
 
 
 def test_an_oracle_that_is_no_program(tmp_path: Path) -> None:
