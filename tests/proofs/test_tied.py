@@ -123,8 +123,9 @@ def test_shipped_rulesets_are_tied(oracle: Path, tmp_path: Path, name: str, chec
     assert tied == tuple(Tied(check, True) for check in checks)
 
 
-def test_where_rules_conflict_there_is_nothing_to_tie(oracle: Path, tmp_path: Path) -> None:
-    assert checked(tmp_path / "c", CONFLICTING, oracle).tied == ()
+def test_where_rules_conflict_a_situation_shows_it(oracle: Path, tmp_path: Path) -> None:
+    """That one of them conflicts wherever it is triggered is something else."""
+    assert checked(tmp_path / "c", CONFLICTING, oracle).tied == (Tied("vacuous-conflict", True),)
 
 
 @pytest.mark.parametrize("what", ["conflict", "reading"])
