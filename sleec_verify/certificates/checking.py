@@ -63,8 +63,8 @@ def check_certificate(
 ) -> Confirmed:
     """Check the certificate in `folder` against a ruleset: its bytes, its verdicts, computed again, the formulas, built
     again, the refutations of these, judged by `judge`, and the witnesses, replayed. `domain` and `reading`, if they
-    are given, and the public `key` must be those of the certificate. Of what rests on refutations, the `oracle`, if there
-    is one, makes the formula once more, by what is proved, and judges its refutation.
+    are given, and the public `key` must be those of the certificate. Of what rests on refutations, the `oracle`, if
+    there is one, makes the formula once more, by what is proved, and judges its refutation.
 
     Raises CertificateRefused with all the reasons that are found.
     """

@@ -53,8 +53,8 @@ RESTING: Mapping[str, tuple[type, ...]] = {
     "concern": (Proved,),
     "purpose": (Refuted,),
 }
-"""The checks, with the verdicts that rest on refutations. `vacuous-conflict` passes over rules that nothing triggers, so
-it may rest on some where it is proved, too. All others say what situations or the text show."""
+"""The checks, with the verdicts that rest on refutations. `vacuous-conflict` passes over rules that nothing triggers,
+so it may rest on some where it is proved. All others say what situations or the text show."""
 
 
 def tie(shown: Iterable[Shown], ruleset: Ruleset, domain: str | None, oracle: Path | None) -> Iterator[Tied | NotTied]:
