@@ -7,6 +7,7 @@ Print Assumptions Certified.default_as_hedge.
 Print Assumptions Certified.certified_never_conflicts.
 Print Assumptions Certified.certified_reads_alike.
 Print Assumptions Findings.deciding_due.
+Print Assumptions Findings.clause_guard_spec.
 Print Assumptions Findings.certified_findings.
 Print Assumptions Findings.certified_dead_rule.
 Print Assumptions Findings.certified_dead_hedge.

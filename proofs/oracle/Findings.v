@@ -119,7 +119,7 @@ Fixpoint clause_guard (r : reading) (g : condition) (c : chain) (n : nat) : cond
          end) 1 k hs
   end.
 
-Lemma clause_guard_spec r chi c : forall g n,
+Theorem clause_guard_spec r chi c : forall g n,
   satisfies chi (clause_guard r g c n) = satisfies chi g && (deciding r chi c =? n).
 Proof.
   induction c as [ls hs IH] using chain_induction. intros g n. rewrite deciding_chain.
@@ -448,62 +448,63 @@ Qed.
 
 (** ** What that says of each check *)
 
-Section Each.
+(** Some steps are accepted, whoever made them. *)
+Definition refuted (r : reading) (Rs : list nested_rule) (Ks : list constraint)
+    (fs : list finding) : Prop :=
+  exists steps, accepted (findings_to_refute r Rs Ks fs) steps = true.
 
-Variables (r : reading) (Rs : list nested_rule) (Ks : list constraint)
-  (fs : list finding) (steps : list Checker.step).
-Hypothesis C : accepted (findings_to_refute r Rs Ks fs) steps = true.
+Lemma refuted_holds r Rs Ks fs f : refuted r Rs Ks fs -> In f fs -> holds r Rs Ks f.
+Proof. intros [steps C] I. exact (proj2 (certified_findings r Rs Ks fs steps C f I)). Qed.
 
 (** The rule is triggered in no context that can be. *)
-Corollary certified_dead_rule n :
-  In (DeadRule n) fs ->
+Corollary certified_dead_rule r Rs Ks fs n :
+  refuted r Rs Ks fs -> In (DeadRule n) fs ->
   forall R chi, In R Rs -> nested_label R = n -> possible Ks chi = true ->
   nested_triggered chi R = false.
 Proof.
-  intros I R chi J L. apply (proj2 (certified_findings r Rs Ks fs steps C _ I) R chi J).
+  intros C I R chi J L. apply (refuted_holds _ _ _ _ _ C I R chi J).
   apply Pos.eqb_eq, L.
 Qed.
 
 (** The hedge decides in no context that can be. *)
-Corollary certified_dead_hedge n i :
-  In (DeadHedge n i) fs ->
+Corollary certified_dead_hedge r Rs Ks fs n i :
+  refuted r Rs Ks fs -> In (DeadHedge n i) fs ->
   forall R chi, In R Rs -> nested_label R = n -> possible Ks chi = true ->
   nested_triggered chi R = true -> deciding r chi (response R) <> i.
 Proof.
-  intros I R chi J L. apply (proj2 (certified_findings r Rs Ks fs steps C _ I) R chi J).
+  intros C I R chi J L. apply (refuted_holds _ _ _ _ _ C I R chi J).
   apply Pos.eqb_eq, L.
 Qed.
 
 (** Without the rule, every context that can be obliges the same. *)
-Corollary certified_redundant_rule n ns :
-  In (RedundantRule n ns) fs ->
+Corollary certified_redundant_rule r Rs Ks fs n ns :
+  refuted r Rs Ks fs -> In (RedundantRule n ns) fs ->
   forall chi, possible Ks chi = true ->
   same_literals (all_due r chi Rs) (all_due r chi (others n Rs)).
-Proof. intro I. exact (proj2 (certified_findings r Rs Ks fs steps C _ I)). Qed.
+Proof. intros C I. exact (refuted_holds _ _ _ _ _ C I). Qed.
 
 (** Without the hedge, too. *)
-Corollary certified_redundant_hedge n i ns :
-  In (RedundantHedge n i ns) fs ->
+Corollary certified_redundant_hedge r Rs Ks fs n i ns :
+  refuted r Rs Ks fs -> In (RedundantHedge n i ns) fs ->
   forall chi, possible Ks chi = true ->
   same_literals (all_due r chi Rs) (all_due r chi (lacking_hedge n i Rs)).
-Proof. intro I. exact (proj2 (certified_findings r Rs Ks fs steps C _ I)). Qed.
+Proof. intros C I. exact (refuted_holds _ _ _ _ _ C I). Qed.
 
 (** Wherever the rule is triggered, not all that is due can be done with all constraints
     kept. *)
-Corollary certified_vacuous_conflict n ns ks :
-  In (VacuousConflict n ns ks) fs ->
+Corollary certified_vacuous_conflict r Rs Ks fs n ns ks :
+  refuted r Rs Ks fs -> In (VacuousConflict n ns ks) fs ->
   forall R chi, In R Rs -> nested_label R = n -> possible Ks chi = true ->
   nested_triggered chi R = true -> ~ jointly_possible Ks chi (all_due r chi Rs).
 Proof.
-  intros I R chi J L. apply (proj2 (certified_findings r Rs Ks fs steps C _ I) R chi J).
+  intros C I R chi J L. apply (refuted_holds _ _ _ _ _ C I R chi J).
   apply Pos.eqb_eq, L.
 Qed.
 
 (** No context can be. *)
-Corollary certified_no_situation : In NoSituation fs -> forall chi, possible Ks chi = false.
-Proof. intro I. exact (proj2 (certified_findings r Rs Ks fs steps C _ I)). Qed.
-
-End Each.
+Corollary certified_no_situation r Rs Ks fs :
+  refuted r Rs Ks fs -> In NoSituation fs -> forall chi, possible Ks chi = false.
+Proof. intros C I. exact (refuted_holds _ _ _ _ _ C I). Qed.
 
 (** * One question after the other *)
 

@@ -120,6 +120,38 @@ def test_with_measures_and_domains_too(oracle: Path, ruleset: Ruleset) -> None:
         assert all(one == Tied(check, True) for check, one in tied(oracle, ruleset, list(FOUND)).items())
 
 
+@pytest.mark.parametrize("check", FOUND)
+def test_the_examples_of_the_checks(oracle: Path, check: str) -> None:
+    for kind in CHECKS[check].kinds:
+        assert tied(oracle, parse(kind.bad), [check]) == {check: Tied(check, True)}
+        assert all(one.proved for one in tied(oracle, parse(kind.good), [check]).values() if isinstance(one, Tied))
+
+
+def test_numbers_that_leave_no_room(oracle: Path) -> None:
+    rules = (
+        "MEASURE Age: integer\nMEASURE Heat: number\nMEASURE Cold: number\n"
+        "WHEN T AND Age > 2 AND Age < 3 THEN X\n"
+        "WHEN T THEN X\nUNLESS Heat < Cold AND Cold < Heat IN WHICH CASE Y\n"
+        "UNLESS Age > 4 AND Age <= 4 IN WHICH CASE Z\n"
+    )
+    found = tied(oracle, parse(rules), list(FOUND))
+    assert found.keys() >= {"dead-rule", "dead-hedge", "redundant-rule"}
+    assert all(one == Tied(check, True) for check, one in found.items())
+
+
+def test_domains_each_by_itself(oracle: Path, tmp_path: Path) -> None:
+    """What makes a rule redundant is another one in each domain."""
+    rules = (
+        "DOMAIN ward\nRULE here WHEN T THEN X\nDOMAIN home\nRULE there WHEN T THEN X AND Y\n"
+        "DOMAIN ward, home\nRULE both WHEN T THEN X\nUNLESS c AND NOT c IN WHICH CASE Y\n"
+    )
+    ruleset = parse(rules)
+    (finding, *_) = (f for r in run_checks(ruleset, ["redundant-rule"]) for f in r.findings if f.rules[0] == "both")
+    assert set(finding.domains) == {"ward", "home"}
+    found = {one.check: one for one in checked(tmp_path / "c", rules, oracle).tied}
+    assert all(found[check] == Tied(check, True) for check in ("redundant-rule", "redundant-hedge", "dead-hedge"))
+
+
 def test_a_certificate_of_everything(oracle: Path, tmp_path: Path) -> None:
     found = {one.check: one for one in checked(tmp_path / "c", RULES, oracle).tied}
     assert [check for check, one in found.items() if one.proved] == [
