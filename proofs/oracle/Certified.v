@@ -188,39 +188,3 @@ Proof.
   rewrite questions_answered_no in C. apply parts_none. intros f F.
   apply (C chi f P), in_flat_map. eauto.
 Qed.
-
-(** * One question after the other *)
-
-(** What a ruleset is asked about. *)
-Inductive question :=
-  | AnyConflict
-  | AnyReading.
-
-Definition formula_of_question (r : reading) (Rs : list nested_rule) (Ks : list constraint)
-    (q : question) : Formula.formula :=
-  match q with
-  | AnyConflict => to_refute r Rs Ks
-  | AnyReading => reading_to_refute Rs Ks
-  end.
-
-(** What is true of the rules if its formula is unsatisfiable. *)
-Definition answered_no (r : reading) (Rs : list nested_rule) (Ks : list constraint)
-    (q : question) : Prop :=
-  match q with
-  | AnyConflict => never_conflicts r Rs Ks
-  | AnyReading => reads_alike Rs Ks
-  end.
-
-(** The formula, to be refuted by whoever can, and what judges the steps of that.  The
-    formula is made once for both. *)
-Definition ask (r : reading) (Rs : list nested_rule) (Ks : list constraint) (q : question)
-  : Formula.formula * (list Checker.step -> bool) :=
-  let f := formula_of_question r Rs Ks q in (f, accepted f).
-
-Theorem ask_sound r Rs Ks q steps :
-  snd (ask r Rs Ks q) steps = true -> answered_no r Rs Ks q.
-Proof.
-  destruct q; cbn [ask snd formula_of_question answered_no]; intro C.
-  - exact (certified_never_conflicts r Rs Ks steps C).
-  - exact (certified_reads_alike Rs Ks steps C).
-Qed.

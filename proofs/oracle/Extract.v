@@ -3,7 +3,7 @@
 
 From Coq Require Import Extraction ExtrOcamlBasic.
 From Sleec Require Import Model Evaluation Entailment Nested Constraints Conflict.
-From Oracle Require Import Certified.
+From Oracle Require Import Certified Findings.
 
 Extraction Language OCaml.
 Extraction "oracle.ml"

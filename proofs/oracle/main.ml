@@ -18,6 +18,11 @@
      table count FACT…         to the letter, by all interpretations: possible 0|1; compatible 0|1; entailed LITERAL…
      formula QUESTION          its formula, which is unsatisfiable exactly if the answer is no: LITERAL… 0 LITERAL… 0 …
                                QUESTION: conflict (does some context?) | reading (does some rule depend on it?)
+                               | findings count FINDING… (is one of them false?)
+                               FINDING: dead-rule N | dead-hedge N I | redundant-rule N count N…
+                               | redundant-hedge N I count N… | vacuous-conflict N count N… count I… | assumptions
+                               N is a label, I the number of a hedge; then the rules that are to suffice, and, by their
+                               places from 0, the constraints
      refuted STEP…             yes if these steps refute the formula that was asked for last, no if not
                                STEP: a N LITERAL… 0 N… 0 (clause N follows from those clauses) | d N… 0 (forget them)
 
@@ -222,10 +227,39 @@ let steps () =
 
 let verdict accepted = if accepted then "yes" else "no"
 
+let rec nat_of number = if number = 0 then O else S (nat_of (number - 1))
+
+(* The place of something in a text: none is so long that it has more. *)
+let place_in_text () =
+  let number = integer () in
+  if number < 0 || number > 1_000_000 then unreadable "%d is no place in a text" number;
+  nat_of number
+
+let finding () =
+  match word () with
+  | "dead-rule" -> DeadRule (name ())
+  | "dead-hedge" ->
+    let rule = name () in
+    DeadHedge (rule, place_in_text ())
+  | "redundant-rule" ->
+    let rule = name () in
+    RedundantRule (rule, several name)
+  | "redundant-hedge" ->
+    let rule = name () in
+    let hedge = place_in_text () in
+    RedundantHedge (rule, hedge, several name)
+  | "vacuous-conflict" ->
+    let rule = name () in
+    let meeting = several name in
+    VacuousConflict (rule, meeting, several place_in_text)
+  | "assumptions" -> NoSituation
+  | other -> unreadable "%S is no finding" other
+
 let question () =
   match word () with
   | "conflict" -> AnyConflict
   | "reading" -> AnyReading
+  | "findings" -> AnyFalse (several finding)
   | other -> unreadable "%S is no question" other
 
 (* The rules, and what judges refutations of the formula that was asked for last. *)

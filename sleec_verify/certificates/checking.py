@@ -41,7 +41,7 @@ class Problem(NamedTuple):
 @dataclass(frozen=True)
 class Confirmed:
     """A certificate that holds: of the ruleset, in the reading that it is for; who judged its refutations; whether
-    there is a signature; and what `tied` the verdict of `conflict` to the rules, if it is `proved`."""
+    there is a signature; and whether what rests on refutations is `tied` to the rules, check by check."""
 
     ruleset: Ruleset
     shown: tuple[Shown, ...]
@@ -63,9 +63,8 @@ def check_certificate(
 ) -> Confirmed:
     """Check the certificate in `folder` against a ruleset: its bytes, its verdicts, computed again, the formulas, built
     again, the refutations of these, judged by `judge`, and the witnesses, replayed. `domain` and `reading`, if they
-    are given, and the public `key` must be those of the certificate. Where no context conflicts, or no rule depends on
-    the reading, the `oracle`, if there is one, makes the formula of it once more, by what is proved, and judges its
-    refutation.
+    are given, and the public `key` must be those of the certificate. Of what rests on refutations, the `oracle`, if
+    there is one, makes the formula once more, by what is proved, and judges its refutation.
 
     Raises CertificateRefused with all the reasons that are found.
     """

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify.certificates.checker import IN_PYTHON
+from sleec_verify.finding import Refuted
 from sleec_verify.report.json import VERDICTS, Json, dump
 from sleec_verify.report.outcome import counted
 
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from sleec_verify.certificates.checker import Checker
     from sleec_verify.certificates.manifest import Shown
     from sleec_verify.certificates.tying import Tied
+    from sleec_verify.finding import Verdict
 
 SHOWN_BY = {
     "proof": "",
@@ -51,14 +53,21 @@ def told(
         else:
             more = ", which is proved correct" if judge.proved else ""
         yield f"proofs checked by {judge.name}{more}\n"
+    verdicts = {one.result.name: one.result.verdict for one in shown}
     for one_tied in tied:
-        yield f"{_tied(one_tied)}\n"
+        yield f"{_tied(one_tied, verdicts[one_tied.check])}\n"
 
 
-def _tied(tied: Tied) -> str:
-    if tied.proved:
-        return f"{tied.check}: proved of the rules as they were read, by what is extracted from the theory in Coq"
-    return f"{tied.check}: that the formula is that of the rules is not proved: {tied.reason}"
+def _tied(tied: Tied, verdict: Verdict) -> str:
+    if not tied.proved:
+        return f"{tied.check}: that the formula is that of the rules is not proved: {tied.reason}"
+    if isinstance(verdict, Refuted):
+        what = f"{counted(len(verdict.findings), 'finding')} proved"
+    elif tied.check == "vacuous-conflict":
+        what = "that the other rules are never triggered is proved"
+    else:
+        what = "proved"
+    return f"{tied.check}: {what} of the rules as they were read, by what is extracted from the theory in Coq"
 
 
 def _shown_by(one: Shown) -> str:

@@ -51,6 +51,10 @@ class Numbered:
         known = [f for f in dict.fromkeys(facts) if f.name in self._numbers[f.kind]]
         return f"{word} {len(known)}" + "".join(f" {LETTERS[f.kind]} {self._numbers[f.kind][f.name]}" for f in known)
 
+    def rule(self, label: str) -> int:
+        """The number of a rule."""
+        return self._numbers["rule"][label]
+
     def literal(self, number: int) -> Obligation:
         """What a number stands for in an answer of the oracle."""
         return Obligation(self.names["obligation"][abs(number) - 1], number < 0)

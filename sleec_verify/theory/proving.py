@@ -1,7 +1,8 @@
-"""Verdicts, from the rules on by what is proved: that no context conflicts, and that no rule depends on the reading.
+"""Verdicts, from the rules on by what is proved: that no context conflicts, that no rule depends on the reading, and
+that what was found is so.
 
 For each the oracle makes the theory's clauses and judges the steps that refute them (`ask` in
-`proofs/oracle/Certified.v`). What is found here (by a solver, and by `sleec_verify.certificates.elaboration`) is not
+`proofs/oracle/Findings.v`). What is found here (by a solver, and by `sleec_verify.certificates.elaboration`) is not
 trusted.
 """
 
@@ -18,9 +19,6 @@ from sleec_verify.theory.boolean import Boolean
 from sleec_verify.theory.numbered import Numbered
 from sleec_verify.theory.oracle import NoAnswer, NotRefuted, Oracle
 from sleec_verify.timed.scope import speaks_of_traces
-
-WHATS = ("conflict", "reading")
-"""The checks whose verdicts are proved."""
 
 Step = tuple[int, tuple[int, ...], tuple[int, ...]]
 """The number of a clause, its literals, and the clauses that it follows from."""
@@ -48,7 +46,8 @@ class Theory:
 
     def prove(self, question: str) -> None:
         """Have it proved that the answer to a question is no: `conflict`, that no context conflicts; `reading`, that no
-        rule obliges something else under the other reading in a context that can be.
+        rule obliges something else under the other reading in a context that can be; what
+        `sleec_verify.theory.found.questions` makes, that no finding is false.
 
         Raises NotRefuted where it is not, NoAnswer where the oracle gives none.
         """
@@ -96,6 +95,8 @@ def _clauses(text: str) -> list[tuple[int, ...]]:
 
 
 def _refutation(clauses: list[tuple[int, ...]]) -> list[Step]:
+    if not clauses:
+        raise NotRefuted("there is not in the rules what is asked about")
     if not clauses[0]:
         # There is nothing to ask.
         return [(len(clauses) + 1, (), (1,))]
