@@ -6,7 +6,9 @@ pair, and transitivity over a chordal completion of the comparisons, which is en
 satisfies the clauses to be the order of some rationals, and far less than all triples.
 
 Only whole-number measures that are compared with one another need more: an order that rationals have may leave too
-little room for integers. `Measures.decode` then returns the refusal as a clause, and the caller asks again.
+little room for integers. `Measures.decode` then returns the refusal as a clause, and the caller asks again. And what is
+calculated from several is one more measure, a free one; whether the regions that were chosen for it go with those of the
+others is asked only then, of `sleec_verify.arithmetic`, and refused in the same way.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ from itertools import pairwise, permutations
 from typing import TYPE_CHECKING, NamedTuple, Union
 
 from sleec_runtime.model import (
+    Calculated,
     Comparison,
     Measure,
     MeasureRef,
@@ -71,6 +74,11 @@ class Measures:
         self.cuts: dict[str, dict[Cut, int]] = {}
         self.orders: dict[tuple[str, str], int] = {}
         """(x, y) to the variable of ``x <= y``."""
+        self.calculations: dict[str, Calculated] = {}
+        """What is calculated from several measures, by what `cuts` calls it: its text, which is no name."""
+        self.refused_by_arithmetic = False
+        """Whether `decode` has returned a clause that no order gives, but arithmetic."""
+        self._decoded: dict[tuple[int, ...], dict[str, Rational] | list[int]] = {}
         self._seen: dict[str, None] = {}
 
     def mention(self, measure: str) -> None:
@@ -81,28 +89,46 @@ class Measures:
         """The literal that is true exactly when the comparison holds."""
         self._seen.update(dict.fromkeys(measures_of(comparison)))
         left, operator, right = comparison.left, comparison.operator, comparison.right
-        if not isinstance(left, MeasureRef):
-            left, operator, right = right, MIRRORED[operator], left
-        assert isinstance(left, MeasureRef), "a comparison has a measure on one side at least"
+        if isinstance(left, Calculated):
+            name = self._name(left)
+        else:
+            if not isinstance(left, MeasureRef):
+                left, operator, right = right, MIRRORED[operator], left
+            assert isinstance(left, MeasureRef), "a comparison has a measure on one side at least"
+            name = left.name
         if operator == "<":
-            return self._below(left.name, right, inclusive=False)
+            return self._below(name, right, inclusive=False)
         if operator == "<=":
-            return self._below(left.name, right, inclusive=True)
+            return self._below(name, right, inclusive=True)
         if operator == ">":
-            return -self._below(left.name, right, inclusive=True)
+            return -self._below(name, right, inclusive=True)
         if operator == ">=":
-            return -self._below(left.name, right, inclusive=False)
-        at_most = self._below(left.name, right, inclusive=True)
-        below = self._below(left.name, right, inclusive=False)
+            return -self._below(name, right, inclusive=False)
+        at_most = self._below(name, right, inclusive=True)
+        below = self._below(name, right, inclusive=False)
         equal = self._both(at_most, -below)
         return equal if operator == "=" else -equal
 
+    def _name(self, calculated: Calculated) -> str:
+        """What `cuts` calls a calculation, however its summands are ordered in the text."""
+        name = str(Calculated(tuple(sorted(calculated.terms, key=lambda term: term[1]))))
+        self.calculations.setdefault(name, calculated)
+        return name
+
+    def _measure(self, name: str) -> Measure:
+        calculated = self.calculations.get(name)
+        if calculated is None:
+            return self._declared[name]
+        whole = all(self._declared[one].kind == "integer" for one in calculated.measures)
+        return Measure(name, "integer" if whole else "number")
+
     def _below(self, name: str, term: Term, inclusive: bool) -> int:
-        measure = self._declared[name]
+        measure = self._measure(name)
         if isinstance(term, ScaleValue):
             return self._below_rank(name, term.rank + inclusive)
         if isinstance(term, Number):
             return self._below_number(name, measure, term.value, inclusive)
+        assert isinstance(term, MeasureRef), "a calculation stands on the left"
         if measure.kind == "scale":
             return self._below_other_scale(name, term.name, len(measure.values), inclusive)
         if inclusive:
@@ -142,7 +168,7 @@ class Measures:
         cuts = self.cuts.setdefault(name, {})
         variable = cuts.get(cut)
         if variable is None:
-            variable = cuts[cut] = self._fresh(("below", name, _cut_text(self._declared[name], cut)))
+            variable = cuts[cut] = self._fresh(("below", name, _cut_text(self._measure(name), cut)))
         return variable
 
     def close(self) -> None:
@@ -192,9 +218,10 @@ class Measures:
 
     def assumptions(self, values: Mapping[str, Rational | str]) -> Iterator[int]:
         """The literals that measures of these values make true. A measure without a value gives none."""
+        known = {**values, **self._results(values)}
         for name, cuts in self.cuts.items():
-            if name in values:
-                measure, value = self._declared[name], values[name]
+            if name in known:
+                measure, value = self._measure(name), known[name]
                 position = measure.values.index(value) if isinstance(value, str) else value
                 for (limit, inclusive), variable in cuts.items():
                     yield variable if position < limit or (inclusive and position == limit) else -variable
@@ -202,12 +229,77 @@ class Measures:
             if x in values and y in values:
                 yield variable if values[x] <= values[y] else -variable  # type: ignore[operator]
 
+    def _results(self, values: Mapping[str, Rational | str]) -> dict[str, Rational]:
+        """What the calculations come to whose measures all have values."""
+        numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
+        return {
+            name: calculated.value(numbers)
+            for name, calculated in self.calculations.items()
+            if numbers.keys() >= set(calculated.measures)
+        }
+
     def decode(self, model: Callable[[int], bool]) -> dict[str, Rational | str] | list[int]:
         """Values that lie in the regions that `model` chose; numbers are whole where they can be.
 
         Returns instead a clause that the model breaks and that holds of all whole numbers, where the order it chose
-        leaves integers no room.
+        leaves integers no room, or calculations cannot come to what it chose. Raises Undecided where that is not known.
         """
+        values = self._placed(model)
+        if not self.calculations or isinstance(values, list):
+            return values
+        results = self._results(values)
+        if all(
+            (result < cut.value or (cut.inclusive and result == cut.value)) == model(variable)
+            for name, result in results.items()
+            for cut, variable in self.cuts.get(name, {}).items()
+        ):
+            return values
+        found = self._calculated(model)
+        if isinstance(found, list):
+            self.refused_by_arithmetic = True
+            return [-literal for literal in found]
+        values.update(found)
+        return values
+
+    def refused(self, model: Callable[[int], bool], proving: bool = False) -> list[int] | None:
+        """The clause that `decode` returns, if it returns one. Raises Undecided as it does, and, if `proving`, where the
+        clause is one that only arithmetic gives, of which there is no proof."""
+        if not (self.orders or self.calculations):
+            return None
+        decoded = self.decode(model)
+        if isinstance(decoded, dict):
+            return None
+        if proving and self.refused_by_arithmetic:
+            from sleec_verify.arithmetic import unproved
+
+            raise unproved(self.calculations.values())
+        return decoded
+
+    def _calculated(self, model: Callable[[int], bool]) -> dict[str, Rational] | list[int]:
+        """Values by arithmetic for the measures that calculations are made of, and those that are tied to them; or
+        literals of the model that none go with."""
+        from sleec_verify.arithmetic import values_for
+
+        names = {name for one in self.calculations.values() for name in one.measures}
+        names.update(name for pair in self.orders for name in pair)
+        cuts = [
+            (name, cut.value, cut.inclusive, variable if model(variable) else -variable)
+            for name in (*sorted(names), *self.calculations)
+            for cut, variable in self.cuts.get(name, {}).items()
+        ]
+        orders = [(x, y, v if model(v) else -v) for (x, y), v in self.orders.items()]
+        asked = tuple(literal for *_, literal in (*cuts, *orders))
+        if asked not in self._decoded:
+            self._decoded[asked] = values_for(
+                {name: self._declared[name].kind == "integer" for name in sorted(names)},
+                [cut for cut in cuts if cut[0] in names],
+                orders,
+                [(self.calculations[name], *cut) for name, *cut in cuts if name in self.calculations],
+            )
+        return self._decoded[asked]
+
+    def _placed(self, model: Callable[[int], bool]) -> dict[str, Rational | str] | list[int]:
+        """Values by the regions and orders of the measures, with no eye to what is calculated from them."""
         from sleec_verify.order import place
 
         clustered = {name for pair in self.orders for name in pair}
