@@ -390,7 +390,8 @@ class Ruleset:
 
     `statements` holds everything in the order of the text. `inferred` are the measures that the rules compare but
     the text does not declare. `reading` is how chains of hedges are read; `reading_stated` says whether the text
-    says so itself. `dialect` is that of a text in the DSL, `defects` what of it is read only because others read it.
+    says so itself. `dialect` is that of a text in the DSL, `defects` what of it is read only because others read it, and
+    `calculated_with` are the constants of its calculations, which are worked out when it is read.
     """
 
     statements: tuple[Statement, ...]
@@ -399,6 +400,7 @@ class Ruleset:
     inferred: tuple[Measure, ...] = ()
     dialect: Dialect | None = None
     defects: tuple[Defect, ...] = field(default=(), compare=False)
+    calculated_with: frozenset[str] = field(default=frozenset(), compare=False)
     reading_stated: bool = field(default=False, compare=False)
     source: Source = field(default=Source("<memory>", ""), compare=False, repr=False)
     closing_comments: tuple[str, ...] = field(default=(), compare=False, repr=False)

@@ -9,9 +9,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from sleec_runtime.model import Calculated, Rational
+from sleec_verify.calculations import named
 from sleec_verify.solver import Undecided
 
-RESOURCES = 5_000_000
+RESOURCES = 1_000_000
 """What z3 may spend on one question, in its own measure: about a second, and the same on every machine."""
 
 Compared = tuple[Calculated, Rational, bool, int]
@@ -22,22 +23,16 @@ negative, is not."""
 class NotCalculated(Undecided):
     """What a calculation can be is not known. `lines` are where it stands."""
 
-    def __init__(self, message: str, lines: Sequence[int], hint: str | None = None) -> None:
-        super().__init__(message, hint)
+    def __init__(self, message: str, lines: Sequence[int]) -> None:
+        super().__init__(message)
         self.lines = tuple(lines)
-
-
-def named(calculations: Iterable[Calculated]) -> str:
-    """Calculations as messages name them, each with its line."""
-    shown = {str(one): f"`{one}`" + (f" (line {one.line})" if one.line else "") for one in calculations}
-    return ", ".join(shown.values())
 
 
 def unproved(calculations: Iterable[Calculated]) -> NotCalculated:
     """What to raise where an answer is to be proved, and rests on what z3 says of these calculations."""
     calculations = list(calculations)
     return NotCalculated(
-        f"{named(calculations)}: the answer rests on what z3 says of calculations, which a certificate does not prove",
+        f"the answer rests on what z3 says of {named(calculations)}, which a certificate does not prove",
         [one.line for one in calculations],
     )
 
@@ -58,8 +53,7 @@ def values_for(
     except ImportError:
         calculations = [one for one, *_ in compared]
         raise NotCalculated(
-            f"{named(calculations)}: what a calculation can be is found by z3, which is not installed; "
-            "pip install 'sleec-verify[z3]' brings it",
+            f"what {named(calculations)} can be is for z3, which is not installed (pip install 'sleec-verify[z3]')",
             [one.line for one in calculations],
         ) from None
     context = z3.Context()
@@ -98,7 +92,7 @@ def values_for(
     if answer == z3.unknown:
         calculations = [one for one, *_ in compared]
         lines = [one.line for one in calculations]
-        raise NotCalculated(f"{named(calculations)}: z3 does not decide what these calculations can be", lines)
+        raise NotCalculated(f"z3 does not decide what {named(calculations)} can be", lines)
     model = solver.model()
     return {name: _exact(model.eval(variable, model_completion=True)) for name, variable in variables.items()}
 

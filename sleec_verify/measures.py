@@ -6,14 +6,15 @@ pair, and transitivity over a chordal completion of the comparisons, which is en
 satisfies the clauses to be the order of some rationals, and far less than all triples.
 
 Only whole-number measures that are compared with one another need more: an order that rationals have may leave too
-little room for integers. `Measures.decode` then returns the refusal as a clause, and the caller asks again. And what is
-calculated from several is one more measure, a free one; whether the regions that were chosen for it go with those of the
-others is asked only then, of `sleec_verify.arithmetic`, and refused in the same way.
+little room for integers. `Measures.decode` then returns the refusal as a clause, and the caller asks again.
+
+What is calculated from several measures is one more measure, and a free one. Whether it can be as a model has it is asked
+only of that model, and only where the values at hand do not fit: of `sleec_verify.arithmetic`, and refused the same way.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import pairwise, permutations
 from typing import TYPE_CHECKING, NamedTuple, Union
 
@@ -262,8 +263,11 @@ class Measures:
         return values
 
     def refused(self, model: Callable[[int], bool], proving: bool = False) -> list[int] | None:
-        """The clause that `decode` returns, if it returns one. Raises Undecided as it does, and, if `proving`, where the
-        clause is one that only arithmetic gives, of which there is no proof."""
+        """The clause that `decode` returns, if it returns one.
+
+        Raises Undecided as it does, and, if `proving`, where only arithmetic gives the clause, as of that there is no
+        proof.
+        """
         if not (self.orders or self.calculations):
             return None
         decoded = self.decode(model)
@@ -282,21 +286,26 @@ class Measures:
 
         names = {name for one in self.calculations.values() for name in one.measures}
         names.update(name for pair in self.orders for name in pair)
-        cuts = [
-            (name, cut.value, cut.inclusive, variable if model(variable) else -variable)
-            for name in (*sorted(names), *self.calculations)
-            for cut, variable in self.cuts.get(name, {}).items()
-        ]
+        cuts = self._chosen(sorted(names), model)
         orders = [(x, y, v if model(v) else -v) for (x, y), v in self.orders.items()]
-        asked = tuple(literal for *_, literal in (*cuts, *orders))
+        compared = self._chosen(self.calculations, model)
+        asked = (*(cut[3] for cut in cuts), *(order[2] for order in orders), *(cut[3] for cut in compared))
         if asked not in self._decoded:
             self._decoded[asked] = values_for(
                 {name: self._declared[name].kind == "integer" for name in sorted(names)},
-                [cut for cut in cuts if cut[0] in names],
+                cuts,
                 orders,
-                [(self.calculations[name], *cut) for name, *cut in cuts if name in self.calculations],
+                [(self.calculations[name], value, inclusive, literal) for name, value, inclusive, literal in compared],
             )
         return self._decoded[asked]
+
+    def _chosen(self, names: Iterable[str], model: Callable[[int], bool]) -> list[tuple[str, Rational, bool, int]]:
+        """The cuts of measures and calculations, each with the literal that the model makes true."""
+        return [
+            (name, cut.value, cut.inclusive, variable if model(variable) else -variable)
+            for name in names
+            for cut, variable in self.cuts.get(name, {}).items()
+        ]
 
     def _placed(self, model: Callable[[int], bool]) -> dict[str, Rational | str] | list[int]:
         """Values by the regions and orders of the measures, with no eye to what is calculated from them."""
@@ -319,11 +328,7 @@ class Measures:
             return values
         placed = place(
             {name: self._declared[name].kind == "integer" for name in sorted(clustered)},
-            [
-                (name, cut.value, cut.inclusive, v if model(v) else -v)
-                for name in sorted(clustered)
-                for cut, v in self.cuts.get(name, {}).items()
-            ],
+            self._chosen(sorted(clustered), model),
             [(x, y, v if model(v) else -v) for (x, y), v in self.orders.items()],
         )
         if isinstance(placed, list):

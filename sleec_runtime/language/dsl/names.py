@@ -101,6 +101,8 @@ class Names:
         self.kinds: dict[str, NameKind] = {}
         self.measures: dict[str, Measure] = {}
         self.constants: dict[str, Constant] = {}
+        self.calculated_with: set[str] = set()
+        """The constants of calculations, which these do not name any more once they are worked out."""
         self.defects: list[Defect] = []
         self.complete = True
         """False once a definition could not be read: then a name without one is no news."""
@@ -267,9 +269,9 @@ class Names:
                 return None
             if not whole.terms:
                 return Number(whole.number)
-            ((name, *more), factor), *rest = whole.terms.items()
-            if not (more or rest or whole.number) and factor == 1:
-                return self._ref(name)
+            (measures, factor), *more = whole.terms.items()
+            if (len(measures), factor, whole.number) == (1, 1, 0) and not more:
+                return self._ref(measures[0])
             self.problem(
                 "a calculation with a measure is no length of time", side.span, "use the measure alone, or none"
             )
@@ -300,7 +302,11 @@ class Names:
             term = self.number(side)
             if term is None:
                 return None
-            return _Sum({}, int(term.value)) if isinstance(term, Number) else _Sum({(term.name,): 1}, 0)
+            if isinstance(term, MeasureRef):
+                return _Sum({(term.name,): 1}, 0)
+            if term.constant is not None:
+                self.calculated_with.add(term.constant)
+            return _Sum({}, int(term.value))
         left, right = self._sum(side.left), self._sum(side.right)
         if left is None or right is None:
             return None
