@@ -8,8 +8,9 @@ satisfies the clauses to be the order of some rationals, and far less than all t
 Only whole-number measures that are compared with one another need more: an order that rationals have may leave too
 little room for integers. `Measures.decode` then returns the refusal as a clause, and the caller asks again.
 
-What is calculated from several measures is one more measure, and a free one. Whether it can be as a model has it is asked
-only of that model, and only where the values at hand do not fit: of `sleec_verify.arithmetic`, and refused the same way.
+What is calculated from several measures is one more measure, and a free one. Whether it can be as a model has it is
+asked only of that model, and only where the values at hand do not fit: of `sleec_verify.arithmetic`, whose refusal is
+a clause, too.
 """
 
 from __future__ import annotations
@@ -76,7 +77,7 @@ class Measures:
         self.orders: dict[tuple[str, str], int] = {}
         """(x, y) to the variable of ``x <= y``."""
         self.calculations: dict[str, Calculated] = {}
-        """What is calculated from several measures, by what `cuts` calls it: its text, which is no name."""
+        """What is calculated from several measures, by what `cuts` calls it, which is no name of a measure."""
         self.refused_by_arithmetic = False
         """Whether `decode` has returned a clause that no order gives, but arithmetic."""
         self._decoded: dict[tuple[int, ...], dict[str, Rational] | list[int]] = {}
@@ -112,7 +113,7 @@ class Measures:
 
     def _name(self, calculated: Calculated) -> str:
         """What `cuts` calls a calculation, however its summands are ordered in the text."""
-        name = str(Calculated(tuple(sorted(calculated.terms, key=lambda term: term[1]))))
+        name = " + ".join(sorted(" * ".join((*names, str(factor))) for factor, names in calculated.terms))
         self.calculations.setdefault(name, calculated)
         return name
 

@@ -77,7 +77,7 @@ class FormulaParser(Cursor):
         left = self.operand("a condition")
         if self.kinds[self.at] != "operator":
             if isinstance(left, Calculation) or not isinstance(left.written, str):
-                self.expected("a comparison such as < or >= after the number")
+                self.expected("a comparison such as < or >= after the number", "as in: (({x} + 1) > 3)")
             if not self.hurt:
                 self.names.boolean(left.written, left.span)
             return Atom("condition", left.written, left.span)
@@ -150,6 +150,9 @@ class FormulaParser(Cursor):
         while self.kinds[self.at] == "*":
             self._operator(first)
             left = Calculation("*", left, self._factor("a number or a measure"), self.span(first))
+        if self.kinds[self.at] == "strange" and self.token_text(self.at) == "/":
+            message = "calculations have +, - and *, and nothing is divided"
+            self.fail(message, self.token_span(self.at), "multiply the other side: ({x} > (2 * {y}))")
         return left
 
     def _operator(self, first: int) -> None:
