@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from sleec_runtime.errors import UnsupportedCalculations
-from sleec_runtime.model import Assume, Calculated, Formula, Never, Ruleset, calculations_in, formulas_of
+from sleec_runtime.model import Assume, Calculated, Comparison, Formula, Never, Ruleset, formulas_of, leaves
+
+
+def calculations_in(formula: Formula) -> Iterator[Calculated]:
+    """The calculations that a formula compares with numbers, in the order of the text, repeats included."""
+    for leaf in leaves(formula):
+        if isinstance(leaf, Comparison) and isinstance(leaf.left, Calculated):
+            yield leaf.left
 
 
 def calculations(ruleset: Ruleset) -> list[Calculated]:

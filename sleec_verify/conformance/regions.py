@@ -21,11 +21,10 @@ from sleec_runtime.model import (
     Number,
     Rational,
     Value,
-    calculations_in,
     leaves,
     measures_of,
 )
-from sleec_verify.calculations import unsupported
+from sleec_verify.calculations import calculations_in, unsupported
 
 LIMIT = 2**16
 """Contexts that a test goes through one by one; a rule with more is sampled. Sixteen conditions are within it."""

@@ -15,11 +15,12 @@ import sleec_runtime
 from sleec_runtime.errors import LanguageError, UnsupportedCalculations
 from sleec_runtime.evaluation import Situation, holds, truth
 from sleec_runtime.language import parse, print_ruleset
-from sleec_runtime.model import Calculated, Comparison, Context, calculations_in
+from sleec_runtime.model import Calculated, Comparison, Context
 from sleec_runtime.trace import Instant, Trace, broken
 from sleec_verify.arithmetic import NotCalculated
+from sleec_verify.calculations import calculations_in
 from sleec_verify.checks import run_checks
-from sleec_verify.cli import main
+from sleec_verify.cli import run
 from sleec_verify.compare import compare
 from sleec_verify.compilation import FORMS, compile_to
 from sleec_verify.conformance.regions import givens
@@ -98,8 +99,9 @@ def read(written: str):
     try:
         return guard_of(written)
     except LanguageError as error:
-        assert {p.message[:9] for p in error.problems} <= {"both side", "a product"}
-        return None
+        if {p.message[:9] for p in error.problems} <= {"both side", "a product"}:
+            return None
+        raise
 
 
 @settings(max_examples=300, deadline=None)
@@ -164,7 +166,7 @@ def test_too_much_is_refused_with_its_place():
 
 def test_a_constant_that_is_calculated_with_is_used():
     verdicts = results("R1 when A and (((K * {x}) + {y} + {z}) > 1) then B", only=["unused-name"])
-    assert isinstance(verdicts["unused-name"], Proved)
+    assert "constant" not in str(verdicts["unused-name"])
 
 
 # Answers, beside a search ---------------------------------------------------------------------------------
@@ -317,8 +319,8 @@ def test_a_conflict_shows_values_that_are_calculated_with():
 
 def test_what_arithmetic_rules_out_is_no_conflict():
     verdicts = results(
-        "R1 when A and (({x} + {y}) > 5) then B within 3 seconds",
-        "R2 when A and (({x} < 2) and ({y} < 2)) then not B within 9 seconds",
+        "R1 when A and (({x} + {y}) > 5) then B",
+        "R2 when A and (({x} < 2) and ({y} < 2)) then not B",
         "R3 when A and (({x} * {x}) < 0) then B",
     )
     assert isinstance(verdicts["conflict"], Proved)
@@ -397,18 +399,17 @@ def test_without_z3_the_answer_is_unknown_and_says_of_what(no_z3):
 def test_without_z3_what_needs_no_arithmetic_is_answered(no_z3):
     verdicts = results(
         "R1 when A and (({x} + {y}) < 3) then B",
-        "R2 when A and (({x} + {y}) > 5) then not B",
-        "R3 when A and (({y} + {x}) < 2) then B",
-        "R4 when C and (({x} * {y}) < 7) then B",
+        "R2 when A and (({x} + {y}) < 2) then B",
     )
-    assert isinstance(verdicts["conflict"], Unknown) or isinstance(verdicts["conflict"], Proved)
-    assert "R3" in str(verdicts["redundant-rule"])
+    assert isinstance(verdicts["conflict"], Proved)
+    assert isinstance(verdicts["dead-rule"], Proved)
+    assert [f.rules for f in verdicts["redundant-rule"].findings] == [("R2", "R1")]
 
 
 def test_without_z3_the_command_says_unknown(no_z3, tmp_path, capsys):
     path = tmp_path / "rules.sleec"
     path.write_text(TEXT % ("\n".join(NEEDS_Z3), ""))
-    assert main(["check", "--no-cache", str(path)]) == 3
+    assert run(["check", "--no-cache", str(path)]) == 3
     out = capsys.readouterr()
     assert "unknown[conflict]" in out.out + out.err
     assert "x + y" in out.out + out.err
@@ -428,7 +429,7 @@ def test_no_form_of_equation_1_takes_them(form):
 def test_what_cannot_say_them_refuses_with_the_place(to, language, tmp_path, capsys):
     path = tmp_path / "rules.sleec"
     path.write_text(TEXT % ("\n".join(BOTH), ""))
-    assert main(["convert", str(path), "--to", to]) == 2
+    assert run(["convert", str(path), "--to", to]) == 2
     said = capsys.readouterr().err
     assert f"rules.sleec:11: {language} has no calculations, as `x + y` is" in said
     assert "help: " in said
@@ -437,7 +438,7 @@ def test_what_cannot_say_them_refuses_with_the_place(to, language, tmp_path, cap
 def test_legos_says_them(tmp_path, capsys):
     path = tmp_path / "rules.sleec"
     path.write_text(TEXT % ("\n".join(BOTH), ""))
-    assert main(["convert", str(path), "--to", "legos"]) == 0
+    assert run(["convert", str(path), "--to", "legos"]) == 0
     assert parse(capsys.readouterr().out).rules == ruleset_of(*BOTH).rules
 
 
@@ -463,13 +464,15 @@ def test_a_test_of_every_context_refuses():
 def test_a_certificate_does_not_rest_on_z3(tmp_path, capsys):
     path = tmp_path / "rules.sleec"
     path.write_text(TEXT % ("\n".join(NEEDS_Z3), ""))
-    assert main(["certify", str(path), "-o", str(tmp_path / "certificate")]) == 3
+    assert run(["certify", str(path), "-o", str(tmp_path / "certificate")]) == 3
     manifest = (tmp_path / "certificate" / "manifest.json").read_text()
     assert "which a certificate does not prove" in manifest
     # What regions alone refute is proved as ever.
     path.write_text(TEXT % ("R1 when A and ({x} + {y} < 3) then B\nR2 when A and ({x} + {y} > 5) then not B", ""))
-    main(["certify", str(path), "-o", str(tmp_path / "other")])
-    assert main(["certify", "--check", str(path), "-o", str(tmp_path / "other")]) in (0, 1, 3)
+    capsys.readouterr()
+    assert run(["certify", str(path), "-o", str(tmp_path / "other")]) == 0
+    assert "conflict            proved    2 questions refuted" in capsys.readouterr().out
+    assert run(["certify", "--check", str(tmp_path / "other"), str(path)]) == 0
 
 
 def test_arithmetic_tells_what_contradicts_what():
@@ -498,9 +501,10 @@ def test_what_is_too_hard_is_unknown(monkeypatch):
 
     arithmetic._answer.cache_clear()
     monkeypatch.setattr(arithmetic, "RESOURCES", 1)
-    with pytest.raises(NotCalculated, match="z3 does not decide what `x [*] y` in line 11 can be") as caught:
-        (calculated,) = calculations_in(guard_of("(({x} * {y}) > 3)"))
-        arithmetic.values_for({"x": True, "y": True}, [], [], [(calculated, 7, True, -1), (calculated, 8, True, 2)])
+    (calculated,) = calculations_in(guard_of("(({x} * {y}) > 3)"))
+    compared = [(calculated, 7, True, -1), (calculated, 8, True, 2)]
+    with pytest.raises(NotCalculated, match=r"z3 does not decide what `x \* y` in line 11 can be") as caught:
+        arithmetic.values_for({"x": True, "y": True}, [], [], compared)
     arithmetic._answer.cache_clear()
     assert caught.value.lines == (11,)
 
