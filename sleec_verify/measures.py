@@ -256,7 +256,7 @@ class Measures:
             for cut, variable in self.cuts.get(name, {}).items()
         ):
             return values
-        found = self._calculated(model)
+        found = self._calculated(model, values)
         if isinstance(found, list):
             self.refused_by_arithmetic = True
             return [-literal for literal in found]
@@ -280,10 +280,13 @@ class Measures:
             raise unproved(self.calculations.values())
         return decoded
 
-    def _calculated(self, model: Callable[[int], bool]) -> dict[str, Rational] | list[int]:
-        """Values by arithmetic for the measures that calculations are made of, and those that are tied to them; or
-        literals of the model that none go with."""
+    def _calculated(
+        self, model: Callable[[int], bool], values: Mapping[str, Rational | str]
+    ) -> dict[str, Rational] | list[int]:
+        """Values, near `values` if such are found, for the measures that calculations are made of and those that are
+        tied to them; or literals of the model that none go with."""
         from sleec_verify.arithmetic import values_for
+        from sleec_verify.nearby import nearby
 
         names = {name for one in self.calculations.values() for name in one.measures}
         names.update(name for pair in self.orders for name in pair)
@@ -292,12 +295,13 @@ class Measures:
         compared = self._chosen(self.calculations, model)
         asked = (*(cut[3] for cut in cuts), *(order[2] for order in orders), *(cut[3] for cut in compared))
         if asked not in self._decoded:
-            self._decoded[asked] = values_for(
-                {name: self._declared[name].kind == "integer" for name in sorted(names)},
-                cuts,
-                orders,
-                [(self.calculations[name], value, inclusive, literal) for name, value, inclusive, literal in compared],
-            )
+            results = [
+                (self.calculations[name], value, inclusive, literal) for name, value, inclusive, literal in compared
+            ]
+            here = {name: value for name in sorted(names) if not isinstance(value := values[name], str)}
+            integral = {name: self._declared[name].kind == "integer" for name in here}
+            found = nearby(here, cuts, orders, results) if all(integral.values()) else None
+            self._decoded[asked] = found or values_for(integral, cuts, orders, results)
         return self._decoded[asked]
 
     def _chosen(self, names: Iterable[str], model: Callable[[int], bool]) -> list[tuple[str, Rational, bool, int]]:

@@ -87,11 +87,11 @@ conditions = st.builds("({} {} {})".format, sides(), st.sampled_from(sorted(OPER
 values = st.fixed_dictionaries({name: st.integers(-9, 9) for name in NAMES})
 
 
-def worked_out(written: str, known: dict[str, int]) -> bool:
+def worked_out(written: str, known) -> bool:
     """What Python makes of a condition."""
     for name in NAMES:
         written = written.replace(f"{{{name}}}", f"({known[name]})")
-    return eval(written.replace("K", "3").replace(" = ", " == ").replace("<>", "!="))
+    return bool(eval(written.replace("K", "3").replace(" = ", " == ").replace("<>", "!=")))
 
 
 def read(written: str):
@@ -186,7 +186,7 @@ class Chain:
         hedge = f" unless {self.hedge} then {self.hedged}" if self.hedge else ""
         return f"  {self.label} when A and {self.guard} then {self.literal}{hedge}"
 
-    def calls_for(self, known: dict[str, int]) -> str | None:
+    def calls_for(self, known) -> str | None:
         if not inside(self.guard, known):
             return None
         return self.hedged if self.hedge is not None and inside(self.hedge, known) else self.literal
@@ -195,7 +195,7 @@ class Chain:
 LOW, HIGH = -1, 2
 
 
-def inside(written: str, known: dict[str, int]) -> bool:
+def inside(written: str, known) -> bool:
     return all(worked_out(part, known) for part in written.split(" and "))
 
 
@@ -290,7 +290,7 @@ def agree(seed: int) -> int:
                 continue
             (witness,) = [moment for moment in finding.timeline.moments if "A" in moment.events]
             known = {name: witness.conditions.get(name, 0) for name in NAMES}
-            called = {rule.calls_for(known) for rule in rules} - {None}
+            called = {literal for rule in rules if (literal := rule.calls_for(known))}
             assert any(opposite(literal) in called for literal in called), (seed, finding)
     return unknown
 
@@ -311,8 +311,9 @@ def test_a_conflict_shows_values_that_are_calculated_with():
     verdict = results(*BOTH)["conflict"]
     assert isinstance(verdict, Refuted)
     for finding in verdict.findings:
+        assert finding.timeline is not None
         (moment,) = finding.timeline.moments
-        x, y = moment.conditions["x"], moment.conditions["y"]
+        x, y = (int(moment.conditions[name]) for name in "xy")
         assert x + y > 3
         assert x * y < 0
 
@@ -406,6 +407,18 @@ def test_without_z3_what_needs_no_arithmetic_is_answered(no_z3):
     assert [f.rules for f in verdicts["redundant-rule"].findings] == [("R2", "R1")]
 
 
+def test_without_z3_what_is_near_is_found(no_z3):
+    verdicts = results(
+        "R1 when A and (({x} + (3 * {y})) = 10 and {y} < 3) then B",
+        "R2 when A and (({x} * {y}) > 6 ) then not B",
+    )
+    assert isinstance(verdicts["dead-rule"], Proved)
+    (first, _) = verdicts["conflict"].findings
+    x, y = (int(first.timeline.moments[-1].conditions[name]) for name in "xy")
+    assert x + 3 * y == 10
+    assert x * y > 6
+
+
 def test_without_z3_the_command_says_unknown(no_z3, tmp_path, capsys):
     path = tmp_path / "rules.sleec"
     path.write_text(TEXT % ("\n".join(NEEDS_Z3), ""))
@@ -485,14 +498,47 @@ def test_arithmetic_tells_what_contradicts_what():
     assert sorted(values_for(whole, cuts, [], [(calculated, 3, True, -7)])) == [-7, 4, 5]
     found = values_for(whole, cuts, [("y", "x", 8)], [(calculated, 2, True, -7)])
     assert found == {"x": 1, "y": 1}
-    assert values_for(whole, cuts, [("x", "y", -8)], [(calculated, 2, True, 7)])["y"] < 1
+    found = values_for(whole, cuts, [("x", "y", -8)], [(calculated, 2, True, 7)])
+    assert isinstance(found, dict)
+    assert found["y"] < found["x"] <= 1
     halves = values_for(
         {"x": True, "y": False},
         [("x", 0, True, 1), ("x", 0, False, -2)],
         [],
         [(calculated, 3, True, 3), (calculated, 3, False, -4)],
     )
+    assert isinstance(halves, dict)
     assert halves["x"] + 2 * halves["y"] == 3
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.data())
+def test_what_is_found_nearby_makes_all_literals_true(data):
+    from sleec_verify.nearby import nearby
+
+    drawn = data.draw
+    terms = [(("x",),), (("y",),), (("x", "y"),), (("x", "x"),), (("y", "z"),)]
+    sums = drawn(
+        st.lists(st.lists(st.sampled_from(terms), min_size=1, max_size=3, unique=True), min_size=1, max_size=2)
+    )
+    factors = st.sampled_from((-2, -1, 1, 3))
+    calculations = [Calculated(tuple((drawn(factors), names) for (names,) in terms)) for terms in sums]
+    signs, bounds = st.sampled_from((1, -1)), st.integers(-6, 12)
+    cuts = [(name, drawn(bounds), drawn(st.booleans()), drawn(signs)) for name in NAMES if drawn(st.booleans())]
+    compared = [(one, drawn(bounds), drawn(st.booleans()), drawn(signs)) for one in calculations]
+    orders = [("x", "y", drawn(signs))] if drawn(st.booleans()) else []
+    start = dict.fromkeys(NAMES, 0)
+    for name, value, inclusive, sign in cuts:
+        start[name] = value + (0 if inclusive == (sign > 0) else -sign)
+    found = nearby(start, cuts, orders, compared)
+    if found is None:
+        return
+    for side, value, inclusive, sign in [
+        *((found[name], *cut) for name, *cut in cuts),
+        *((one.value(found), *cut) for one, *cut in compared),
+    ]:
+        assert (side <= value if inclusive else side < value) == (sign > 0)
+    assert all((found[x] <= found[y]) == (sign > 0) for x, y, sign in orders)
 
 
 def test_what_is_too_hard_is_unknown(monkeypatch):
