@@ -73,7 +73,7 @@ def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Unti
         notes=tuple(_notes(whole)),
     )
     calculated = list(dict.fromkeys(one for ruleset in (old, new) for one in calculations(ruleset)))
-    if calculated and old != new:
+    if calculated and (old.statements, old.reading) != (new.statements, new.reading):
         why = "comparisons of what is calculated from several measures are not compared"
         return shared._replace(undecided=(*shared.undecided, Undecidable(named(calculated), why)))
     if domain is not None:

@@ -152,16 +152,29 @@ def test_a_calculation_without_a_value_is_unknown_or_false():
         holds(guard, Context(frozenset("A"), {"x": "nine", "y": 1}))
 
 
+def with_measures(count: int, condition: str) -> str:
+    measures = "\n".join(f"  measure m{n}: numeric" for n in range(count))
+    return (TEXT % (f"  R1 when A and {condition} then B", "")).replace("def_end", f"{measures}\ndef_end")
+
+
 def test_too_much_is_refused_with_its_place():
-    measures = "\n".join(f"  measure m{n}: numeric" for n in range(31))
-    written = " + ".join(f"{{m{n}}}" for n in range(31))
-    text = (TEXT % (f"  R1 when A and {written} > 3 then B", "")).replace("def_end", f"{measures}\ndef_end")
+    text = with_measures(21, " + ".join(f"{{m{n}}}" for n in range(21)) + " > 3")
     with pytest.raises(LanguageError) as caught:
         parse(text)
     (problem,) = caught.value.problems
-    assert problem.message == "this calculation comes to a sum of 31 parts, more than 30"
+    assert problem.message == "this calculation comes to a sum of 21 parts, more than 20"
     assert caught.value.source.place(problem.span).line == text[: text.index("R1 when")].count("\n") + 1
     assert problem.hint
+
+
+@pytest.mark.parametrize("dialect", ["legos", "sleec-tk"])
+def test_the_longest_calculation_is_read_as_it_is_printed(dialect):
+    from dataclasses import replace
+
+    pairs = [(x, y) for x in range(7) for y in range(x)][:20]
+    whole = " - ".join(f"{factor} * {{m{x}}} * {{m{y}}}" for factor, (x, y) in enumerate(pairs, 2))
+    ruleset = parse(with_measures(7, f"((not ({whole} > 3)) or ({{m1}} > 3))"))
+    assert parse(print_ruleset(replace(ruleset, dialect=dialect))).statements == ruleset.statements
 
 
 def test_a_constant_that_is_calculated_with_is_used():

@@ -36,8 +36,8 @@ from sleec_runtime.model import (
 NameKind = Literal["event", "boolean", "measure", "constant"]
 _ARTICLE = {"event": "an event", "boolean": "a boolean measure", "measure": "a measure", "constant": "a constant"}
 
-MAX_TERMS = 30
-"""Parts that what a calculation comes to may have."""
+MAX_TERMS = 20
+"""Parts that what a calculation comes to may have: written with all parentheses, they are no longer than one may be."""
 
 _COMPARED: Mapping[Operator, Callable[[Rational, Rational], bool]] = {
     "<": operators.lt,
