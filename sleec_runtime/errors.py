@@ -82,6 +82,19 @@ class UnsupportedTimes(SleecError):
         self.lines = tuple(lines)
 
 
+class UnsupportedCalculations(SleecError):
+    """Rules that calculate with several measures, given to what does not analyse that. `lines` are those of the
+    calculations, 0 for one that is in no text."""
+
+    def __init__(self, message: str, lines: Sequence[int]) -> None:
+        super().__init__(
+            message,
+            "compare one measure with a number, or two measures; or leave it at `sleec-verify check`, `entail` and "
+            "`explain`",
+        )
+        self.lines = tuple(lines)
+
+
 class WrongArguments(SleecError, TypeError):
     """Arguments of a trigger that the code of one of its rules does not take. A TypeError too, as a call that does not
     fit is one."""

@@ -21,6 +21,7 @@ from sleec_runtime.model import (
     And,
     Assume,
     Atom,
+    Calculated,
     Clause,
     Comparison,
     Context,
@@ -31,6 +32,7 @@ from sleec_runtime.model import (
     Number,
     Obligation,
     Or,
+    Rational,
     Reading,
     Rule,
     Ruleset,
@@ -139,10 +141,29 @@ def _atom(atom: Atom, situation: Situation) -> bool | None:
 
 def _comparison(comparison: Comparison, situation: Situation) -> bool | None:
     left, right = comparison.left, comparison.right
+    if isinstance(left, Calculated):
+        calculated = _calculated(left, situation)
+        if calculated is None:
+            return situation.absent
+        return _OPERATORS[comparison.operator](calculated, _worth(right, left, situation))
     measured = [situation.context.conditions.get(side.name) for side in (left, right) if isinstance(side, MeasureRef)]
     if None in measured:
         return situation.absent
     return _OPERATORS[comparison.operator](_worth(left, right, situation), _worth(right, left, situation))
+
+
+def _calculated(side: Calculated, situation: Situation) -> Rational | None:
+    """What a calculation comes to, None if one of its measures has no value."""
+    values: dict[str, Rational] = {}
+    for name in side.measures:
+        value = situation.context.conditions.get(name)
+        if value is None:
+            return None
+        number = exact(value)
+        if number is None:
+            raise WrongType(name, value, "a number")
+        values[name] = number
+    return side.value(values)
 
 
 def _worth(side: Term, other: Term, situation: Situation) -> object:
@@ -151,6 +172,7 @@ def _worth(side: Term, other: Term, situation: Situation) -> object:
         return side.value
     if isinstance(side, ScaleValue):
         return side.rank
+    assert isinstance(side, MeasureRef), "a calculation is no side to be compared with a calculation"
     value = situation.context.conditions[side.name]
     measure = situation.measures.get(side.name)
     if isinstance(value, str):

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple, Union
 
+from sleec_runtime.calculated import Calculated as Calculated
 from sleec_runtime.errors import WrongType
 from sleec_runtime.spans import NOWHERE as NOWHERE
 from sleec_runtime.spans import Place as Place
@@ -91,12 +92,13 @@ class ScaleValue:
     rank: int
 
 
-Term = Union[MeasureRef, Number, ScaleValue]
+Term = Union[MeasureRef, Number, ScaleValue, Calculated]
 
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """``left operator right``. At least one side is a `MeasureRef`; the sides fit (resolved by the language)."""
+    """``left operator right``. At least one side is a `MeasureRef`, or the left one is `Calculated`; the sides fit
+    (resolved by the language)."""
 
     left: Term
     operator: Operator
@@ -141,7 +143,9 @@ def leaves(formula: Formula) -> Iterator[Atom | Comparison]:
 
 
 def measures_of(comparison: Comparison) -> tuple[str, ...]:
-    """The one or two measures that a comparison speaks of."""
+    """The measures that a comparison speaks of: one or two, or those that it calculates with."""
+    if isinstance(comparison.left, Calculated):
+        return comparison.left.measures
     return tuple(side.name for side in (comparison.left, comparison.right) if isinstance(side, MeasureRef))
 
 
@@ -337,7 +341,8 @@ class Ruleset:
 
     `statements` holds everything in the order of the text. `inferred` are the measures that the rules compare but
     the text does not declare. `reading` is how chains of hedges are read; `reading_stated` says whether the text
-    says so itself. `dialect` is that of a text in the DSL, `defects` what of it is read only because others read it.
+    says so itself. `dialect` is that of a text in the DSL, `defects` what of it is read only because others read it,
+    and `calculated_with` are the constants of its calculations, which are worked out when it is read.
     """
 
     statements: tuple[Statement, ...]
@@ -346,6 +351,7 @@ class Ruleset:
     inferred: tuple[Measure, ...] = ()
     dialect: Dialect | None = None
     defects: tuple[Defect, ...] = field(default=(), compare=False)
+    calculated_with: frozenset[str] = field(default=frozenset(), compare=False)
     reading_stated: bool = field(default=False, compare=False)
     source: Source = field(default=Source("<memory>", ""), compare=False, repr=False)
     closing_comments: tuple[str, ...] = field(default=(), compare=False, repr=False)

@@ -7,15 +7,20 @@ satisfies the clauses to be the order of some rationals, and far less than all t
 
 Only whole-number measures that are compared with one another need more: an order that rationals have may leave too
 little room for integers. `Measures.decode` then returns the refusal as a clause, and the caller asks again.
+
+What is calculated from several measures is one more measure, and a free one. Whether it can be as a model has it is
+asked only of that model, and only where the values at hand do not fit: of `sleec_verify.arithmetic`, whose refusal is
+a clause, too.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import pairwise, permutations
 from typing import TYPE_CHECKING, NamedTuple, Union
 
 from sleec_runtime.model import (
+    Calculated,
     Comparison,
     Measure,
     MeasureRef,
@@ -71,6 +76,11 @@ class Measures:
         self.cuts: dict[str, dict[Cut, int]] = {}
         self.orders: dict[tuple[str, str], int] = {}
         """(x, y) to the variable of ``x <= y``."""
+        self.calculations: dict[str, Calculated] = {}
+        """What is calculated from several measures, by what `cuts` calls it, which is no name of a measure."""
+        self.refused_by_arithmetic = False
+        """Whether `decode` has returned a clause that no order gives, but arithmetic."""
+        self._decoded: dict[tuple[int, ...], dict[str, Rational] | list[int]] = {}
         self._seen: dict[str, None] = {}
 
     def mention(self, measure: str) -> None:
@@ -81,28 +91,46 @@ class Measures:
         """The literal that is true exactly when the comparison holds."""
         self._seen.update(dict.fromkeys(measures_of(comparison)))
         left, operator, right = comparison.left, comparison.operator, comparison.right
-        if not isinstance(left, MeasureRef):
-            left, operator, right = right, MIRRORED[operator], left
-        assert isinstance(left, MeasureRef), "a comparison has a measure on one side at least"
+        if isinstance(left, Calculated):
+            name = self._name(left)
+        else:
+            if not isinstance(left, MeasureRef):
+                left, operator, right = right, MIRRORED[operator], left
+            assert isinstance(left, MeasureRef), "a comparison has a measure on one side at least"
+            name = left.name
         if operator == "<":
-            return self._below(left.name, right, inclusive=False)
+            return self._below(name, right, inclusive=False)
         if operator == "<=":
-            return self._below(left.name, right, inclusive=True)
+            return self._below(name, right, inclusive=True)
         if operator == ">":
-            return -self._below(left.name, right, inclusive=True)
+            return -self._below(name, right, inclusive=True)
         if operator == ">=":
-            return -self._below(left.name, right, inclusive=False)
-        at_most = self._below(left.name, right, inclusive=True)
-        below = self._below(left.name, right, inclusive=False)
+            return -self._below(name, right, inclusive=False)
+        at_most = self._below(name, right, inclusive=True)
+        below = self._below(name, right, inclusive=False)
         equal = self._both(at_most, -below)
         return equal if operator == "=" else -equal
 
+    def _name(self, calculated: Calculated) -> str:
+        """What `cuts` calls a calculation, however its summands are ordered in the text."""
+        name = " + ".join(sorted(" * ".join((*names, str(factor))) for factor, names in calculated.terms))
+        self.calculations.setdefault(name, calculated)
+        return name
+
+    def _measure(self, name: str) -> Measure:
+        calculated = self.calculations.get(name)
+        if calculated is None:
+            return self._declared[name]
+        whole = all(self._declared[one].kind == "integer" for one in calculated.measures)
+        return Measure(name, "integer" if whole else "number")
+
     def _below(self, name: str, term: Term, inclusive: bool) -> int:
-        measure = self._declared[name]
+        measure = self._measure(name)
         if isinstance(term, ScaleValue):
             return self._below_rank(name, term.rank + inclusive)
         if isinstance(term, Number):
             return self._below_number(name, measure, term.value, inclusive)
+        assert isinstance(term, MeasureRef), "a calculation stands on the left"
         if measure.kind == "scale":
             return self._below_other_scale(name, term.name, len(measure.values), inclusive)
         if inclusive:
@@ -142,7 +170,7 @@ class Measures:
         cuts = self.cuts.setdefault(name, {})
         variable = cuts.get(cut)
         if variable is None:
-            variable = cuts[cut] = self._fresh(("below", name, _cut_text(self._declared[name], cut)))
+            variable = cuts[cut] = self._fresh(("below", name, _cut_text(self._measure(name), cut)))
         return variable
 
     def close(self) -> None:
@@ -192,9 +220,10 @@ class Measures:
 
     def assumptions(self, values: Mapping[str, Rational | str]) -> Iterator[int]:
         """The literals that measures of these values make true. A measure without a value gives none."""
+        known = {**values, **self._results(values)}
         for name, cuts in self.cuts.items():
-            if name in values:
-                measure, value = self._declared[name], values[name]
+            if name in known:
+                measure, value = self._measure(name), known[name]
                 position = measure.values.index(value) if isinstance(value, str) else value
                 for (limit, inclusive), variable in cuts.items():
                     yield variable if position < limit or (inclusive and position == limit) else -variable
@@ -202,12 +231,89 @@ class Measures:
             if x in values and y in values:
                 yield variable if values[x] <= values[y] else -variable  # type: ignore[operator]
 
+    def _results(self, values: Mapping[str, Rational | str]) -> dict[str, Rational]:
+        """What the calculations come to whose measures all have values."""
+        numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
+        return {
+            name: calculated.value(numbers)
+            for name, calculated in self.calculations.items()
+            if numbers.keys() >= set(calculated.measures)
+        }
+
     def decode(self, model: Callable[[int], bool]) -> dict[str, Rational | str] | list[int]:
         """Values that lie in the regions that `model` chose; numbers are whole where they can be.
 
         Returns instead a clause that the model breaks and that holds of all whole numbers, where the order it chose
-        leaves integers no room.
+        leaves integers no room, or calculations cannot come to what it chose. Raises Undecided where that is not known.
         """
+        values = self._placed(model)
+        if not self.calculations or isinstance(values, list):
+            return values
+        results = self._results(values)
+        if all(
+            (result < cut.value or (cut.inclusive and result == cut.value)) == model(variable)
+            for name, result in results.items()
+            for cut, variable in self.cuts.get(name, {}).items()
+        ):
+            return values
+        found = self._calculated(model, values)
+        if isinstance(found, list):
+            self.refused_by_arithmetic = True
+            return [-literal for literal in found]
+        values.update(found)
+        return values
+
+    def refused(self, model: Callable[[int], bool], proving: bool = False) -> list[int] | None:
+        """The clause that `decode` returns, if it returns one.
+
+        Raises Undecided as it does, and, if `proving`, where only arithmetic gives the clause, as of that there is no
+        proof.
+        """
+        if not (self.orders or self.calculations):
+            return None
+        decoded = self.decode(model)
+        if isinstance(decoded, dict):
+            return None
+        if proving and self.refused_by_arithmetic:
+            from sleec_verify.arithmetic import unproved
+
+            raise unproved(self.calculations.values())
+        return decoded
+
+    def _calculated(
+        self, model: Callable[[int], bool], values: Mapping[str, Rational | str]
+    ) -> dict[str, Rational] | list[int]:
+        """Values, near `values` if such are found, for the measures that calculations are made of and those that are
+        tied to them; or literals of the model that none go with."""
+        from sleec_verify.arithmetic import values_for
+        from sleec_verify.nearby import nearby
+
+        names = {name for one in self.calculations.values() for name in one.measures}
+        names.update(name for pair in self.orders for name in pair)
+        cuts = self._chosen(sorted(names), model)
+        orders = [(x, y, v if model(v) else -v) for (x, y), v in self.orders.items()]
+        compared = self._chosen(self.calculations, model)
+        asked = (*(cut[3] for cut in cuts), *(order[2] for order in orders), *(cut[3] for cut in compared))
+        if asked not in self._decoded:
+            results = [
+                (self.calculations[name], value, inclusive, literal) for name, value, inclusive, literal in compared
+            ]
+            here = {name: value for name in sorted(names) if not isinstance(value := values[name], str)}
+            integral = {name: self._declared[name].kind == "integer" for name in here}
+            found = nearby(here, cuts, orders, results) if all(integral.values()) else None
+            self._decoded[asked] = found or values_for(integral, cuts, orders, results)
+        return self._decoded[asked]
+
+    def _chosen(self, names: Iterable[str], model: Callable[[int], bool]) -> list[tuple[str, Rational, bool, int]]:
+        """The cuts of measures and calculations, each with the literal that the model makes true."""
+        return [
+            (name, cut.value, cut.inclusive, variable if model(variable) else -variable)
+            for name in names
+            for cut, variable in self.cuts.get(name, {}).items()
+        ]
+
+    def _placed(self, model: Callable[[int], bool]) -> dict[str, Rational | str] | list[int]:
+        """Values by the regions and orders of the measures, with no eye to what is calculated from them."""
         from sleec_verify.order import place
 
         clustered = {name for pair in self.orders for name in pair}
@@ -227,11 +333,7 @@ class Measures:
             return values
         placed = place(
             {name: self._declared[name].kind == "integer" for name in sorted(clustered)},
-            [
-                (name, cut.value, cut.inclusive, v if model(v) else -v)
-                for name in sorted(clustered)
-                for cut, v in self.cuts.get(name, {}).items()
-            ],
+            self._chosen(sorted(clustered), model),
             [(x, y, v if model(v) else -v) for (x, y), v in self.orders.items()],
         )
         if isinstance(placed, list):

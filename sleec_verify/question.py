@@ -83,7 +83,7 @@ class Question:
                 if recorder is not None:
                     recorder.refuted(clauses, literals)
                 return False
-            refusal = self._refused_order()
+            refusal = self._refused()
             if refusal is None:
                 if recorder is not None:
                     recorder.satisfied(clauses, literals, self._solver.holds)
@@ -91,12 +91,10 @@ class Question:
             clauses.append(refusal)
             self._solver.add([refusal])
 
-    def _refused_order(self) -> list[int] | None:
-        if not self.encoder.measures.orders:
-            return None
+    def _refused(self) -> list[int] | None:
+        """A clause that rules out the model at hand, where measures cannot have values as it says."""
         assert self._solver is not None
-        decoded = self.encoder.measures.decode(self._solver.holds)
-        return decoded if isinstance(decoded, list) else None
+        return self.encoder.measures.refused(self._solver.holds, self.cones.recorder is not None)
 
     def true(self, literal: int) -> bool:
         """Whether the context that the last `ask` found makes a literal true."""

@@ -21,6 +21,7 @@ from sleec_runtime.model import (
     And,
     Assume,
     Atom,
+    Calculated,
     Clause,
     Comparison,
     Exclusive,
@@ -325,6 +326,9 @@ def formula(f: Formula | None, instant: Instant) -> Any:
 def side(term: Term, instant: Instant) -> Any:
     if isinstance(term, MeasureRef):
         return instant.measure(term.name)
+    if isinstance(term, Calculated):
+        summands = (factor * z3.Product(*map(instant.measure, names)) for factor, names in term.terms)
+        return z3.Sum(*summands)
     return z3.IntVal(term.rank) if isinstance(term, ScaleValue) else number(term.value)
 
 

@@ -25,9 +25,12 @@ def timed_ruleset(
     longest: int = 3,
     relations: int = 2,
     hedges: int = 2,
+    calculations: bool = False,
 ) -> Ruleset:
-    """A ruleset with one rule at least and the given numbers at most; no window is over after `longest` seconds."""
-    return parse(_Writer(Random(seed), rules, events, booleans, scale, longest, relations, hedges).text())
+    """A ruleset with one rule at least and the given numbers at most; no window is over after `longest` seconds. With
+    `calculations`, half of its conditions calculate with two numbers."""
+    random = Random(seed)
+    return parse(_Writer(random, rules, events, booleans, scale, longest, relations, hedges, calculations).text())
 
 
 class _Writer:
@@ -41,6 +44,7 @@ class _Writer:
         longest: int,
         relations: int,
         hedges: int,
+        calculations: bool,
     ) -> None:
         self.random = random
         self.rules, self.relations, self.most_hedges = rules, relations, hedges
@@ -48,10 +52,13 @@ class _Writer:
         # Two texts in three do without the scale: most of what can go wrong needs no third value.
         self.scale = scale and random.randrange(3) == 0
         self.longest = longest
+        self.calculations = calculations
 
     def text(self) -> str:
         definitions = [f"event {e}" for e in self.events]
         definitions += [f"measure {m}: boolean" for m in self.booleans]
+        if self.calculations:
+            definitions += ["measure x: numeric", "measure y: numeric"]
         if self.scale:
             definitions.append(f"measure risk: scale({', '.join(SCALE)})")
         rules = [self.rule(f"R{number}") for number in range(self.random.randint(1, self.rules))]
@@ -85,6 +92,11 @@ class _Writer:
             return f"({self.condition(depth - 1)} {word} {self.condition(depth - 1)})"
         if depth and kind in (1, 2):
             return f"(not {self.condition(0)})"
+        if self.calculations and kind in (3, 4, 5, 6):
+            calculated = self.random.choice(("{x} + {y}", "{x} - {y}", "{x} * {y}", "2 * {x} + {y}", "{y} - 3 * {x}"))
+            return (
+                f"(({calculated}) {self.random.choice(('<', '<=', '=', '<>', '>=', '>'))} {self.random.randint(-3, 4)})"
+            )
         if self.scale and kind in (3, 4):
             return f"({{risk}} {self.random.choice(('<', '<=', '=', '<>', '>=', '>'))} {self.random.choice(SCALE)})"
         return "{" + self.random.choice(self.booleans) + "}"

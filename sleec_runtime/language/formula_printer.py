@@ -5,6 +5,7 @@ from __future__ import annotations
 from sleec_runtime.model import (
     And,
     Atom,
+    Calculated,
     Comparison,
     Formula,
     MeasureRef,
@@ -38,6 +39,8 @@ def print_term(term: Term) -> str:
         return term.name
     if isinstance(term, ScaleValue):
         return term.value
+    if isinstance(term, Calculated):
+        return str(term)
     return term.constant if term.constant is not None else print_number(term.value)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from sleec_runtime.model import (
     And,
     Atom,
+    Calculated,
     Comparison,
     Formula,
     MeasureRef,
@@ -87,15 +88,15 @@ def _always(cones: Cones, parts: Sequence[Formula]) -> list[bool | None]:
 
 
 def _may_be_constant(formula: Formula) -> bool:
-    """False only if no part of the formula is constant: each of its names stands in it once, and a number can lie on
-    either side of any other. Most conditions are so, and need no solver."""
+    """False only if no part of the formula is constant: each of its names stands in it once, and a number
+    that is not calculated can lie on either side of any other. Most conditions are so, and need no solver."""
     seen: set[str] = set()
     for part in _parts(formula):
         names: tuple[str, ...] = ()
         if isinstance(part, Atom):
             names = (part.name,)
         elif isinstance(part, Comparison):
-            if isinstance(part.left, ScaleValue) or isinstance(part.right, ScaleValue):
+            if isinstance(part.left, (Calculated, ScaleValue)) or isinstance(part.right, ScaleValue):
                 return True
             names = measures_of(part)
         elif isinstance(part, Truth):

@@ -79,8 +79,9 @@ def names_used(ruleset: Ruleset) -> dict[DeclaredKind, set[str]]:
 
 
 def constants_used(ruleset: Ruleset) -> set[str]:
-    """The constants that comparisons, or other constants, name."""
-    used = {s.alias for s in ruleset.statements if isinstance(s, Constant) and s.alias is not None}
+    """The constants that comparisons, calculations or other constants name."""
+    used = set(ruleset.calculated_with)
+    used |= {s.alias for s in ruleset.statements if isinstance(s, Constant) and s.alias is not None}
     amounts = _beside_rules(ruleset)[2]
     used |= {a.constant for a in amounts if isinstance(a, Number) and a.constant is not None}
     for formula in _formulas(ruleset):

@@ -12,6 +12,7 @@ from itertools import chain
 from typing import TypeVar, Union
 
 from sleec_runtime.model import Ruleset
+from sleec_verify.calculations import calculations, named
 from sleec_verify.compare.conflicts import conflict_changes
 from sleec_verify.compare.names import name_changes
 from sleec_verify.compare.obligations import changes
@@ -71,6 +72,10 @@ def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Unti
         same=len(whole.aligned.same),
         notes=tuple(_notes(whole)),
     )
+    calculated = list(dict.fromkeys(one for ruleset in (old, new) for one in calculations(ruleset)))
+    if calculated and (old.statements, old.reading) != (new.statements, new.reading):
+        why = "comparisons of what is calculated from several measures are not compared"
+        return shared._replace(undecided=(*shared.undecided, Undecidable(named(calculated), why)))
     if domain is not None:
         domains: Sequence[str] = (domain,)
     else:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from sleec_runtime.model import Kind, Ruleset
+from sleec_verify.calculations import refuse_calculations
 
 FORMS = ("sympy", "latex", "cnf", "dimacs", "smtlib", "json")
 
@@ -14,10 +15,12 @@ def compile_to(ruleset: Ruleset, form: str, domain: str | None = None) -> str:
     """The ruleset (its rules in `domain`, if one is named) in one of `FORMS`, as text.
 
     sympy and latex are Equation 1 written out; cnf, dimacs and json are clauses, linear in the size of the rules;
-    smtlib keeps the measures as numbers. Raises KeyError for another form.
+    smtlib keeps the measures as numbers. Raises KeyError for another form,
+    UnsupportedCalculations for rules that calculate with several measures.
     """
     if domain is not None:
         ruleset = ruleset.in_domain(domain)
+    refuse_calculations(ruleset, "Equation 1 as a formula or as clauses")
     return _writers()[form](ruleset)
 
 

@@ -24,6 +24,7 @@ from sleec_runtime.model import (
     leaves,
     measures_of,
 )
+from sleec_verify.calculations import calculations_in, unsupported
 
 LIMIT = 2**16
 """Contexts that a test goes through one by one; a rule with more is sampled. Sixteen conditions are within it."""
@@ -104,9 +105,14 @@ def givens(
 ) -> list[Given]:
     """What `formulas` speak of, with the values to try: conditions, then measures, by name.
 
+    Raises UnsupportedCalculations: no values of single measures tell apart what is calculated from several.
+
     `unreported` adds that a measure has no value, in which case whatever compares with it is false; `near` adds the
     numbers `beside` the bounds.
     """
+    calculated = list(dict.fromkeys(one for formula in formulas for one in calculations_in(formula)))
+    if calculated:
+        raise unsupported(calculated, "a test of every context that rules tell apart")
     atoms = {leaf.name for f in formulas for leaf in leaves(f) if isinstance(leaf, Atom) and leaf.kind == "condition"}
     compared = sorted({name for comparison in _comparisons(formulas) for name in measures_of(comparison)})
     none: tuple[None, ...] = (None,) if unreported else ()

@@ -10,6 +10,7 @@ from math import ceil, floor
 from sleec_runtime.model import (
     And,
     Atom,
+    Calculated,
     Clause,
     Comparison,
     Formula,
@@ -21,10 +22,12 @@ from sleec_runtime.model import (
     Rational,
     Reading,
     Rule,
+    ScaleValue,
     Truth,
     Value,
     leaves,
 )
+from sleec_verify.calculations import named
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
 from sleec_verify.solver import Undecided
 
@@ -35,7 +38,7 @@ class Scales:
     """For each measure that some formulas speak of, values that stand for all that these can tell apart, in order."""
 
     def __init__(self, measures: Mapping[str, Measure], formulas: Iterable[Formula]) -> None:
-        """Raises Undecided where two measures are compared."""
+        """Raises Undecided where two measures are compared, or calculated with."""
         self.conditions: set[str] = set()
         cuts: dict[str, set[Rational]] = {}
         for formula in formulas:
@@ -75,14 +78,17 @@ def _whole(value: Fraction) -> Rational:
 def sides(comparison: Comparison) -> tuple[str, str, Rational]:
     """A comparison as measure, operator and number, which for a value of a scale is its rank.
 
-    Raises Undecided where two measures are compared.
+    Raises Undecided where two measures are compared, or calculated with.
     """
     left, operator, right = comparison.left, str(comparison.operator), comparison.right
+    if isinstance(left, Calculated):
+        raise Undecided(f"games with calculations are not analysed, as with {named([left])}")
     if not isinstance(left, MeasureRef):
         left, right, operator = right, left, _FLIPPED[operator]
     if isinstance(right, MeasureRef):
         raise Undecided("games with comparisons of two measures are not analysed")
     assert isinstance(left, MeasureRef), "one side of a comparison is a measure"
+    assert isinstance(right, (Number, ScaleValue)), "a calculation stands on the left"
     return left.name, operator, right.value if isinstance(right, Number) else right.rank
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from types import TracebackType
 
 from sleec_runtime.model import Ruleset
+from sleec_verify.calculations import calculations, named
 from sleec_verify.certificates.elaboration import NotFollowing
 from sleec_verify.certificates.refutation import refute
 from sleec_verify.theory.boolean import Boolean
@@ -28,6 +29,8 @@ def not_modelled(ruleset: Ruleset) -> str | None:
     """Why the theory does not speak of a ruleset, or None."""
     if speaks_of_traces(ruleset):
         return "the theory has no times, and nothing that is done happens in it"
+    if calculated := calculations(ruleset):
+        return f"the theory does not calculate, as in {named(calculated)}"
     whole = {name for name, measure in ruleset.measures.items() if measure.kind == "integer"}
     compared = sorted(whole & Boolean(ruleset).compared) if whole else []
     return f"whole numbers are compared with one another ({', '.join(compared)})" if compared else None

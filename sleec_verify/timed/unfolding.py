@@ -428,10 +428,10 @@ class Unfolding:
         """Rule out what a model says of measures and times and cannot be; False if all of it can."""
         refused = []
         for instant in self.instants:
-            if instant.measures.orders and self.true(instant.used):
-                decoded = instant.measures.decode(self.true)
-                if isinstance(decoded, list):
-                    refused.append(decoded)
+            if self.true(instant.used):
+                lemma = instant.measures.refused(self.true, self.program.recorder is not None)
+                if lemma is not None:
+                    refused.append(lemma)
         refused += self.times.refused(self.true, self.used())
         for lemma in refused:
             self.add(lemma)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.timed_agreement import compare_all, compare_english
+from tests.timed_agreement import compare_all, compare_calculations, compare_english
 
 ROOT = Path(__file__).parents[2]
 
@@ -24,6 +24,13 @@ def test_some_random_rulesets_are_answered_as_z3_answers_them():
 def test_structured_english_is_answered_as_z3_answers_it():
     """Both readings, several obligations in a response, which may contradict one another, numbers, constraints."""
     compare_english(0, 20)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(300)
+def test_rulesets_that_calculate_are_answered_as_z3_answers_them():
+    """The product asks z3, too, but only what single instants can be; the second method shares nothing of that."""
+    assert compare_calculations(0, 20) > 80
 
 
 @pytest.mark.slow

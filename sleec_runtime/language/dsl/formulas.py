@@ -13,8 +13,8 @@ from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import And, Atom, Dialect, Formula, Not, Or, Source, Span, Truth
 
-MAX_CALCULATION = 200
-"""Tokens that a calculation in parentheses may have."""
+MAX_CALCULATION = 400
+"""Tokens that one side of a comparison may have; printed with all parentheses it has some more."""
 
 
 class FormulaParser(Cursor):
@@ -77,7 +77,7 @@ class FormulaParser(Cursor):
         left = self.operand("a condition")
         if self.kinds[self.at] != "operator":
             if isinstance(left, Calculation) or not isinstance(left.written, str):
-                self.expected("a comparison such as < or >= after the number")
+                self.expected("a comparison such as < or >= after the number", "as in: (({x} + 1) > 3)")
             if not self.hurt:
                 self.names.boolean(left.written, left.span)
             return Atom("condition", left.written, left.span)
@@ -121,7 +121,7 @@ class FormulaParser(Cursor):
     def _opens_calculation(self) -> bool:
         """Whether the parenthesis at hand holds a calculation, and not a condition."""
         depth, found = 0, False
-        for at in range(self.at, min(self.at + MAX_CALCULATION, len(self.kinds))):
+        for at in range(self.at, min(self.at + 3 * MAX_CALCULATION, len(self.kinds))):
             kind = self.kinds[at]
             if kind in ("+", "-", "*"):
                 found = True
@@ -140,7 +140,7 @@ class FormulaParser(Cursor):
         first = self.at
         left = self._product(what)
         while (operator := self.kinds[self.at]) in ("+", "-"):
-            self.at += 1
+            self._operator(first)
             left = Calculation(operator, left, self._product("a number or a measure"), self.span(first))
         return left
 
@@ -148,9 +148,19 @@ class FormulaParser(Cursor):
         first = self.at
         left = self._factor(what)
         while self.kinds[self.at] == "*":
-            self.at += 1
+            self._operator(first)
             left = Calculation("*", left, self._factor("a number or a measure"), self.span(first))
+        if self.kinds[self.at] == "strange" and self.token_text(self.at) == "/":
+            message = "calculations have +, - and *, and nothing is divided"
+            self.fail(message, self.token_span(self.at), "multiply the other side: ({x} > (2 * {y}))")
         return left
+
+    def _operator(self, first: int) -> None:
+        """Reads the `+`, `-` or `*` at hand, in a calculation that begins at token `first`."""
+        self.at += 1
+        if self.at - first > MAX_CALCULATION:
+            message = f"this calculation is longer than {MAX_CALCULATION} words and signs"
+            self.fail(message, self.span(first), "multiply out less, or compare parts of it")
 
     def _factor(self, what: str) -> Operand:
         first = self.at

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import operator as operators
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from fractions import Fraction
-from math import ceil, floor
+from math import ceil, floor, gcd
 from typing import Literal, NamedTuple, Union
 
 from sleec_runtime.errors import Problem
+from sleec_runtime.language.formulas import MAX_DIGITS
 from sleec_runtime.language.resolve import MAX_PROBLEMS, did_you_mean
 from sleec_runtime.language.suggest import Suggester
 from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import (
+    Calculated,
     Comparison,
     Constant,
     Defect,
@@ -33,6 +36,8 @@ from sleec_runtime.model import (
 NameKind = Literal["event", "boolean", "measure", "constant"]
 _ARTICLE = {"event": "an event", "boolean": "a boolean measure", "measure": "a measure", "constant": "a constant"}
 
+MAX_TERMS = 20
+"""Parts that what a calculation comes to may have: written with all parentheses, they are no longer than one may be."""
 
 _COMPARED: Mapping[Operator, Callable[[Rational, Rational], bool]] = {
     "<": operators.lt,
@@ -66,15 +71,27 @@ Operand = Union[Side, Calculation]
 
 
 class _Sum(NamedTuple):
-    """What a calculation comes to: so many times each measure, and a number."""
+    """What a calculation comes to: so many times each measure or product of two, and a number."""
 
-    measures: dict[str, Rational]
-    number: Rational
+    terms: dict[tuple[str, ...], int]
+    number: int
 
-    def plus(self, other: _Sum, times: Rational = 1) -> _Sum:
-        names = [*self.measures, *(name for name in other.measures if name not in self.measures)]
-        found = {name: self.measures.get(name, 0) + times * other.measures.get(name, 0) for name in names}
+    def plus(self, other: _Sum, times: int = 1) -> _Sum:
+        names = [*self.terms, *(name for name in other.terms if name not in self.terms)]
+        found = {name: self.terms.get(name, 0) + times * other.terms.get(name, 0) for name in names}
         return _Sum({name: factor for name, factor in found.items() if factor}, self.number + times * other.number)
+
+    def multiplied(self, other: _Sum) -> _Sum:
+        found = _Sum({}, self.number * other.number)
+        for one in (*self.terms.items(), ((), self.number)):
+            for two in (*other.terms.items(), ((), other.number)):
+                if names := (*one[0], *two[0]):
+                    found = found.plus(_Sum({tuple(sorted(names)): one[1] * two[1]}, 0))
+        return found
+
+    def digits(self) -> int:
+        """Those of the longest number in it."""
+        return max(len(str(abs(number))) for number in (self.number, *self.terms.values()))
 
 
 class Names:
@@ -84,6 +101,8 @@ class Names:
         self.kinds: dict[str, NameKind] = {}
         self.measures: dict[str, Measure] = {}
         self.constants: dict[str, Constant] = {}
+        self.calculated_with: set[str] = set()
+        """The constants of calculations, which these do not name any more once they are worked out."""
         self.defects: list[Defect] = []
         self.complete = True
         """False once a definition could not be read: then a name without one is no news."""
@@ -134,8 +153,6 @@ class Names:
 
     def define_constants(self, written: dict[str, tuple[Side, Constant]]) -> None:
         """The constants with their values: each is a number or the value of another, wherever that stands."""
-        from dataclasses import replace
-
         for name in written:
             chain: dict[str, None] = {}
             at = name
@@ -250,10 +267,11 @@ class Names:
             whole = self._sum(side)
             if whole is None:
                 return None
-            if not whole.measures:
+            if not whole.terms:
                 return Number(whole.number)
-            if not whole.number and list(whole.measures.values()) == [1]:
-                return self._ref(next(iter(whole.measures)))
+            (measures, factor), *more = whole.terms.items()
+            if (len(measures), factor, whole.number) == (1, 1, 0) and not more:
+                return self._ref(measures[0])
             self.problem(
                 "a calculation with a measure is no length of time", side.span, "use the measure alone, or none"
             )
@@ -284,17 +302,39 @@ class Names:
             term = self.number(side)
             if term is None:
                 return None
-            return _Sum({}, term.value) if isinstance(term, Number) else _Sum({term.name: 1}, 0)
+            if isinstance(term, MeasureRef):
+                return _Sum({(term.name,): 1}, 0)
+            if term.constant is not None:
+                self.calculated_with.add(term.constant)
+            return _Sum({}, int(term.value))
         left, right = self._sum(side.left), self._sum(side.right)
         if left is None or right is None:
             return None
         if side.operator != "*":
-            return left.plus(right, 1 if side.operator == "+" else -1)
-        if left.measures and right.measures:
-            self.problem("a product of two measures is not analysed", side.span, "multiply a measure by a number")
+            found = left.plus(right, 1 if side.operator == "+" else -1)
+        elif max(map(len, left.terms), default=0) + max(map(len, right.terms), default=0) > 2:
+            self.problem(
+                "a product of more than two measures is not analysed", side.span, "multiply two measures at most"
+            )
             return None
-        factor, other = (left.number, right) if not left.measures else (right.number, left)
-        return _Sum({}, 0).plus(other, factor)
+        else:
+            found = left.multiplied(right)
+        return self._limited(found, side.span)
+
+    def _limited(self, found: _Sum, span: Span) -> _Sum | None:
+        """What a calculation comes to; None, and a problem, if that is too long."""
+        if len(found.terms) > MAX_TERMS:
+            self.problem(
+                f"this calculation comes to a sum of {len(found.terms)} parts, more than {MAX_TERMS}",
+                span,
+                "multiply out less, or compare parts of it",
+            )
+            return None
+        if found.digits() > MAX_DIGITS:
+            message = f"this calculation comes to a number of more than {MAX_DIGITS} digits"
+            self.problem(message, span, "count in a larger unit")
+            return None
+        return found
 
     def _ref(self, name: str) -> MeasureRef:
         ref = self._refs.get(name)
@@ -337,28 +377,34 @@ class Names:
         return None if first is None or second is None else Comparison(first, operator, second, span)
 
     def calculated(self, left: Operand, operator: Operator, right: Operand, span: Span) -> Formula | None:
-        """A comparison of calculations as one that compares a measure with a number, or two measures; None, and a
-        problem, if it is none."""
+        """A comparison of calculations as one that compares a measure with a number, or two measures, or else what is
+        calculated from several with a number; None, and a problem, if there is none."""
         one, two = self._sum(left), self._sum(right)
         if one is None or two is None:
             return None
-        whole = one.plus(two, -1)
-        factors = list(whole.measures.items())
-        if not factors:
+        whole = self._limited(one.plus(two, -1), span)
+        if whole is None:
+            return None
+        if not whole.terms:
             return Truth(_COMPARED[operator](whole.number, 0), span)
-        name, factor = factors[0]
+        (names, factor), *more = whole.terms.items()
         if factor < 0:
             operator = _MIRRORED[operator]
-        if len(factors) == 1:
-            return _with_whole_number(self._ref(name), operator, Fraction(-whole.number) / Fraction(factor), span)
-        if len(factors) == 2 and factors[1][1] == -factor and not whole.number:
-            return Comparison(self._ref(name), operator, self._ref(factors[1][0]), span)
-        self.problem(
-            f"a calculation with {quoted(name)} and {quoted(factors[1][0])} is not analysed",
-            span,
-            "compare one measure with a number, or two measures with each other",
-        )
-        return None
+        divisor = gcd(*whole.terms.values()) * (1 if factor > 0 else -1)
+        number = Fraction(-whole.number, divisor)
+        if not more and len(names) == 1:
+            return _with_whole_number(self._ref(names[0]), operator, number, span)
+        if whole.number == 0 and [(len(other), times) for other, times in more] == [(1, -factor)] and len(names) == 1:
+            return Comparison(self._ref(names[0]), operator, self._ref(more[0][0][0]), span)
+        terms = tuple((times // divisor, product) for product, times in whole.terms.items())
+        found = _with_whole_number(Calculated(terms, self.line(span)), operator, number, span)
+        # A constant that stands alone on one side keeps its name.
+        for side, other in ((right, one), (left, two)):
+            if isinstance(side, Side) and isinstance(found, Comparison) and other.number == 0:
+                alone = self.number(side)
+                if isinstance(alone, Number) and isinstance(found.right, Number) and alone.value == found.right.value:
+                    return replace(found, right=alone)
+        return found
 
     def _scale(self, side: Side) -> Measure | None:
         measure = self.measures.get(side.written) if isinstance(side.written, str) else None
@@ -419,7 +465,7 @@ class Names:
         return True
 
 
-def _with_whole_number(measure: MeasureRef, operator: Operator, number: Fraction, span: Span) -> Formula:
+def _with_whole_number(measure: MeasureRef | Calculated, operator: Operator, number: Fraction, span: Span) -> Formula:
     """A comparison of a whole number with any."""
     if number.denominator == 1:
         return Comparison(measure, operator, Number(int(number)), span)

@@ -49,6 +49,7 @@ def parse_dsl(source: Source) -> Ruleset:
         reading="priority",
         syntax="dsl",
         dialect=dialect,
+        calculated_with=frozenset(names.calculated_with),
         defects=tuple(sorted(names.defects, key=lambda defect: defect.span)),
         source=source,
         closing_comments=tokens.closing,

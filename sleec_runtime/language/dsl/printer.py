@@ -16,6 +16,7 @@ from sleec_runtime.language.token_reader import MAX_DEPTH
 from sleec_runtime.model import (
     And,
     Atom,
+    Calculated,
     Clause,
     Comments,
     Comparison,
@@ -250,6 +251,8 @@ class _Printer:
             return self._measure(term.name)
         if isinstance(term, ScaleValue):
             return term.value
+        if isinstance(term, Calculated):
+            return term.written(self._measure, "({})".format if self._legos else str)
         return _number(term)
 
 
