@@ -62,6 +62,16 @@ class Decided(NamedTuple):
     guard: int
 
 
+class Unseen(NamedTuple):
+    """That an event (or what ends a law) came about in a window around instant `at`, at an instant before now that is
+    not one of those that are known."""
+
+    at: int
+    what: str
+    start: int | None = None
+    end: int | None = None
+
+
 _Trust = Callable[[_Need], bool]
 """Which needs are taken on trust to be met at instants still to come."""
 
@@ -78,10 +88,13 @@ class Unfolding:
         rules: Mapping[str, Sequence[Rule]] | None = None,
         most: int = MOST,
         impossible: frozenset[str] = frozenset(),
+        in_part: int = 0,
+        unseen: Mapping[Unseen, bool] | None = None,
     ) -> None:
         """The rules `without` are not in force. `beginning` are instants that are settled, in the order of time, the
         last of them open to more events; all further ones come after it. `rules` replace those of the program.
-        `impossible` are events that are known to occur in no trace."""
+        `impossible` are events that are known to occur in no trace. The first `in_part` instants, after which comes
+        now, are only part of those before now; what came about at others is `unseen`, if that is known, or open."""
         self.program = program
         self.formula = Formula()
         self.add = self.formula.clauses.append
@@ -93,6 +106,9 @@ class Unfolding:
         self._most = most
         self._grown = 0
         self._impossible = impossible
+        self._in_part = in_part
+        self._unseen_known = unseen
+        self.unseen: dict[Unseen, int] = {}
         self._needs: list[_Need] = []
         self._everywhere: list[Callable[[int], None]] = []
         self._in_force: dict[str, int] = {}
@@ -166,14 +182,16 @@ class Unfolding:
         if what.start == what.end == 0:
             event = self.instants[at].event(what.event)
             return -event if what.negated else event
+        unseen = self.came_about(at, what.event, what.start, what.end)
         if not what.negated:
             later = what.event if what.start is not None and what.start >= 0 else None
             literal = self.exists(lambda other: self._occurrence(at, other, what), later)
             if at <= self.now and what.end is not None and what.end < 0:
                 # Nothing is added before now.
                 self.add([-self._needs.pop().rest])
-            return literal
+            return literal if unseen == -self.formula.true else self.formula.any_of([literal, unseen])
         never = self.formula.fresh()
+        self.add([-never, -unseen])
 
         def not_there(other: int) -> None:
             bounds = self.times.bounds(at, other, what.start, what.end)
@@ -182,6 +200,21 @@ class Unfolding:
 
         self.everywhere(not_there)
         return never
+
+    def came_about(self, at: int, what: str, start: int | None = None, end: int | None = None) -> int:
+        """The literal "it came about in this window, at an instant before now that is not one of these"."""
+        if at >= self._in_part or (end is not None and end <= 0):
+            return -self.formula.true
+        key = Unseen(at, what, start, end)
+        if self._unseen_known is not None:
+            return self.formula.true if self._unseen_known.get(key) else -self.formula.true
+        literal = self.unseen.get(key)
+        if literal is None:
+            literal = self.unseen[key] = self.formula.fresh()
+            # There has been time for it.
+            for bound in self.times.bounds(at, self._in_part, (start or 0) + 1, None):
+                self.add([-literal, bound])
+        return literal
 
     def _occurrence(self, at: int, other: int, what: Occurs) -> int:
         bounds = self.times.bounds(at, other, what.start, what.end)
@@ -308,7 +341,8 @@ class Unfolding:
                     last = -(-seconds(lasting.duration) // 1) - 1
                     bounds = self.times.bounds(at, other, 0, int(last))
                 else:
-                    bounds = [*self.times.bounds(at, other, 0, None), -stopped_by(other)]
+                    stopped = self.came_about(at, law_name(lasting))
+                    bounds = [*self.times.bounds(at, other, 0, None), -stopped_by(other), -stopped]
                 away = [-bound for bound in bounds]
                 require(-begins, -self.instants[other].used, *away, self.condition(other, lasting.formula))
 
