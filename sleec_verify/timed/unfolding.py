@@ -14,7 +14,7 @@ not come back to their own trigger, this ends; where they do, it may not, and is
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from sleec_runtime.model import (
@@ -50,6 +50,8 @@ class _Need:
     rest: int
     later: str | None = None
     """The event that it calls for, at the same time or later."""
+    parts: list[_Need] = field(default_factory=list)
+    """What one instant at which this comes about first is enough for."""
 
 
 class Decided(NamedTuple):
@@ -110,6 +112,7 @@ class Unfolding:
         self._unseen_known = unseen
         self.unseen: dict[Unseen, int] = {}
         self._needs: list[_Need] = []
+        self._firsts: list[_Need] = []
         self._everywhere: list[Callable[[int], None]] = []
         self._in_force: dict[str, int] = {}
         self.now = len(beginning) - 1
@@ -151,6 +154,10 @@ class Unfolding:
             make(number)
         for need in waiting:
             self._offer(need, number)
+        for first in self._firsts:
+            for part in first.parts:
+                self._offer(part, number)
+                self._close(first, part)
         return number
 
     def exists(self, witness: Callable[[int], int], later: str | None = None) -> int:
@@ -162,6 +169,30 @@ class Unfolding:
         for number in range(len(self.instants)):
             self._offer(need, number)
         return literal
+
+    def first(self, witness: Callable[[int], int]) -> _Need:
+        """The first instant at which `witness` holds, if there is any, as one thing to look for."""
+        need = _Need(witness, self.formula.fresh())
+        self._needs.append(need)
+        self._firsts.append(need)
+        for number in range(len(self.instants)):
+            self._offer(need, number)
+        return need
+
+    def by_first(self, first: _Need, witness: Callable[[int], int]) -> int:
+        """As `exists`, where `witness` demands more than that of `first`, and the first instant of that is as
+        good as any."""
+        literal = self.formula.fresh()
+        part = _Need(witness, literal)
+        first.parts.append(part)
+        for number in range(len(self.instants)):
+            self._offer(part, number)
+        self._close(first, part)
+        return literal
+
+    def _close(self, first: _Need, part: _Need) -> None:
+        """What is still to come for a part is the first instant, until that has come."""
+        self.add([-part.rest, first.rest] if first in self._needs else [-part.rest])
 
     def _offer(self, need: _Need, number: int) -> None:
         here = need.witness(number)
@@ -186,9 +217,6 @@ class Unfolding:
         if not what.negated:
             later = what.event if what.start is not None and what.start >= 0 else None
             literal = self.exists(lambda other: self._occurrence(at, other, what), later)
-            if at <= self.now and what.end is not None and what.end < 0:
-                # Nothing is added before now.
-                self.add([-self._needs.pop().rest])
             return literal if unseen == -self.formula.true else self.formula.any_of([literal, unseen])
         never = self.formula.fresh()
         self.add([-never, -unseen])
@@ -281,6 +309,13 @@ class Unfolding:
         """What a relation or constraint demands of an instant."""
         in_force = self.in_force(law_name(law))
 
+        # One instant at which it comes first is enough for all.
+        comes_first = (
+            self.first(lambda other: self.instants[other].event(law.left))
+            if isinstance(law, EventRelation) and law.relation == "happenBefore"
+            else None
+        )
+
         def require(*literals: int) -> None:
             self.add([-in_force, *literals])
 
@@ -291,8 +326,13 @@ class Unfolding:
             left, right = event(at, relation.left), event(at, relation.right)
             if relation.relation == "mutualExclusive":
                 require(-left, -right)
-            elif relation.relation == "happenBefore":
-                require(-right, self.occurs(at, Occurs(relation.left, None, -1)))
+            elif comes_first is not None:
+                require(
+                    -right,
+                    self.by_first(
+                        comes_first, lambda other: self._occurrence(at, other, Occurs(relation.left, None, -1))
+                    ),
+                )
             else:
                 require(-left, right)
                 if relation.relation == "equal":
@@ -325,15 +365,16 @@ class Unfolding:
                 assert lasting.end is not None
                 return self.formula.every([event(other, lasting.end), self.condition(other, lasting.end_condition)])
 
+            def ends(other: int) -> int:
+                return self.formula.every([stops(other), *self.times.bounds(at, other, 0, None)])
+
+            first_end = self.first(ends) if lasting.end is not None else None
+
             def stopped_by(until: int) -> int:
-                return self.exists(
-                    lambda other: self.formula.every(
-                        [
-                            stops(other),
-                            *self.times.bounds(at, other, 0, None),
-                            *self.times.bounds(other, until, 0, None),
-                        ]
-                    )
+                assert first_end is not None
+                return self.by_first(
+                    first_end,
+                    lambda other: self.formula.every([ends(other), *self.times.bounds(other, until, 0, None)]),
                 )
 
             def holds_at(other: int) -> None:
