@@ -179,15 +179,18 @@ class Unfolding:
             self._offer(need, number)
         return need
 
-    def by_first(self, first: _Need, witness: Callable[[int], int]) -> int:
+    def by_first(self, first: _Need, witness: Callable[[int], int], to_come: bool = True) -> int:
         """As `exists`, where `witness` demands more than that of `first`, and the first instant of that is as
-        good as any."""
+        good as any. Unless it may be one that is `to_come`, it is one of those that there are."""
         literal = self.formula.fresh()
         part = _Need(witness, literal)
-        first.parts.append(part)
         for number in range(len(self.instants)):
             self._offer(part, number)
-        self._close(first, part)
+        if to_come:
+            first.parts.append(part)
+            self._close(first, part)
+        else:
+            self.add([-part.rest])
         return literal
 
     def _close(self, first: _Need, part: _Need) -> None:
@@ -239,8 +242,8 @@ class Unfolding:
         literal = self.unseen.get(key)
         if literal is None:
             literal = self.unseen[key] = self.formula.fresh()
-            # There has been time for it.
-            for bound in self.times.bounds(at, self._in_part, (start or 0) + 1, None):
+            # There has been time for it, after this instant and before now.
+            for bound in self.times.bounds(at, self._in_part, max(start or 0, 1) + 1, None):
                 self.add([-literal, bound])
         return literal
 
@@ -327,12 +330,9 @@ class Unfolding:
             if relation.relation == "mutualExclusive":
                 require(-left, -right)
             elif comes_first is not None:
-                require(
-                    -right,
-                    self.by_first(
-                        comes_first, lambda other: self._occurrence(at, other, Occurs(relation.left, None, -1))
-                    ),
-                )
+                before = Occurs(relation.left, None, -1)
+                came = self.by_first(comes_first, lambda other: self._occurrence(at, other, before), at > self.now)
+                require(-right, came)
             else:
                 require(-left, right)
                 if relation.relation == "equal":
@@ -375,6 +375,7 @@ class Unfolding:
                 return self.by_first(
                     first_end,
                     lambda other: self.formula.every([ends(other), *self.times.bounds(other, until, 0, None)]),
+                    until > self.now,
                 )
 
             def holds_at(other: int) -> None:
