@@ -18,9 +18,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from sleec_runtime.model import (
-    Assume,
     Clause,
-    Exclusive,
     Obligation,
     Rule,
     Value,
@@ -28,11 +26,11 @@ from sleec_runtime.model import (
 from sleec_runtime.model import (
     Formula as Condition,
 )
-from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
 from sleec_verify.solver import MiniSat, Undecided
 from sleec_verify.timed.instant import Fixed, Formula, Instant
-from sleec_verify.timed.program import Law, Program, law_name
-from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
+from sleec_verify.timed.laws import law_at
+from sleec_verify.timed.program import Program
+from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.times import Times
 
 MOST = 12
@@ -123,7 +121,7 @@ class Unfolding:
         self._sent = 0
         self._core: set[int] = set()
         for law in program.laws:
-            self._everywhere.append(self._law_at(law))
+            self._everywhere.append(law_at(self, law))
         for fixed in beginning:
             self.instant(self.formula.true, fixed)
 
@@ -219,7 +217,7 @@ class Unfolding:
         unseen = self.came_about(at, what.event, what.start, what.end)
         if not what.negated:
             later = what.event if what.start is not None and what.start >= 0 else None
-            literal = self.exists(lambda other: self._occurrence(at, other, what), later)
+            literal = self.exists(lambda other: self.occurrence(at, other, what), later)
             return literal if unseen == -self.formula.true else self.formula.any_of([literal, unseen])
         never = self.formula.fresh()
         self.add([-never, -unseen])
@@ -247,7 +245,8 @@ class Unfolding:
                 self.add([-literal, bound])
         return literal
 
-    def _occurrence(self, at: int, other: int, what: Occurs) -> int:
+    def occurrence(self, at: int, other: int, what: Occurs) -> int:
+        """A literal that implies that the event occurs at instant `other`, in a window around instant `at`."""
         bounds = self.times.bounds(at, other, what.start, what.end)
         if -self.formula.true in bounds:
             return -self.formula.true
@@ -307,108 +306,6 @@ class Unfolding:
 
     def condition(self, at: int, condition: Condition | None) -> int:
         return self.formula.true if condition is None else self.instants[at].literal(condition)
-
-    def _law_at(self, law: Law) -> Callable[[int], None]:
-        """What a relation or constraint demands of an instant."""
-        in_force = self.in_force(law_name(law))
-
-        # One instant at which it comes first is enough for all.
-        comes_first = (
-            self.first(lambda other: self.instants[other].event(law.left))
-            if isinstance(law, EventRelation) and law.relation == "happenBefore"
-            else None
-        )
-
-        def require(*literals: int) -> None:
-            self.add([-in_force, *literals])
-
-        def event(at: int, name: str) -> int:
-            return self.instants[at].event(name)
-
-        def of_events(at: int, relation: EventRelation) -> None:
-            left, right = event(at, relation.left), event(at, relation.right)
-            if relation.relation == "mutualExclusive":
-                require(-left, -right)
-            elif comes_first is not None:
-                before = Occurs(relation.left, None, -1)
-                came = self.by_first(comes_first, lambda other: self._occurrence(at, other, before), at > self.now)
-                require(-right, came)
-            else:
-                require(-left, right)
-                if relation.relation == "equal":
-                    require(-right, left)
-
-        def of_measures(at: int, relation: MeasureRelation) -> None:
-            unused, left = -self.instants[at].used, self.condition(at, relation.left)
-            right = self.condition(at, relation.right)
-            if relation.relation == "invariant":
-                require(unused, left)
-            elif relation.relation in ("imply", "iff"):
-                require(unused, -left, right)
-                if relation.relation == "iff":
-                    require(unused, left, -right)
-            else:
-                require(unused, -left, -right)
-
-        def of_effect(at: int, effect: Effect) -> None:
-            occurs, holds = event(at, effect.event), self.condition(at, effect.formula)
-            if effect.relation == "causation":
-                require(-self.instants[at].used, -holds, occurs)
-            else:
-                require(-occurs, holds if effect.relation == "includes" else -holds)
-
-        def of_lasting(at: int, lasting: Lasting) -> None:
-            begins = self.formula.fresh()
-            self.add([-event(at, lasting.event), -self.condition(at, lasting.condition), begins])
-
-            def stops(other: int) -> int:
-                assert lasting.end is not None
-                return self.formula.every([event(other, lasting.end), self.condition(other, lasting.end_condition)])
-
-            def ends(other: int) -> int:
-                return self.formula.every([stops(other), *self.times.bounds(at, other, 0, None)])
-
-            first_end = self.first(ends) if lasting.end is not None else None
-
-            def stopped_by(until: int) -> int:
-                assert first_end is not None
-                return self.by_first(
-                    first_end,
-                    lambda other: self.formula.every([ends(other), *self.times.bounds(other, until, 0, None)]),
-                    until > self.now,
-                )
-
-            def holds_at(other: int) -> None:
-                if lasting.duration is not None:
-                    last = -(-seconds(lasting.duration) // 1) - 1
-                    bounds = self.times.bounds(at, other, 0, int(last))
-                else:
-                    stopped = self.came_about(at, law_name(lasting))
-                    bounds = [*self.times.bounds(at, other, 0, None), -stopped_by(other), -stopped]
-                away = [-bound for bound in bounds]
-                require(-begins, -self.instants[other].used, *away, self.condition(other, lasting.formula))
-
-            self.everywhere(holds_at)
-
-        def make(at: int) -> None:
-            if isinstance(law, EventRelation):
-                of_events(at, law)
-            elif isinstance(law, MeasureRelation):
-                of_measures(at, law)
-            elif isinstance(law, Effect):
-                of_effect(at, law)
-            elif isinstance(law, Lasting):
-                of_lasting(at, law)
-            elif isinstance(law, Exclusive):
-                names = list(dict.fromkeys(law.names))
-                for place, name in enumerate(names):
-                    for other in names[place + 1 :]:
-                        require(-event(at, name), -event(at, other))
-            else:
-                holds = self.condition(at, law.formula)
-                require(-self.instants[at].used, holds if isinstance(law, Assume) else -holds)
-
-        return make
 
     # Questions ------------------------------------------------------------------------------------------------
 
