@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from sleec_runtime.model_time import EventRelation
-from sleec_verify.timed.responses import Occurs
+from sleec_runtime.model import Assume, Never
+from sleec_runtime.model_time import Effect, EventRelation
+from sleec_verify.timed.responses import Occurs, occurrences
 
 if TYPE_CHECKING:
     from sleec_verify.timed.program import Program
@@ -20,13 +21,14 @@ class Brought:
         self._program = program
         self._found: dict[str, int | None] = {}
         self._deadlines: dict[str, set[Occurs]] = {}
+        self._harmless: dict[str, bool] = {}
 
     def instants(self, trigger: str, missing: Collection[str] = ()) -> int | None:
         """How many instants the deadlines take that an event brings with it, and those of what they call for; None
         where these come back to themselves. What is `missing` has not been done since."""
         total = 0
-        for what in self._deadlines_of(trigger):
-            if what.event in missing:
+        for what in self._due_after(trigger):
+            if what.event in missing or what.end is None:
                 continue
             if what.event not in self._found:
                 self._found[what.event] = None
@@ -37,49 +39,85 @@ class Brought:
             total += 1 + further
         return total
 
-    def _deadlines_of(self, trigger: str) -> set[Occurs]:
+    def from_then_on(self, triggers: Iterable[str]) -> set[str]:
+        """The events that are called for by some of these, or by what they bring with them, without end. The last time
+        that one was done does for all who had called for it."""
+        found: set[str] = set()
+        seen: set[str] = set()
+        ahead = list(triggers)
+        while ahead:
+            trigger = ahead.pop()
+            if trigger not in seen:
+                seen.add(trigger)
+                due = self._due_after(trigger)
+                ahead += [what.event for what in due]
+                found.update(what.event for what in due if what.end is None)
+        return found
+
+    def may_come(self, trigger: str, event: str) -> bool:
+        """Whether an event may come at once with another one."""
+        return event in self._at_once_with(trigger)
+
+    def _due_after(self, trigger: str) -> set[Occurs]:
         found = self._deadlines.get(trigger)
         if found is None:
             found = self._deadlines[trigger] = self._look_for_deadlines(trigger)
         return found
 
     def _look_for_deadlines(self, trigger: str) -> set[Occurs]:
-        """What is due within some time once an event occurs, all that comes at once with it included. What an event
-        may do from then on, it does for all rules; what happens at once has been done."""
+        """What is due later once an event occurs, all that comes at once with it included. What an event may do from
+        then on, it does for all rules; what happens at once has been done."""
         found: set[Occurs] = set()
         happens = self._at_once_with(trigger, surely=True)
         events = self._at_once_with(trigger)
         for rule in (rule for event in events for rule in self._program.by_trigger.get(event, ())):
-            for occurrences in self._program.demands(rule):
-                if not any(self._done(what, happens) for what in occurrences):
+            for demand in self._program.demands(rule):
+                leaves = list(occurrences(demand))
+                if not any(self._done(what, happens) for what in leaves):
                     found.update(
-                        what if what.is_later else Occurs(what.event, 0, 1) for what in occurrences if what.is_deadline
+                        what if what.is_later else Occurs(what.event, 0, None if what.end is None else 1)
+                        for what in leaves
+                        if not what.negated and what.end != 0
                     )
         return found
 
     def _done(self, what: Occurs, happens: set[str]) -> bool:
-        """Whether it happens at once, or can as well: nothing keeps it, or what it calls for, from that, and nothing is
-        forbidden by it."""
+        """Whether it happens at once, or can as well."""
         if what.negated or what.is_later:
             return False
-        if what.event in happens:
-            return True
-        found, ahead = {what.event}, [what.event]
+        return what.event in happens or self.is_harmless(what.event)
+
+    def is_harmless(self, event: str) -> bool:
+        """Whether an event can be done whatever else is the case: nothing forbids it, or what it calls for, no law
+        speaks of them, and all that they call for can be done at the same time. They forbid nothing."""
+        known = self._harmless.get(event)
+        if known is None:
+            known = self._harmless[event] = self._is_harmless(event)
+        return known
+
+    def _is_harmless(self, event: str) -> bool:
+        found, ahead = {event}, [event]
         while ahead:
-            event = ahead.pop()
-            if event in self._program.bound or event in self._program.forbidding:
+            trigger = ahead.pop()
+            if trigger in self._program.bound or trigger in self._program.forbidding:
                 return False
-            for answer in self._answers(event):
-                if answer.negated or answer.is_later:
-                    return False
-                if answer.event not in found:
-                    found.add(answer.event)
-                    ahead.append(answer.event)
+            for rule in self._program.by_trigger.get(trigger, ()):
+                for demand in self._program.demands(rule):
+                    # What may come in its place comes after it.
+                    answer = next(occurrences(demand))
+                    if answer.negated or answer.is_later:
+                        return False
+                    if answer.event not in found:
+                        found.add(answer.event)
+                        ahead.append(answer.event)
         return True
 
     def _at_once_with(self, trigger: str, surely: bool = False) -> set[str]:
         """The events that may come at once with an event; `surely`, only those that do whatever the conditions."""
         found, ahead = {trigger}, [trigger]
+        if not surely:
+            ahead += self._at_any_time - found
+            found |= self._at_any_time
         while ahead:
             event = ahead.pop()
             fresh = {what.event for what in self._answers(event, surely) if not what.negated and what.end == 0}
@@ -99,9 +137,22 @@ class Brought:
                     found.setdefault(law.right, set()).add(law.left)
         return found
 
-    def _answers(self, event: str, surely: bool = False) -> Iterator[Occurs]:
+    @cached_property
+    def _at_any_time(self) -> set[str]:
+        """The events that a law may have occur at any instant."""
+        from sleec_verify.timed.program import events_of
+
+        return {
+            event
+            for law in self._program.laws
+            if isinstance(law, (Assume, Never)) or (isinstance(law, Effect) and law.relation == "causation")
+            for event in events_of(law)
+        }
+
+    def _answers(self, event: str, surely: bool) -> Iterator[Occurs]:
         for rule in self._program.by_trigger.get(event, ()):
             if not surely or (rule.guard is None and len(list(rule.clauses())) == 1):
-                for occurrences in self._program.demands(rule):
-                    if not surely or len(occurrences) == 1:
-                        yield from occurrences
+                for demand in self._program.demands(rule):
+                    leaves = list(occurrences(demand))
+                    if not surely or len(leaves) == 1:
+                        yield from leaves

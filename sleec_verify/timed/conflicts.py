@@ -10,6 +10,7 @@ is a plan that the next history must defeat as well; if not, it is the conflict.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from sleec_runtime.model import Rule
@@ -22,10 +23,16 @@ from sleec_verify.timed.program import Program
 from sleec_verify.timed.questions import decided, needed
 from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.timeline import Timeline, excerpt
-from sleec_verify.timed.unfolding import Unfolding
+from sleec_verify.timed.unfolding import Unfolding, Unseen
 
 MOST_PAST = 8
 """Instants before now that are tried."""
+
+FEW = 2
+"""Histories with fewer instants before now are tried first: most conflicts need no more."""
+
+MOST_PENDING = 12
+"""Instants before now that are tried where those that matter only to these are left out."""
 
 MOST_LATER = 24
 """Instants that may be added to a history, for what its instants before now call for."""
@@ -43,24 +50,32 @@ class History:
 
 
 class _Search:
-    """The search for a history with a number of instants before now."""
+    """The search for a history with a number of instants before now; or, `in_part`, for as many instants at most that
+    are part of a history, where all that can have come about at the others may have."""
 
-    def __init__(self, program: Program, rule: Rule, cone: Cone, instants: int) -> None:
+    def __init__(self, program: Program, rule: Rule, cone: Cone, instants: int, in_part: bool = False) -> None:
         self.program = program
         self.cone = cone
         self.rule = rule
         # Now, the rule need not be kept.
-        self.outer = Unfolding(program, impossible=program.impossible(frozenset({rule.label})), most=MOST_LATER)
+        self.in_part = in_part
+        self.outer = Unfolding(
+            program,
+            impossible=program.impossible(frozenset({rule.label})),
+            most=MOST_LATER,
+            in_part=instants if in_part else 0,
+        )
         self.true = self.outer.formula.true
         self.add = self.outer.add
         # Histories of fewer instants have been looked at before.
-        self.past = [self.outer.instant(self.true) for _ in range(instants)]
+        self.past = [self.outer.instant(None if in_part else self.true) for _ in range(instants)]
         self.now = self.outer.instant(self.true)
         self.outer.now = self.now
         self.outer.spared.add((rule.label, self.now))
         for earlier, later in zip(self.past, [*self.past[1:], self.now]):
             # Which of them is which makes no difference.
             self.add([self.outer.times.before(earlier, later)])
+            self.add([-self.outer.instants[earlier].used, self.outer.instants[later].used])
         here = self.outer.instants[self.now]
         self.given = {event: self.outer.formula.fresh() for event in sorted(cone.events)}
         for name, given in self.given.items():
@@ -98,9 +113,10 @@ class _Search:
                 self.outer.formula.clauses += clauses
                 continue
             beginning = self._beginning()
-            inner = Unfolding(self.program, beginning=beginning, impossible=self.program.impossible())
+            unseen = self._unseen()
+            inner = _after(self.program, beginning, unseen=unseen)
             if not inner.ask():
-                if _goes_on(self.program, beginning, spared=self.rule):
+                if _after(self.program, beginning, self.rule, unseen).ask():
                     return beginning
                 # It was lost before the rule came to it.
                 self.outer.grow()
@@ -123,6 +139,15 @@ class _Search:
                 events = frozenset(event for event, literal in self.given.items() if outer.true(literal))
             found.append(Fixed(schedule[number], events, outer.values(number), number != self.now))
         return tuple(found)
+
+    def _unseen(self) -> dict[Unseen, bool]:
+        """What came about, in the model, at instants that are left out."""
+        place = {number: place for place, number in enumerate(self._numbers)}
+        return {
+            key._replace(at=place[key.at]): self.outer.true(literal)
+            for key, literal in self.outer.unseen.items()
+            if key.at in place
+        }
 
     def _plan(self, inner: Unfolding, now: int) -> Plan:
         """How the history just tried can be continued, by as little of it as can be."""
@@ -159,27 +184,51 @@ def conflict(program: Program, rule: Rule) -> History | None:
     Raises Undecided where more instants could matter than are tried.
     """
     cone = Cone(program, rule)
-    most, known = past(program, cone.rules.values())
+    most, known, pending = past(program, cone.rules.values())
     tried = min(most, MOST_PAST)
+
+    def search(instants: int, in_part: bool = False) -> tuple[Fixed, ...] | None:
+        ask = lambda: _Search(program, rule, cone, instants, in_part).find()  # noqa: E731
+        return decided(program, ask, frozenset(), frozenset({rule.label}))
+
+    def all_go_on() -> bool:
+        # The instants that only what is pending now needs are few, and to leave out the others rules out no history.
+        try:
+            return pending <= MOST_PENDING and search(pending, in_part=True) is None
+        except Undecided:
+            return False
+
     for instants in range(tried + 1):
-
-        def search(instants: int = instants) -> tuple[Fixed, ...] | None:
-            return _Search(program, rule, cone, instants).find()
-
-        found = decided(program, search, frozenset(), frozenset({rule.label}))
+        if instants == FEW and all_go_on():
+            return None
+        found = search(instants)
         if found is not None:
             return _shown(program, rule, _smaller(program, rule, found))
-    if most > tried or not known:
-        raise Undecided(f"no conflict with up to {tried} instants before now, and more could matter")
-    return None
+    if known and most <= tried:
+        return None
+    if tried < FEW and all_go_on():
+        return None
+    raise Undecided(f"no conflict with up to {tried} instants before now, and more could matter")
 
 
-def _goes_on(program: Program, history: tuple[Fixed, ...], spared: Rule | None = None) -> bool:
+def _after(
+    program: Program,
+    history: tuple[Fixed, ...],
+    spared: Rule | None = None,
+    unseen: Mapping[Unseen, bool] | None = None,
+) -> Unfolding:
+    """The traces that a history can be continued to. What came about at instants that it leaves out is `unseen`."""
     without = frozenset() if spared is None else frozenset({spared.label})
-    unfolding = Unfolding(program, beginning=history, impossible=program.impossible(without))
+    unfolding = Unfolding(
+        program,
+        beginning=history,
+        impossible=program.impossible(without),
+        in_part=len(history) - 1 if unseen else 0,
+        unseen=unseen,
+    )
     if spared is not None:
         unfolding.spared.add((spared.label, len(history) - 1))
-    return unfolding.ask()
+    return unfolding
 
 
 def _smaller(program: Program, rule: Rule, history: tuple[Fixed, ...]) -> tuple[Fixed, ...]:
@@ -187,7 +236,7 @@ def _smaller(program: Program, rule: Rule, history: tuple[Fixed, ...]) -> tuple[
 
     def is_one(candidate: tuple[Fixed, ...]) -> bool:
         try:
-            return _goes_on(program, candidate, spared=rule) and not _goes_on(program, candidate)
+            return _after(program, candidate, rule).ask() and not _after(program, candidate).ask()
         except Undecided:
             return False
 
@@ -207,13 +256,12 @@ def _smaller(program: Program, rule: Rule, history: tuple[Fixed, ...]) -> tuple[
 
 
 def _shown(program: Program, rule: Rule, history: tuple[Fixed, ...]) -> History:
-    inner = Unfolding(program, beginning=history, impossible=program.impossible())
+    inner = _after(program, history)
     stuck = not inner.ask()
     assert stuck, "the history was found to have no way to go on"
     # What is known to come to no end leaves no rule to name but this one.
     matter = [rule.label, *(name for name in needed(inner) if name != rule.label)]
-    around = Unfolding(program, beginning=history, impossible=program.impossible(frozenset({rule.label})))
-    around.spared.add((rule.label, len(history) - 1))
+    around = _after(program, history, rule)
     goes_on = around.ask()
     assert goes_on, "without the rule's demand of now there is a way to go on"
     moments = []

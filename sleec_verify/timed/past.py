@@ -1,35 +1,46 @@
 """How many instants before now can matter to a conflict: what rules that were triggered then still demand.
 
-What is pending now is the sum of what each triggering left. Of many triggerings, few say all of it:
+What is pending now is the sum of what each triggering left. Of many triggerings, few say all of it (`Past.pending`):
 
 - A prohibition from now on (``NOT Open WITHIN 5 minutes``) that ends last says all that the others of its event say,
-  and so does the deadline that ends first: what meets it meets the others too. One each is enough for an event,
-  whatever the rules. A prohibition without end that begins first is one more.
+  and so does the deadline that ends first: what meets it meets the others too, and those without end. One each is
+  enough for an event, whatever the rules. A prohibition without end that begins later is one more.
 - Windows that open later (``WITHIN [3, 5] minutes``) add up until they are open: there is one for each second at most.
   Prohibitions need no more of them than cover times ahead with none in vain; equal windows then overlap with the next
-  one only, so every other one has its length for itself. What is called for can be asked for one by one, as long as the
-  event has no consequences.
-- What is due in place of something that was forbidden needs the instant at which it was done all the same.
-- Whatever else the same triggers brought with them was done by now, at instants of its own, unless it can be done at
-  once.
+  one only, so every other one has its length for itself.
+- Where something else is due in place of what was not done, the oldest of the triggerings whose windows are all open
+  says all that the others say, as long as nothing in it is forbidden. Else each second may leave a demand of its own.
+- An event that nothing calls for need not happen again: that it is forbidden leaves nothing. One that can be done now
+  whatever else is the case (`Brought.is_harmless`) leaves nothing either where it is called for.
+- An event that has no consequences, and whose prohibitions do not depend on what is done, is called for one by one:
+  each call can be met or cannot, whatever becomes of the others. If one cannot, that one is enough: one in all.
+
+For a history of these, each instant needs others (`Past.most`): at which what is due in place of something forbidden
+was forbidden and done all the same; at which whatever else the same triggers brought with them was done, unless it can
+be done at once; at which an event was that has to come before another one, or that a relation holds from, or up to.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import chain, product
+from math import comb
 from typing import NamedTuple
 
-from sleec_runtime.model import Rule
-from sleec_runtime.model_time import EventRelation, Lasting
+from sleec_runtime.model import Exclusive, Rule
+from sleec_runtime.model_time import EventRelation, Lasting, MeasureRelation
 from sleec_verify.timed.program import Program
-from sleec_verify.timed.responses import Occurs
+from sleec_verify.timed.responses import Demand, Every, Occurs, Some, occurrences
 
 
 class Past(NamedTuple):
-    """No history with more than `most` instants before now conflicts unless a shorter one does, if that is `known`."""
+    """No history with more than `most` instants before now conflicts unless a shorter one does, if that is `known`.
+
+    Of all that a history leaves to be done, as many as `pending` of its instants say everything."""
 
     most: int
     known: bool
+    pending: int
 
 
 def past(program: Program, rules: Iterable[Rule]) -> Past:
@@ -40,60 +51,180 @@ def past(program: Program, rules: Iterable[Rule]) -> Past:
 class _Counting:
     def __init__(self, program: Program) -> None:
         self._program = program
+        self._brought = program.brought
         self._known = True
-        self._single: dict[tuple[str, bool, bool], int] = {}
+        self._shared: dict[tuple[str, str], int] = {}
+        self._pending = 0
         self._more = 0
+        # A time to come may be looked for only where it can be as now is, but for the events.
+        self._open_ended = all(
+            isinstance(law, (MeasureRelation, Exclusive))
+            or (isinstance(law, EventRelation) and law.relation != "happenBefore")
+            for law in program.laws
+        )
 
     def of(self, rules: Iterable[Rule]) -> Past:
+        rules = list(rules)
         for rule in rules:
-            for occurrences in self._program.demands(rule):
-                self._count(rule.trigger, occurrences)
-        laws = sum(
-            isinstance(law, Lasting) or (isinstance(law, EventRelation) and law.relation == "happenBefore")
-            for law in self._program.laws
-        )
-        return Past(sum(self._single.values()) + self._more + laws, self._known)
+            for demand in self._program.demands(rule):
+                self._count(rule.trigger, demand)
+        # Instants of which one is enough, whatever called for it.
+        one_each = list(self._brought.from_then_on(rule.trigger for rule in rules))
+        laws = 0
+        for law in self._program.laws:
+            if isinstance(law, EventRelation) and law.relation == "happenBefore":
+                one_each.append(law.left)
+                laws += 1
+            elif isinstance(law, Lasting):
+                one_each.append(law.event)
+                laws += 1
+        most = sum(self._shared.values()) + self._more + sum(1 + self._further(event) for event in one_each)
+        for law in self._program.laws:
+            if isinstance(law, Lasting) and law.end is not None:
+                # Each instant may begin it, and need one that ends it.
+                self._known &= not self._further(law.end) and not self._brought.may_come(law.end, law.event)
+                most *= 2
+        return Past(most, self._known, len(self._shared) + self._pending + laws)
 
-    def _count(self, trigger: str, occurrences: list[Occurs]) -> None:
+    def _further(self, trigger: str, missing: Iterable[str] = ()) -> int:
+        brought = self._brought.instants(trigger, set(missing))
+        if brought is None:
+            self._known = False
+            return 0
+        return brought
+
+    def _count(self, trigger: str, demand: Demand) -> None:
         """What one obligation of a rule of this trigger adds."""
-        done_all_the_same = 0
-        # An event that is still to come for one rule is still to come for the others.
-        missing: set[str] = set()
-        for what in occurrences:
-            if not what.negated:
-                missing.add(what.event)
-            if _presses(what):
-                brought = self._program.brought.instants(trigger, missing)
-                if brought is None:
-                    self._known = False
-                    brought = 0
-                instants = 1 + done_all_the_same + brought
-                windows = self._windows(what)
-                if len(occurrences) == 1 and windows == 1:
-                    key = (what.event, what.negated, what.is_later)
-                    self._single[key] = max(self._single.get(key, 0), instants)
-                else:
-                    self._more += instants * windows
-            done_all_the_same += what.negated and what.end != 0
+        ways = _ways(demand)
+        if ways is None:
+            leaves = tuple(occurrences(demand))
+            lasting = any(what.end is None for what in leaves)
+            # What each second may leave, and what may be left for ever.
+            self._add(trigger, leaves, max(what.end or 0 for what in leaves) + (2 ** len(leaves) if lasting else 0))
+            return
+        for way in ways:
+            shared, more = self._of_way(way)
+            self._add(trigger, way, more)
+            instants = self._instants(trigger, way) if shared else 0
+            for key in shared:
+                self._shared[key] = max(self._shared.get(key, 0), instants)
 
-    def _windows(self, what: Occurs) -> int:
-        """How many triggerings of one rule it takes to say all that they say together. Of those whose windows are open,
-        one; of the others no more than there are seconds until then."""
+    def _add(self, trigger: str, way: Sequence[Occurs], triggerings: int) -> None:
+        if triggerings:
+            self._pending += triggerings
+            self._more += triggerings * self._instants(trigger, way)
+
+    def _instants(self, trigger: str, way: Sequence[Occurs]) -> int:
+        """The instants that one triggering takes."""
+        first = way[0]
+        if len(way) == 1:
+            # What is still to come for one rule is still to come for the others.
+            missing = [first.event] if not first.negated and not first.is_later else []
+            return 1 + self._further(trigger, missing)
+        done_all_the_same = [1 + self._further(what.event) for what in way if what.negated and what.end != 0]
+        return 1 + self._further(trigger) + sum(done_all_the_same)
+
+    def _of_way(self, way: Sequence[Occurs]) -> tuple[list[tuple[str, str]], int]:
+        """How many triggerings say all that these responses, of which one has to be kept, come to leave: those that
+        they have in common with others, by what they say, and how many more."""
+        leaves = [what for what in way if what.end != 0 and not (what.negated and self._is_never_called(what.event))]
+        if not leaves or self._can_be_done(leaves):
+            return [], 0
+        forbidden = [what for what in leaves if what.negated]
+        due = [what for what in leaves if not what.negated]
+        if len(forbidden) <= 1 and all(map(self._is_settled, due)):
+            shared, more = self._of_prohibition(forbidden[0]) if forbidden else ([], 0)
+            return [*shared, *([("", "due")] if due else [])], more
+        if forbidden:
+            return [], _second_by_second(leaves)
+        latest = max(what.start or 0 for what in due)
+        if len(due) > 1:
+            return [], max(latest - 1, 0) + 1
+        if due[0].end is None and latest > 1:
+            return [(due[0].event, "due from then on")], 0
+        return [(due[0].event, "due")], max(latest - 1, 0)
+
+    def _of_prohibition(self, what: Occurs) -> tuple[list[tuple[str, str]], int]:
         start = what.start or 0
-        if (
-            start <= 1
-            or (what.end is None and what.negated)
-            or (not what.negated and self._program.is_inert(what.event))
-        ):
-            return 1
-        if not what.negated:
-            return start
-        assert what.end is not None, "what has no end was told apart above"
+        if start <= 1:
+            return [(what.event, "forbidden")], 0
+        if what.end is None:
+            return [(what.event, "forbidden from then on")], 0
         length = max(what.end - start + 1, 1)
-        return 1 + min(start - 1, 2 * ((what.end - 1) // length))
+        return [(what.event, "forbidden")], min(start - 1, 2 * ((what.end - 1) // length))
+
+    def _is_never_called(self, event: str) -> bool:
+        return event not in self._program.obliging and event not in self._program.bound
+
+    def _is_settled(self, what: Occurs) -> bool:
+        """Whether it can be met or cannot, whatever is done."""
+        return (
+            self._open_ended
+            and self._program.is_inert(what.event)
+            and all(
+                self._is_never_called(rule.trigger)
+                and all(
+                    len(list(occurrences(demand))) == 1
+                    for demand in self._program.demands(rule)
+                    if any(other.negated and other.event == what.event for other in occurrences(demand))
+                )
+                for rule in self._program.forbidding.get(what.event, ())
+            )
+        )
+
+    def _can_be_done(self, leaves: Sequence[Occurs]) -> bool:
+        """Whether, as long as anything of it is pending, something of it can be done at once, whatever else is the
+        case."""
+        reached = 0
+        harmless = [what for what in leaves if not what.negated and self._brought.is_harmless(what.event)]
+        for what in sorted(harmless, key=lambda what: what.start or 0):
+            if (what.start or 0) > reached + 1:
+                return False
+            if what.end is None:
+                return True
+            reached = max(reached, what.end)
+        return all(what.end is not None and what.end <= reached for what in leaves)
 
 
-def _presses(what: Occurs) -> bool:
-    """Whether it may still be demanded after its trigger. What is due at some time without end presses no more than if
-    it had been triggered now."""
-    return what.is_deadline or (what.negated and what.end != 0)
+_LONG = 100
+"""Seconds that are not looked at one by one."""
+
+
+def _second_by_second(leaves: Sequence[Occurs]) -> int:
+    """How many triggerings say all that responses of both kinds come to leave, of which one has to be kept."""
+    ends = [what.end for what in leaves if what.end is not None]
+    longest = max(ends, default=0)
+    for_ever = [what for what in leaves if what.end is None]
+    # Past all ends, what was done all the same tells triggerings apart; the fewer responses are left, the more it says.
+    forbidden = sum(what.negated for what in for_ever)
+    found = comb(forbidden, forbidden // 2) if for_ever else 0
+    if longest > _LONG:
+        return found + longest
+    alike = set()
+    for since in range(1, longest + 1):
+        pending = [what for what in leaves if what.end is None or what.end >= since]
+        is_open = all((what.start or 0) <= since for what in pending)
+        if is_open and not any(what.negated for what in pending):
+            alike.add("the oldest says all")
+        elif is_open and len(pending) == 1:
+            alike.add("the newest says all")
+        else:
+            found += 1
+    return found + len(alike)
+
+
+def _ways(demand: Demand) -> list[tuple[Occurs, ...]] | None:
+    """For each way in which hedges inside may decide, the responses of which one has to be kept; None where several
+    have to be."""
+    if isinstance(demand, Occurs):
+        return [(demand,)]
+    assert not isinstance(demand, int), "a literal is no response"
+    # The literal that a clause of a chain decides is no response.
+    parts = [_ways(part) for part in demand.parts if not isinstance(part, int)]
+    if isinstance(demand, Every):
+        if not all(isinstance(part, Some) and isinstance(part.parts[0], int) for part in demand.parts):
+            return None
+        return None if None in parts else [way for ways in parts for way in ways or ()]
+    if None in parts:
+        return None
+    return [tuple(chain.from_iterable(choice)) for choice in product(*(ways or () for ways in parts))]

@@ -14,7 +14,7 @@ from sleec_runtime.model import And, Assume, Atom, Clause, Exclusive, Never, Not
 from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.instant import Fixed, Instant
-from sleec_verify.timed.program import Program, events_of
+from sleec_verify.timed.program import Program, events_of, law_name
 from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
 from sleec_verify.timed.unfolding import Unfolding
 
@@ -201,6 +201,10 @@ class Plans:
             bounds = self._gap(points[at], point, what.start, what.end)
             if event != -self.true and -self.true not in bounds:
                 there.append([event, *(bound for bound in bounds if bound != self.true)])
+        if at < len(self.past):
+            unseen = self.outer.came_about(self.past[at], what.event, what.start, what.end)
+            if unseen != -self.true:
+                there.append([unseen])
         if not what.negated:
             return formula.any_of([formula.every(literals) for literals in there]) if there else -self.true
         never = formula.fresh()
@@ -266,6 +270,8 @@ class Plans:
                 continue
             assert law.end is not None
             going = [*broken, *self._gap(points[number], point, 0, None)]
+            if number < len(self.past):
+                going.append(-self.outer.came_about(self.past[number], law_name(law)))
             for middle in points:
                 stops = [middle.event(law.end), condition(middle, law.end_condition)]
                 between = [

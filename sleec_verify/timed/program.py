@@ -22,7 +22,7 @@ from sleec_runtime.model import (
 )
 from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, Lasting, Relation
 from sleec_verify.solver import Recorder
-from sleec_verify.timed.responses import Occurs, Responses, occurrences
+from sleec_verify.timed.responses import Demand, Occurs, Responses, occurrences
 from sleec_verify.timed.scope import Untimed
 
 if TYPE_CHECKING:
@@ -123,24 +123,28 @@ class Program:
         return index
 
     @cached_property
-    def _demands(self) -> dict[str, list[list[Occurs]]]:
+    def _demands(self) -> dict[str, list[Demand]]:
         return {
             rule.label: [
-                list(occurrences(self.responses.of((obligation,), lambda c: [1] * _size(c))))
+                self.responses.of((obligation,), lambda c: [1] * _size(c))
                 for clause in rule.clauses()
                 for obligation in clause.obligations
             ]
             for rule in self.rules
         }
 
-    def demands(self, rule: Rule) -> list[list[Occurs]]:
-        """For each obligation of a rule, what it may come to call for or forbid: itself, and what is due in its place.
+    def demands(self, rule: Rule) -> list[Demand]:
+        """What each obligation of a rule demands, itself or what is due in its place.
+
         Raises Undecided for a window whose length a measure says."""
         return self._demands[rule.label]
 
     @cached_property
     def _windows(self) -> dict[str, list[Occurs]]:
-        return {label: [one for demanded in demands for one in demanded] for label, demands in self._demands.items()}
+        return {
+            label: [one for demand in demands for one in occurrences(demand)]
+            for label, demands in self._demands.items()
+        }
 
     def windows(self, rule: Rule) -> list[Occurs]:
         """Every occurrence that a rule may come to call for or forbid. Raises Undecided for a window whose length a

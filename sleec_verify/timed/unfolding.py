@@ -14,13 +14,11 @@ not come back to their own trigger, this ends; where they do, it may not, and is
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from sleec_runtime.model import (
-    Assume,
     Clause,
-    Exclusive,
     Obligation,
     Rule,
     Value,
@@ -28,11 +26,11 @@ from sleec_runtime.model import (
 from sleec_runtime.model import (
     Formula as Condition,
 )
-from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
 from sleec_verify.solver import MiniSat, Undecided
 from sleec_verify.timed.instant import Fixed, Formula, Instant
-from sleec_verify.timed.program import Law, Program, law_name
-from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
+from sleec_verify.timed.laws import law_at
+from sleec_verify.timed.program import Program
+from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.times import Times
 
 MOST = 12
@@ -50,6 +48,8 @@ class _Need:
     rest: int
     later: str | None = None
     """The event that it calls for, at the same time or later."""
+    parts: list[_Need] = field(default_factory=list)
+    """What one instant at which this comes about first is enough for."""
 
 
 class Decided(NamedTuple):
@@ -60,6 +60,16 @@ class Decided(NamedTuple):
     number: int
     clause: Clause
     guard: int
+
+
+class Unseen(NamedTuple):
+    """That an event (or what ends a law) came about in a window around instant `at`, at an instant before now that is
+    not one of those that are known."""
+
+    at: int
+    what: str
+    start: int | None = None
+    end: int | None = None
 
 
 _Trust = Callable[[_Need], bool]
@@ -78,10 +88,13 @@ class Unfolding:
         rules: Mapping[str, Sequence[Rule]] | None = None,
         most: int = MOST,
         impossible: frozenset[str] = frozenset(),
+        in_part: int = 0,
+        unseen: Mapping[Unseen, bool] | None = None,
     ) -> None:
         """The rules `without` are not in force. `beginning` are instants that are settled, in the order of time, the
         last of them open to more events; all further ones come after it. `rules` replace those of the program.
-        `impossible` are events that are known to occur in no trace."""
+        `impossible` are events that are known to occur in no trace. The first `in_part` instants, after which comes
+        now, are only part of those before now; what came about at others is `unseen`, if that is known, or open."""
         self.program = program
         self.formula = Formula()
         self.add = self.formula.clauses.append
@@ -93,7 +106,11 @@ class Unfolding:
         self._most = most
         self._grown = 0
         self._impossible = impossible
+        self._in_part = in_part
+        self._unseen_known = unseen
+        self.unseen: dict[Unseen, int] = {}
         self._needs: list[_Need] = []
+        self._firsts: list[_Need] = []
         self._everywhere: list[Callable[[int], None]] = []
         self._in_force: dict[str, int] = {}
         self.now = len(beginning) - 1
@@ -104,7 +121,7 @@ class Unfolding:
         self._sent = 0
         self._core: set[int] = set()
         for law in program.laws:
-            self._everywhere.append(self._law_at(law))
+            self._everywhere.append(law_at(self, law))
         for fixed in beginning:
             self.instant(self.formula.true, fixed)
 
@@ -135,6 +152,10 @@ class Unfolding:
             make(number)
         for need in waiting:
             self._offer(need, number)
+        for first in self._firsts:
+            for part in first.parts:
+                self._offer(part, number)
+                self._close(first, part)
         return number
 
     def exists(self, witness: Callable[[int], int], later: str | None = None) -> int:
@@ -146,6 +167,33 @@ class Unfolding:
         for number in range(len(self.instants)):
             self._offer(need, number)
         return literal
+
+    def first(self, witness: Callable[[int], int]) -> _Need:
+        """The first instant at which `witness` holds, if there is any, as one thing to look for."""
+        need = _Need(witness, self.formula.fresh())
+        self._needs.append(need)
+        self._firsts.append(need)
+        for number in range(len(self.instants)):
+            self._offer(need, number)
+        return need
+
+    def by_first(self, first: _Need, witness: Callable[[int], int], to_come: bool = True) -> int:
+        """As `exists`, where `witness` demands more than that of `first`, and the first instant of that is as
+        good as any. Unless it may be one that is `to_come`, it is one of those that there are."""
+        literal = self.formula.fresh()
+        part = _Need(witness, literal)
+        for number in range(len(self.instants)):
+            self._offer(part, number)
+        if to_come:
+            first.parts.append(part)
+            self._close(first, part)
+        else:
+            self.add([-part.rest])
+        return literal
+
+    def _close(self, first: _Need, part: _Need) -> None:
+        """What is still to come for a part is the first instant, until that has come."""
+        self.add([-part.rest, first.rest] if first in self._needs else [-part.rest])
 
     def _offer(self, need: _Need, number: int) -> None:
         here = need.witness(number)
@@ -166,14 +214,13 @@ class Unfolding:
         if what.start == what.end == 0:
             event = self.instants[at].event(what.event)
             return -event if what.negated else event
+        unseen = self.came_about(at, what.event, what.start, what.end)
         if not what.negated:
             later = what.event if what.start is not None and what.start >= 0 else None
-            literal = self.exists(lambda other: self._occurrence(at, other, what), later)
-            if at <= self.now and what.end is not None and what.end < 0:
-                # Nothing is added before now.
-                self.add([-self._needs.pop().rest])
-            return literal
+            literal = self.exists(lambda other: self.occurrence(at, other, what), later)
+            return literal if unseen == -self.formula.true else self.formula.any_of([literal, unseen])
         never = self.formula.fresh()
+        self.add([-never, -unseen])
 
         def not_there(other: int) -> None:
             bounds = self.times.bounds(at, other, what.start, what.end)
@@ -183,7 +230,23 @@ class Unfolding:
         self.everywhere(not_there)
         return never
 
-    def _occurrence(self, at: int, other: int, what: Occurs) -> int:
+    def came_about(self, at: int, what: str, start: int | None = None, end: int | None = None) -> int:
+        """The literal "it came about in this window, at an instant before now that is not one of these"."""
+        if at >= self._in_part or (end is not None and end <= 0):
+            return -self.formula.true
+        key = Unseen(at, what, start, end)
+        if self._unseen_known is not None:
+            return self.formula.true if self._unseen_known.get(key) else -self.formula.true
+        literal = self.unseen.get(key)
+        if literal is None:
+            literal = self.unseen[key] = self.formula.fresh()
+            # There has been time for it, after this instant and before now.
+            for bound in self.times.bounds(at, self._in_part, max(start or 0, 1) + 1, None):
+                self.add([-literal, bound])
+        return literal
+
+    def occurrence(self, at: int, other: int, what: Occurs) -> int:
+        """A literal that implies that the event occurs at instant `other`, in a window around instant `at`."""
         bounds = self.times.bounds(at, other, what.start, what.end)
         if -self.formula.true in bounds:
             return -self.formula.true
@@ -243,96 +306,6 @@ class Unfolding:
 
     def condition(self, at: int, condition: Condition | None) -> int:
         return self.formula.true if condition is None else self.instants[at].literal(condition)
-
-    def _law_at(self, law: Law) -> Callable[[int], None]:
-        """What a relation or constraint demands of an instant."""
-        in_force = self.in_force(law_name(law))
-
-        def require(*literals: int) -> None:
-            self.add([-in_force, *literals])
-
-        def event(at: int, name: str) -> int:
-            return self.instants[at].event(name)
-
-        def of_events(at: int, relation: EventRelation) -> None:
-            left, right = event(at, relation.left), event(at, relation.right)
-            if relation.relation == "mutualExclusive":
-                require(-left, -right)
-            elif relation.relation == "happenBefore":
-                require(-right, self.occurs(at, Occurs(relation.left, None, -1)))
-            else:
-                require(-left, right)
-                if relation.relation == "equal":
-                    require(-right, left)
-
-        def of_measures(at: int, relation: MeasureRelation) -> None:
-            unused, left = -self.instants[at].used, self.condition(at, relation.left)
-            right = self.condition(at, relation.right)
-            if relation.relation == "invariant":
-                require(unused, left)
-            elif relation.relation in ("imply", "iff"):
-                require(unused, -left, right)
-                if relation.relation == "iff":
-                    require(unused, left, -right)
-            else:
-                require(unused, -left, -right)
-
-        def of_effect(at: int, effect: Effect) -> None:
-            occurs, holds = event(at, effect.event), self.condition(at, effect.formula)
-            if effect.relation == "causation":
-                require(-self.instants[at].used, -holds, occurs)
-            else:
-                require(-occurs, holds if effect.relation == "includes" else -holds)
-
-        def of_lasting(at: int, lasting: Lasting) -> None:
-            begins = self.formula.fresh()
-            self.add([-event(at, lasting.event), -self.condition(at, lasting.condition), begins])
-
-            def stops(other: int) -> int:
-                assert lasting.end is not None
-                return self.formula.every([event(other, lasting.end), self.condition(other, lasting.end_condition)])
-
-            def stopped_by(until: int) -> int:
-                return self.exists(
-                    lambda other: self.formula.every(
-                        [
-                            stops(other),
-                            *self.times.bounds(at, other, 0, None),
-                            *self.times.bounds(other, until, 0, None),
-                        ]
-                    )
-                )
-
-            def holds_at(other: int) -> None:
-                if lasting.duration is not None:
-                    last = -(-seconds(lasting.duration) // 1) - 1
-                    bounds = self.times.bounds(at, other, 0, int(last))
-                else:
-                    bounds = [*self.times.bounds(at, other, 0, None), -stopped_by(other)]
-                away = [-bound for bound in bounds]
-                require(-begins, -self.instants[other].used, *away, self.condition(other, lasting.formula))
-
-            self.everywhere(holds_at)
-
-        def make(at: int) -> None:
-            if isinstance(law, EventRelation):
-                of_events(at, law)
-            elif isinstance(law, MeasureRelation):
-                of_measures(at, law)
-            elif isinstance(law, Effect):
-                of_effect(at, law)
-            elif isinstance(law, Lasting):
-                of_lasting(at, law)
-            elif isinstance(law, Exclusive):
-                names = list(dict.fromkeys(law.names))
-                for place, name in enumerate(names):
-                    for other in names[place + 1 :]:
-                        require(-event(at, name), -event(at, other))
-            else:
-                holds = self.condition(at, law.formula)
-                require(-self.instants[at].used, holds if isinstance(law, Assume) else -holds)
-
-        return make
 
     # Questions ------------------------------------------------------------------------------------------------
 

@@ -101,6 +101,43 @@ def test_every_timeline_is_replayed(name, variant):
             assert (broken_so_far if check == "conflict" else broken)(ruleset, trace) == ()
 
 
+OF_SLEEC_TK = (
+    "ALMI",
+    "ASPEN",
+    "CAREBOT-integrated",
+    "CSICobot",
+    "firefighter-initial",
+    "firefighter-valid",
+    "jss_running_example",
+)
+
+
+@cache
+def of_sleec_tk(name):
+    path = STUDIES / "sleec-tk" / f"{name}.sleec"
+    if not path.is_file():
+        pytest.skip(f"the case studies are not at {STUDIES}")
+    return parse(path.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("name", OF_SLEEC_TK)
+def test_every_question_about_the_files_of_sleec_tk_is_answered(name):
+    (result,) = run_checks(of_sleec_tk(name), ["conflict"])
+    assert not isinstance(result.verdict, Unknown), result.verdict
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("label", ["Rule2", "Rule9"])
+def test_rules_that_four_deadlines_from_before_concern_are_in_no_conflict(label):
+    ruleset = of_sleec_tk("firefighter-initial")
+    (result,) = run_checks(ruleset, ["conflict"])
+    assert label not in {finding.rules[0] for finding in result.findings}
+    concerned = {"CameraStart", "BatteryCritical", "SoundAlarm"}
+    kept = [s for s in ruleset.statements if not hasattr(s, "hedges") or s.trigger in concerned]
+    fewer = type(ruleset)(tuple(kept), ruleset.reading, ruleset.syntax, ruleset.inferred)
+    assert not oracle.conflict(fewer, label, past=3, later=2, longest=4).found
+
+
 def test_what_others_do_not_report():
     autocar = study("Autocar", "corrected")[1]
     assert {("R8", 3), ("R13", 1), ("R14", 1)} <= {f.clauses[0] for f in autocar["dead-hedge"].findings}
