@@ -54,6 +54,13 @@ def events_of(law: Law) -> Iterator[str]:
         yield from (leaf.name for leaf in leaves(law.formula) if isinstance(leaf, Atom) and leaf.kind != "condition")
 
 
+def _found(same: dict[str, str], event: str) -> str:
+    """What stands for an event and those that are the same as it."""
+    while event in same:
+        event = same[event]
+    return event
+
+
 def _size(clause: Clause) -> int:
     return sum(1 for _ in in_text_order(clause))
 
@@ -157,6 +164,37 @@ class Program:
         from sleec_verify.timed.brought import Brought
 
         return Brought(self)
+
+    @cached_property
+    def is_acyclic(self) -> bool:
+        """Whether nothing that an event calls for, by rules or laws, ever calls for that event again: then there are
+        only so many instants that a trace can be made to have."""
+        from graphlib import CycleError, TopologicalSorter
+
+        laws = self.laws
+        if any(isinstance(law, (Assume, Never)) and any(events_of(law)) for law in laws):
+            return False
+        calls = [(rule.trigger, o.name) for rule in self.rules for o in responses_of(rule) if not o.negated]
+        calls += [(law.event, law.end) for law in laws if isinstance(law, Lasting) and law.end is not None]
+        same: dict[str, str] = {}
+        for law in laws:
+            if isinstance(law, EventRelation):
+                if law.relation == "witness":
+                    calls.append((law.left, law.right))
+                elif law.relation == "happenBefore":
+                    calls.append((law.right, law.left))
+                elif law.relation == "equal":
+                    one, other = _found(same, law.left), _found(same, law.right)
+                    if one != other:
+                        same[one] = other
+        graph: TopologicalSorter[str] = TopologicalSorter()
+        for event, called in calls:
+            graph.add(_found(same, event), _found(same, called))
+        try:
+            graph.prepare()
+        except CycleError:
+            return False
+        return True
 
     def is_inert(self, event: str) -> bool:
         """Whether an event has no consequences: it triggers no rule, and no law speaks of it."""

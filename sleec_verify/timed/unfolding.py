@@ -39,6 +39,9 @@ MOST = 12
 MOST_CLAUSES = 20_000
 """Clauses with which no more instants are added: from there, each takes seconds."""
 
+PATIENCE = 5
+"""How many times as many instants and clauses it may take where it comes to an end by itself."""
+
 
 @dataclass
 class _Need:
@@ -103,7 +106,9 @@ class Unfolding:
         self.instants: list[Instant] = []
         self._without = without
         self._rules = program.by_trigger if rules is None else rules
-        self._most = most
+        patience = PATIENCE if program.is_acyclic else 1
+        self._most = most * patience
+        self._most_clauses = MOST_CLAUSES * patience
         self._grown = 0
         self._impossible = impossible
         self._in_part = in_part
@@ -335,7 +340,7 @@ class Unfolding:
             self._grow(need)
 
     def _grow(self, need: _Need) -> None:
-        if self._grown >= self._most or len(self.formula.clauses) > MOST_CLAUSES:
+        if self._grown >= self._most or len(self.formula.clauses) > self._most_clauses:
             raise Undecided(f"no answer with up to {len(self.instants)} instants")
         self._grown += 1
         self._needs.remove(need)
