@@ -25,8 +25,8 @@ from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.timeline import Timeline, excerpt
 from sleec_verify.timed.unfolding import Unfolding, Unseen
 
-MOST_PAST, MOST_PAST_ACYCLIC = 8, 16
-"""Instants before now that are tried; and where no event calls for what calls for it."""
+MOST_PAST = 8
+"""Instants before now that are tried. Each more takes half as long again."""
 
 FEW = 2
 """Histories with fewer instants before now are tried first: most conflicts need no more."""
@@ -185,7 +185,7 @@ def conflict(program: Program, rule: Rule) -> History | None:
     """
     cone = Cone(program, rule)
     most, known, pending = past(program, cone.rules.values())
-    tried = min(most, MOST_PAST_ACYCLIC if program.is_acyclic else MOST_PAST)
+    tried = min(most, MOST_PAST)
 
     def search(instants: int, in_part: bool = False) -> tuple[Fixed, ...] | None:
         def ask() -> tuple[Fixed, ...] | None:

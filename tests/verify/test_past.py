@@ -42,6 +42,22 @@ def test_more_than_are_tried_is_unknown():
         conflict(program, rule)
 
 
+@pytest.mark.parametrize(
+    ("text", "acyclic"),
+    [
+        ("RULE a WHEN A THEN B\nRULE b WHEN B THEN C WITHIN 2 seconds", True),
+        ("RULE a WHEN A THEN B\nRULE b WHEN B THEN NOT A", True),
+        ("RULE a WHEN A THEN NOT B OTHERWISE A", False),
+        ("RULE a WHEN A THEN B\nRULE b WHEN B THEN C\nRULE c WHEN C THEN D UNLESS x IN WHICH CASE A", False),
+        ("RULE a WHEN A THEN B\nRELATION B EQUALS A", False),
+        ("RULE a WHEN A THEN B\nRELATION C EQUALS D\nRELATION D EQUALS B", True),
+        ("RULE a WHEN A THEN B\nRELATION C EQUALS D\nRELATION D EQUALS B\nRULE b WHEN C THEN A", False),
+    ],
+)
+def test_what_calls_for_itself(text, acyclic):
+    assert Program(parse(text)).is_acyclic is acyclic
+
+
 def test_calls_between_which_what_is_done_decides_add_up():
     # Whenever X is done, one of the calls for E cannot be met; each of them can, if X is done at another time.
     text = """RULE a WHEN A THEN E WITHIN [5, 5] seconds
