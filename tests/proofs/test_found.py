@@ -85,7 +85,7 @@ def proves(theory: Theory, cones: Cones, finding: Finding) -> bool:
 def test_what_is_found_is_proved_and_nothing_else(oracle: Path, seed: int) -> None:
     """Rule by rule and hedge by hedge: two roads to what is dead, redundant, or always in conflict."""
     proved, refused = Counter[str](), Counter[str]()
-    for ruleset, _ in random_cases(100 + seed, 80, each=1):
+    for ruleset, _ in random_cases(100 + seed, 40, each=1):
         cones = Cones(ruleset)
         found = {result.name: result.findings for result in run_checks(ruleset, list(FOUND))}
         dead = {finding.rules[0] for finding in found["dead-rule"]}
@@ -106,7 +106,7 @@ def test_what_is_found_is_proved_and_nothing_else(oracle: Path, seed: int) -> No
 def test_every_finding_of_random_rules_is_tied(oracle: Path) -> None:
     """With what the checks name as sufficient, all findings of a check in one question."""
     count = Counter[str]()
-    for ruleset, _ in random_cases(11, 100, each=1):
+    for ruleset, _ in random_cases(11, 50, each=1):
         for check, one in tied(oracle, ruleset, list(FOUND)).items():
             assert one == Tied(check, True), ruleset
             count[check] += 1
@@ -114,7 +114,7 @@ def test_every_finding_of_random_rules_is_tied(oracle: Path) -> None:
 
 
 @given(ruleset=rulesets())
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
+@settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 def test_with_measures_and_domains_too(oracle: Path, ruleset: Ruleset) -> None:
     if not_modelled(ruleset) is None:
         assert all(one == Tied(check, True) for check, one in tied(oracle, ruleset, list(FOUND)).items())

@@ -178,9 +178,9 @@ def answered_by_z3(ruleset, label, instants):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("first", range(6_000, 6_010, 5))
+@pytest.mark.parametrize("first", range(6_000, 6_004, 2))
 def test_no_history_with_more_instants_conflicts(first):
-    for seed in range(first, first + 5):
+    for seed in range(first, first + 2):
         bound_agrees(seed, SIZES[seed % 2])
 
 
