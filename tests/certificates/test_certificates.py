@@ -183,7 +183,7 @@ def test_certificates_of_random_rulesets_hold(tmp_path: Path, ruleset: Ruleset) 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", sorted({*range(20)} - {3, 8}))  # these two take long
+@pytest.mark.parametrize("seed", sorted({*range(20)} - {3, 8, 9, 11}))  # these take long
 def test_certificates_of_rulesets_with_times_hold(tmp_path: Path, seed: int) -> None:
     ruleset = source(timed_ruleset(seed).source.text, tmp_path)
     manifest = written(ruleset, tmp_path / "c", certify(ruleset, untimed="eventually" if seed % 2 else "at"))

@@ -13,7 +13,7 @@ from tests.language.test_mutations import mutations, parses_or_complains
 from tests.language.timed_strategies import timed_rulesets
 
 
-@settings(max_examples=200)
+@settings(max_examples=100)
 @given(timed_rulesets())
 def test_parsing_undoes_printing(ruleset: Ruleset) -> None:
     text = print_ruleset(ruleset)

