@@ -24,30 +24,33 @@ def _readings(cones: Cones) -> Iterator[Finding]:
     other. A model is a situation in which the readings part."""
     for position, rule in enumerate(cones.rules):
         if len(cones.clauses[position]) > 2:
-            deciding = _parting(cones, position)
-            if deciding is not None:
-                yield _finding(cones, position, rule, deciding)
+            situations = _parting(cones, position)
+            if situations is not None:
+                yield _finding(cones, position, rule, situations)
 
 
-def _parting(cones: Cones, position: int) -> tuple[int, int] | None:
-    """The clauses that decide under the ruleset's reading and the other in some situation in which they part."""
+def _parting(cones: Cones, position: int) -> Formula | None:
+    """Where the readings part; None if nowhere. Of a long chain, where they part as they do in the situation that was
+    found: all of them, written out, grow with the square of its length."""
     rule, clauses = cones.rules[position], cones.clauses[position]
+    here, there = cones.ruleset.reading, OTHER[cones.ruleset.reading]
     if len(clauses) == 1 + len(rule.hedges) and len(rule.hedges) <= LONG:
-        found = _parting_in_chain(cones, rule)
-        return found if found is None or cones.ruleset.reading == "cascade" else found[::-1]
+        return _situations(rule, here) if _parts_in_chain(cones, rule) else None
     with Question(cones) as question:
         encoder = question.encoder
-        guards = (question.guards(position), encoder.guards(rule, OTHER[cones.ruleset.reading]))
-        here, there = (encoder.due(zip(clauses, each)) for each in guards)
-        unequal = [(here[o], there[o]) for o in here if here[o] != there[o]]
+        guards = (question.guards(position), encoder.guards(rule, there))
+        one, other = (encoder.due(zip(clauses, each)) for each in guards)
+        unequal = [(one[o], other[o]) for o in one if one[o] != other[o]]
         if not question.ask(encoder.any_of([encoder.both(a, -b) for a, b in unequal + [(b, a) for a, b in unequal]])):
             return None
-        one, other = (next(n for n, guard in enumerate(each) if question.true(guard)) for each in guards)
-        return one, other
+        deciding = [next(n for n, guard in enumerate(each) if question.true(guard)) for each in guards]
+    if len(rule.hedges) <= LONG:
+        return _situations(rule, here)
+    return conjunction([implications(rule, reading)[n].guard for reading, n in zip((here, there), deciding)])
 
 
-def _parting_in_chain(cones: Cones, rule: Rule) -> tuple[int, int] | None:
-    """The same of a chain without chains in it, the clause of `cascade` first.
+def _parts_in_chain(cones: Cones, rule: Rule) -> bool:
+    """Whether they part anywhere, of a chain without chains in it.
 
     They part where hedge j is the last that is true, and one before hedge j - 1 the last before the first false one,
     and the two oblige different things. Each j is asked by itself, with clauses beside one another that oblige others
@@ -63,11 +66,11 @@ def _parting_in_chain(cones: Cones, rule: Rule) -> tuple[int, int] | None:
         last = [triggered]
         for condition in reversed(conditions[2:]):
             last.append(encoder.both(last[-1], -condition))
-        for j in range(2, len(conditions) + 1):
-            for first, behind in _unequal(rule, j):
-                if question.ask(reached[first], -reached[behind], conditions[j - 1], last[len(conditions) - j]):
-                    return next(k for k in range(first, behind) if not question.true(conditions[k])), j
-    return None
+        return any(
+            question.ask(reached[first], -reached[behind], conditions[j - 1], last[len(conditions) - j])
+            for j in range(2, len(conditions) + 1)
+            for first, behind in _unequal(rule, j)
+        )
 
 
 def _unequal(rule: Rule, j: int) -> Iterator[tuple[int, int]]:
@@ -83,21 +86,15 @@ def _unequal(rule: Rule, j: int) -> Iterator[tuple[int, int]]:
             first = None
 
 
-def _situations(rule: Rule, reading: Reading, deciding: tuple[int, int]) -> Formula:
-    """Where the readings part. Of a long chain, where they part as they do in the situation that was found: all of
-    them, written out, grow with the square of its length."""
-    if len(rule.hedges) > LONG:
-        one, other = (implications(rule, r)[n].guard for r, n in zip((reading, OTHER[reading]), deciding))
-        return conjunction([one, other])
-    here, there = _due(rule, reading), _due(rule, OTHER[reading])
-    return disjunction(
-        [conjunction([one[o], Not(two[o])]) for one, two in ((here, there), (there, here)) for o in here]
-    )
+def _situations(rule: Rule, here: Reading) -> Formula:
+    """All situations in which the readings part."""
+    one, other = _due(rule, here), _due(rule, OTHER[here])
+    return disjunction([conjunction([a[o], Not(b[o])]) for a, b in ((one, other), (other, one)) for o in one])
 
 
-def _finding(cones: Cones, position: int, rule: Rule, found: tuple[int, int]) -> Finding:
+def _finding(cones: Cones, position: int, rule: Rule, situations: Formula) -> Finding:
     reading = cones.ruleset.reading
-    witness = smallest_situation(cones, _situations(rule, reading, found))
+    witness = smallest_situation(cones, situations)
     assert witness is not None, "the readings part in some situation"
     with Question(cones) as question:
         by_reading = {r: question.encoder.guards(rule, r) for r in (reading, OTHER[reading])}
