@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from sleec_runtime.errors import UnsupportedCalculations
+from sleec_runtime.errors import Unsayable, UnsupportedCalculations
 from sleec_runtime.model import Assume, Calculated, Comparison, Formula, Never, Ruleset, formulas_of, leaves
 
 
@@ -47,3 +47,11 @@ def refuse_calculations(ruleset: Ruleset, who: str) -> None:
     found = calculations(ruleset)
     if found:
         raise unsupported(found, who)
+
+
+def refuse_unsayable_calculations(ruleset: Ruleset, language: str, hint: str) -> None:
+    """Raises Unsayable for the first calculation of a ruleset, which `language` has no words for."""
+    found = calculations(ruleset)
+    if found:
+        place = f"{ruleset.source.path}:{found[0].line}: " if found[0].line else ""
+        raise Unsayable(f"{place}{language} has no calculations, as `{found[0]}` is", hint)

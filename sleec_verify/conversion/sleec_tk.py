@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from sleec_runtime.errors import Unsayable
 from sleec_runtime.model import Clause, MeasureRef, Obligation, Rule, Ruleset, Span, Statement, literals
 from sleec_runtime.model_time import RELATIONS, Claim
-from sleec_verify.calculations import calculations
+from sleec_verify.calculations import refuse_unsayable_calculations
 from sleec_verify.conversion.to_dsl import refuse
 
 
 def refuse_unsayable(ruleset: Ruleset, statements: Iterable[Statement]) -> None:
     """Raises Unsayable for the first thing that SLEEC-TK cannot say."""
-    if calculated := calculations(ruleset):
-        place = f"{ruleset.source.path}:{calculated[0].line}: " if calculated[0].line else ""
-        raise Unsayable(f"{place}SLEEC-TK has no calculations, as `{calculated[0]}` is", _HINT)
+    refuse_unsayable_calculations(ruleset, "SLEEC-TK", _HINT)
     for statement in statements:
         if isinstance(statement, (Claim, *RELATIONS)):
             refuse(ruleset, "SLEEC-TK has no concerns, purposes or relations", statement.span, _HINT)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from sleec_runtime.errors import Unsayable
 from sleec_runtime.model import (
     And,
     Comparison,
@@ -19,7 +18,7 @@ from sleec_runtime.model import (
     Statement,
 )
 from sleec_runtime.model_time import Claim
-from sleec_verify.calculations import calculations
+from sleec_verify.calculations import refuse_unsayable_calculations
 from sleec_verify.conversion.parts import with_formulas
 from sleec_verify.measures import MIRRORED
 
@@ -32,9 +31,7 @@ def in_english(ruleset: Ruleset) -> tuple[Ruleset, list[str]]:
     What is read only because others read it is put right: a value of another scale becomes the one that it is read
     as, a number too, and the second of two rules with one label gets one of its own. Raises Unsayable for calculations.
     """
-    if calculated := calculations(ruleset):
-        place = f"{ruleset.source.path}:{calculated[0].line}: " if calculated[0].line else ""
-        raise Unsayable(f"{place}structured English has no calculations, as `{calculated[0]}` is", _HINT)
+    refuse_unsayable_calculations(ruleset, "structured English", _HINT)
     if ruleset.syntax == "english":
         return replace(ruleset, reading_stated=True), []
     labels = {s.label for s in ruleset.statements if isinstance(s, (Rule, Claim))}
