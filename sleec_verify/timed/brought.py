@@ -20,7 +20,7 @@ class Brought:
     def __init__(self, program: Program) -> None:
         self._program = program
         self._found: dict[str, int | None] = {}
-        self._deadlines: dict[str, set[Occurs]] = {}
+        self._due: dict[str, set[Occurs]] = {}
         self._harmless: dict[str, bool] = {}
 
     def instants(self, trigger: str, missing: Collection[str] = ()) -> int | None:
@@ -59,12 +59,12 @@ class Brought:
         return event in self._at_once_with(trigger)
 
     def _due_after(self, trigger: str) -> set[Occurs]:
-        found = self._deadlines.get(trigger)
+        found = self._due.get(trigger)
         if found is None:
-            found = self._deadlines[trigger] = self._look_for_deadlines(trigger)
+            found = self._due[trigger] = self._look_for_due(trigger)
         return found
 
-    def _look_for_deadlines(self, trigger: str) -> set[Occurs]:
+    def _look_for_due(self, trigger: str) -> set[Occurs]:
         """What is due later once an event occurs, all that comes at once with it included. What an event may do from
         then on, it does for all rules; what happens at once has been done."""
         found: set[Occurs] = set()
