@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 
 class _Edge(NamedTuple):
-    """``time[target] - time[source] <= length``, because `literal` is true (0: in any case)."""
+    """``time[target] - time[source] <= length``, because `literal` is true."""
 
     source: int
     target: int
@@ -22,7 +22,7 @@ class _Edge(NamedTuple):
 
 
 _ZERO = -1
-"""The node whose time is 0, by which known times are edges too."""
+"""The node whose time is 0, which stands for all whose times are known."""
 
 
 class Times:
@@ -41,18 +41,28 @@ class Times:
         self._known = dict(known or {})
         self._lengths: dict[tuple[int, int], list[int]] = {}
         self._literals: dict[tuple[int, int, int], int] = {}
+        self._asked_of: dict[int, int] = {}
 
     def at_most(self, a: int, b: int, length: int) -> int:
         """The literal "the time of `b` minus that of `a` is at most `length`"."""
+        asked_of = a if a in self._known else b
+        if a in self._known:
+            length += self._known[a]
+            a = _ZERO
+        if b in self._known:
+            length -= self._known[b]
+            b = _ZERO
         if a == b:
             return self._true if length >= 0 else -self._true
-        if a in self._known and b in self._known:
-            return self._true if self._known[b] - self._known[a] <= length else -self._true
         if a > b:
-            return -self.at_most(b, a, -length - 1)
+            return -self._literal(b, a, -length - 1, asked_of)
+        return self._literal(a, b, length, asked_of)
+
+    def _literal(self, a: int, b: int, length: int, asked_of: int) -> int:
         literal = self._literals.get((a, b, length))
         if literal is None:
             literal = self._literals[a, b, length] = self._fresh()
+            self._asked_of[literal] = asked_of
             lengths = self._lengths.setdefault((a, b), [])
             place = bisect_left(lengths, length)
             if place > 0:
@@ -72,16 +82,13 @@ class Times:
         return found if start is None else [*found, -self.at_most(a, b, start - 1)]
 
     def _edges(self, holds: Callable[[int], bool], used: Sequence[int]) -> Iterator[_Edge]:
-        there = set(used)
+        there = {_ZERO, *used}
         for (a, b, length), literal in self._literals.items():
             if a in there and b in there:
                 if holds(literal):
                     yield _Edge(a, b, length, literal)
                 else:
                     yield _Edge(b, a, -length - 1, -literal)
-        for node, time in self._known.items():
-            yield _Edge(_ZERO, node, time, 0)
-            yield _Edge(node, _ZERO, -time, 0)
 
     def refused(self, holds: Callable[[int], bool], used: Sequence[int]) -> list[list[int]]:
         """Clauses that a model breaks and that hold of all times; none if the model leaves times for `used`.
@@ -95,16 +102,17 @@ class Times:
             if known is None or edge.length < known.length:
                 tightest[edge.source][edge.target] = edge
         cycles = list(_triangles(tightest)) or _negative_cycle(tightest)
-        return [[-edge.literal for edge in cycle if edge.literal] for cycle in cycles]
+        return [[-edge.literal for edge in cycle] for cycle in cycles]
 
     def schedule(
         self, holds: Callable[[int], bool], used: Sequence[int]
     ) -> tuple[dict[int, int], dict[int, tuple[int, int]]]:
         """The earliest times that a model allows, from 0, and for each instant that has to wait for another one,
-        ``(the other, how many seconds)``. The model is one that `refused` accepts."""
-        earliest = {node: self._known.get(node, 0) for node in used}
+        ``(the other, how many seconds)``. The model is one that `refused` accepts. Of several other ones of known times
+        that it may be due to, it is the one that was asked about first."""
+        earliest = {node: self._known.get(node, 0) for node in (_ZERO, *used)}
         waits: dict[int, tuple[int, int]] = {}
-        edges = [edge for edge in self._edges(holds, used) if _ZERO not in edge[:2]]
+        edges = [edge for edge in self._edges(holds, used) if edge.source != _ZERO]
         changed = True
         while changed:
             changed = False
@@ -112,7 +120,11 @@ class Times:
                 # time[source] >= time[target] - length
                 if earliest[edge.target] - edge.length > earliest[edge.source]:
                     earliest[edge.source] = earliest[edge.target] - edge.length
-                    waits[edge.source] = (edge.target, -edge.length)
+                    if edge.target == _ZERO:
+                        known = self._asked_of[abs(edge.literal)]
+                        waits[edge.source] = (known, -edge.length - self._known[known])
+                    else:
+                        waits[edge.source] = (edge.target, -edge.length)
                     changed = True
         return earliest, waits
 
