@@ -526,6 +526,8 @@ class _Search:
             parts += [i.event(n) == known.event(n) for n in self.ruleset.triggers | self.ruleset.obligations]
             parts += [i.condition(n) == known.condition(n) for n in self.ruleset.conditions]
             parts += [i.measure(n) == known.measure(n) for n in self.ruleset.measures]
+            # What only relations speak of is no trigger, obligation or condition of the ruleset, unless declared.
+            parts += [d() == model[d] for d in model.decls() if d.name().startswith(f"{i.name}.")]
         return z3.And(parts)
 
     def fits(self, history: list[Instant], full: list[Instant], model: Any) -> Any:

@@ -23,7 +23,7 @@ from sleec_verify.timed.program import Program
 from sleec_verify.timed.questions import decided, needed
 from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.timeline import Timeline, excerpt
-from sleec_verify.timed.unfolding import Unfolding, Unseen
+from sleec_verify.timed.unfolding import MOST_CLAUSES, Unfolding, Unseen
 
 MOST_PAST = 8
 """Instants before now that are tried. Each more takes half as long again."""
@@ -34,10 +34,19 @@ FEW = 2
 MOST_PENDING = 12
 """Instants before now that are tried where those that matter only to these are left out."""
 
+MOST_SECONDS = 64
+"""Seconds before now that are tried one by one, where histories at any times take too many instants."""
+
+SECONDS_FOR_ONE = 3
+"""As many of them are as much work as one instant at any time."""
+
 MOST_LATER = 24
 """Instants that may be added to a history, for what its instants before now call for."""
 
 MOST_PLANS = 200
+
+_LONG_SINCE = 10**9
+"""Seconds before the first of those that are tried one by one, for what is before all of them."""
 
 
 @dataclass(frozen=True)
@@ -50,32 +59,41 @@ class History:
 
 
 class _Search:
-    """The search for a history with a number of instants before now; or, `in_part`, for as many instants at most that
-    are part of a history, where all that can have come about at the others may have."""
+    """The search for a history with a number of instants before now, at any times; or with instants at some of the
+    last `seconds` as well; or, `in_part`, for as many instants at most that are part of a history, where all that can
+    have come about at the others may have."""
 
-    def __init__(self, program: Program, rule: Rule, cone: Cone, instants: int, in_part: bool = False) -> None:
+    def __init__(
+        self, program: Program, rule: Rule, cone: Cone, instants: int, in_part: bool = False, seconds: int = 0
+    ) -> None:
         self.program = program
         self.cone = cone
         self.rule = rule
-        # Now, the rule need not be kept.
-        self.in_part = in_part
+        # Seconds that are known are little work each.
+        patience = 5 if seconds else 1
+        self._times = {instants + second: _LONG_SINCE + second for second in range(seconds + 1)} if seconds else {}
         self.outer = Unfolding(
             program,
             impossible=program.impossible(frozenset({rule.label})),
-            most=MOST_LATER,
-            in_part=instants if in_part else 0,
+            most=MOST_LATER * patience,
+            most_clauses=MOST_CLAUSES * patience,
+            in_part=instants + seconds if in_part else 0,
+            times=self._times,
         )
         self.true = self.outer.formula.true
         self.add = self.outer.add
         # Histories of fewer instants have been looked at before.
-        self.past = [self.outer.instant(None if in_part else self.true) for _ in range(instants)]
+        needed = None if in_part or seconds else self.true
+        self.past = [self.outer.instant(needed) for _ in range(instants + seconds)]
+        # Now, the rule need not be kept.
         self.now = self.outer.instant(self.true)
         self.outer.now = self.now
         self.outer.spared.add((rule.label, self.now))
-        for earlier, later in zip(self.past, [*self.past[1:], self.now]):
+        for earlier, later in zip(self.past[:instants], [*self.past[1:], self.now]):
             # Which of them is which makes no difference.
             self.add([self.outer.times.before(earlier, later)])
-            self.add([-self.outer.instants[earlier].used, self.outer.instants[later].used])
+            if later < instants:
+                self.add([-self.outer.instants[earlier].used, self.outer.instants[later].used])
         here = self.outer.instants[self.now]
         self.given = {event: self.outer.formula.fresh() for event in sorted(cone.events)}
         for name, given in self.given.items():
@@ -174,7 +192,12 @@ class _Search:
                     at, more = waits[at]
                     wait += more
                 values = tuple(sorted(inner.values(number).items()))
-                later.append(Later(self._numbers[at], wait, inner.happening(number), values))
+                after = self._numbers[at]
+                if after in self._times:
+                    # All that are known move together.
+                    wait -= self._times[self.now] - self._times[after]
+                    after = self.now
+                later.append(Later(after, wait, inner.happening(number), values))
         return Plan(frozenset(added), tuple(later))
 
 
@@ -184,33 +207,62 @@ def conflict(program: Program, rule: Rule) -> History | None:
     Raises Undecided where more instants could matter than are tried.
     """
     cone = Cone(program, rule)
-    most, known, pending = past(program, cone.rules.values())
-    tried = min(most, MOST_PAST)
+    needed = past(program, cone.rules.values())
 
-    def search(instants: int, in_part: bool = False) -> tuple[Fixed, ...] | None:
+    def search(instants: int, in_part: bool = False, seconds: int = 0) -> tuple[Fixed, ...] | None:
         def ask() -> tuple[Fixed, ...] | None:
-            return _Search(program, rule, cone, instants, in_part).find()
+            return _Search(program, rule, cone, instants, in_part, seconds).find()
 
         return decided(program, ask, frozenset(), frozenset({rule.label}))
 
+    # To leave out the instants that nothing pending now needs rules out no history.
+    pending = [(needed.pending, 0)] if needed.pending <= MOST_PENDING else []
+    by_seconds = 0 < needed.reach <= MOST_SECONDS
+    if by_seconds and needed.endless <= FEW:
+        pending.append((needed.endless, needed.reach))
+    pending.sort(key=lambda tried: tried[0] * SECONDS_FOR_ONE + tried[1])
+
     def all_go_on() -> bool:
-        # The instants that only what is pending now needs are few, and to leave out the others rules out no history.
+        if not pending:
+            return False
+        instants, seconds = pending.pop(0)
         try:
-            return pending <= MOST_PENDING and search(pending, in_part=True) is None
+            return search(instants, in_part=True, seconds=seconds) is None
         except Undecided:
             return False
 
-    for instants in range(tried + 1):
-        if instants == FEW and all_go_on():
+    def any_times() -> tuple[Fixed, ...] | None:
+        tried = min(needed.most, MOST_PAST)
+        for instants in range(tried + 1):
+            if instants == FEW and all_go_on():
+                return None
+            found = search(instants)
+            if found is not None:
+                return found
+        if (needed.known and needed.most <= tried) or (tried < FEW and all_go_on()):
             return None
-        found = search(instants)
-        if found is not None:
-            return _shown(program, rule, _smaller(program, rule, found))
-    if known and most <= tried:
-        return None
-    if tried < FEW and all_go_on():
-        return None
-    raise Undecided(f"no conflict with up to {tried} instants before now, and more could matter")
+        raise Undecided(f"no conflict with up to {tried} instants before now, and more could matter")
+
+    def each_second() -> tuple[Fixed, ...] | None:
+        if all_go_on():
+            return None
+        # Times that are further from each other than any rule can tell may as well be near.
+        enough = needed.most * (needed.reach + 1)
+        for seconds in (needed.reach, min(enough, MOST_SECONDS)):
+            found = search(0, seconds=seconds)
+            if found is not None:
+                return found
+        if needed.known and enough <= MOST_SECONDS:
+            return None
+        raise Undecided(f"no conflict with instants at some of the last {MOST_SECONDS} seconds, and more could matter")
+
+    try:
+        found = any_times()
+    except Undecided:
+        if not by_seconds:
+            raise
+        found = each_second()
+    return None if found is None else _shown(program, rule, _smaller(program, rule, found))
 
 
 def _after(

@@ -15,6 +15,9 @@ What is pending now is the sum of what each triggering left. Of many triggerings
 - An event that has no consequences, and whose prohibitions do not depend on what is done, is called for one by one:
   each call can be met or cannot, whatever becomes of the others. If one cannot, that one is enough: one in all.
 
+All windows that end do so within the longest of them (`Past.reach`): of the triggerings before that, only those matter
+that leave something without end (`Past.endless`). No rule tells times apart that are further from each other.
+
 For a history of these, each instant needs others (`Past.most`): at which what is due in place of something forbidden
 was forbidden and done all the same; at which whatever else the same triggers brought with them was done, unless it can
 be done at once; at which an event was that has to come before another one, or that a relation holds from, or up to.
@@ -30,17 +33,20 @@ from typing import NamedTuple
 from sleec_runtime.model import Exclusive, Rule
 from sleec_runtime.model_time import EventRelation, Lasting, MeasureRelation
 from sleec_verify.timed.program import Program
-from sleec_verify.timed.responses import Demand, Every, Occurs, Some, occurrences
+from sleec_verify.timed.responses import Demand, Every, Occurs, Some, occurrences, seconds
 
 
 class Past(NamedTuple):
     """No history with more than `most` instants before now conflicts unless a shorter one does, if that is `known`.
 
-    Of all that a history leaves to be done, as many as `pending` of its instants say everything."""
+    Of all that a history leaves to be done, as many as `pending` of its instants say everything; so do those of the
+    last `reach` seconds, with `endless` others."""
 
     most: int
     known: bool
     pending: int
+    reach: int
+    endless: int
 
 
 def past(program: Program, rules: Iterable[Rule]) -> Past:
@@ -54,7 +60,9 @@ class _Counting:
         self._brought = program.brought
         self._known = True
         self._shared: dict[tuple[str, str], int] = {}
+        self._shared_endless: set[tuple[str, str]] = set()
         self._pending = 0
+        self._endless = 0
         self._more = 0
         # A time to come may be looked for only where it can be as now is, but for the events.
         self._open_ended = all(
@@ -84,7 +92,27 @@ class _Counting:
                 # Each instant may begin it, and need one that ends it.
                 self._known &= not self._further(law.end) and not self._brought.may_come(law.end, law.event)
                 most *= 2
-        return Past(most, self._known, len(self._shared) + self._pending + laws)
+        return Past(
+            most=most,
+            known=self._known,
+            pending=len(self._shared) + self._pending + laws,
+            reach=self._reach(rules),
+            endless=len(self._shared_endless) + self._endless + laws,
+        )
+
+    def _reach(self, rules: Iterable[Rule]) -> int:
+        ends = [
+            max(what.start or 0, what.end or 0)
+            for rule in rules
+            for demand in self._program.demands(rule)
+            for what in occurrences(demand)
+        ]
+        lasting = [
+            int(-(-seconds(law.duration) // 1))
+            for law in self._program.laws
+            if isinstance(law, Lasting) and law.duration is not None
+        ]
+        return max([*ends, *lasting], default=0)
 
     def _further(self, trigger: str, missing: Iterable[str] = ()) -> int:
         brought = self._brought.instants(trigger, set(missing))
@@ -98,13 +126,17 @@ class _Counting:
         ways = _ways(demand)
         if ways is None:
             leaves = tuple(occurrences(demand))
-            lasting = any(what.end is None for what in leaves)
             # What each second may leave, and what may be left for ever.
-            self._add(trigger, leaves, max(what.end or 0 for what in leaves) + (2 ** len(leaves) if lasting else 0))
+            endless = 2 ** len(leaves) if any(what.end is None for what in leaves) else 0
+            self._endless += endless
+            self._add(trigger, leaves, max(what.end or 0 for what in leaves) + endless)
             return
         for way in ways:
             shared, more = self._of_way(way)
             self._add(trigger, way, more)
+            if any(what.end is None for what in way):
+                self._shared_endless.update(shared)
+                self._endless += more
             instants = self._instants(trigger, way) if shared else 0
             for key in shared:
                 self._shared[key] = max(self._shared.get(key, 0), instants)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, Union
+from typing import TYPE_CHECKING, TypeVar, Union
 
 from sleec_runtime.model import (
     Agent,
@@ -13,14 +13,17 @@ from sleec_runtime.model import (
     Clause,
     Declaration,
     Exclusive,
+    Formula,
     Never,
     Obligation,
     Rule,
     Ruleset,
+    formulas_of,
     in_text_order,
     leaves,
+    names_of,
 )
-from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, Lasting, Relation
+from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, Lasting, MeasureRelation, Relation
 from sleec_verify.solver import Recorder
 from sleec_verify.timed.responses import Demand, Occurs, Responses, occurrences
 from sleec_verify.timed.scope import Untimed
@@ -30,6 +33,8 @@ if TYPE_CHECKING:
 
 Law = Union[Relation, Exclusive, Never, Assume]
 """What a ruleset demands besides its rules."""
+
+_Indexed = TypeVar("_Indexed", Rule, Law)
 
 
 def law_name(law: Law) -> str:
@@ -52,6 +57,29 @@ def events_of(law: Law) -> Iterator[str]:
         yield from law.names
     elif isinstance(law, (Never, Assume)):
         yield from (leaf.name for leaf in leaves(law.formula) if isinstance(leaf, Atom) and leaf.kind != "condition")
+
+
+def formulas_of_law(law: Law) -> Iterator[Formula]:
+    """What a law says of the conditions and measures."""
+    if isinstance(law, MeasureRelation):
+        candidates: tuple[Formula | None, ...] = (law.left, law.right)
+    elif isinstance(law, Lasting):
+        candidates = (law.condition, law.formula, law.end_condition)
+    elif isinstance(law, (Effect, Never, Assume)):
+        candidates = (law.formula,)
+    else:
+        candidates = ()
+    yield from (formula for formula in candidates if formula is not None)
+
+
+def _index(pairs: Iterable[tuple[str, _Indexed]]) -> dict[str, list[_Indexed]]:
+    """The values of each key, each once, in their order."""
+    index: dict[str, list[_Indexed]] = {}
+    for key, value in pairs:
+        values = index.setdefault(key, [])
+        if not values or values[-1] is not value:
+            values.append(value)
+    return index
 
 
 def _found(same: dict[str, str], event: str) -> str:
@@ -128,6 +156,59 @@ class Program:
             for name in names:
                 index.setdefault(name, set()).update(names - {name})
         return index
+
+    @cached_property
+    def laws_of_event(self) -> dict[str, list[Law]]:
+        """The laws that speak of an event."""
+        return _index((event, law) for law in self.laws for event in events_of(law))
+
+    @cached_property
+    def laws_of_measure(self) -> dict[str, list[Law]]:
+        """The laws that speak of a condition or measure."""
+        return _index(
+            (name, law) for law in self.laws for formula in formulas_of_law(law) for name in names_of(formula)
+        )
+
+    @cached_property
+    def may_come_later(self) -> frozenset[str]:
+        """The events that rules or laws may come to call for at a time after what calls for them."""
+        found: set[str] = set()
+        ahead = [what.event for rule in self.rules for what in self.windows(rule) if what.end != 0 and not what.negated]
+        for law in self.laws:
+            if isinstance(law, Lasting) and law.end is not None:
+                ahead.append(law.end)
+            elif isinstance(law, (Assume, Never)) or (isinstance(law, Effect) and law.relation == "causation"):
+                ahead += events_of(law)
+        while ahead:
+            event = ahead.pop()
+            if event not in found:
+                found.add(event)
+                ahead += [
+                    o.name for rule in self.by_trigger.get(event, ()) for o in responses_of(rule) if not o.negated
+                ]
+                for law in self.laws_of_event.get(event, ()):
+                    if isinstance(law, EventRelation) and law.relation != "mutualExclusive":
+                        ahead += [law.left, law.right]
+        return frozenset(found)
+
+    @cached_property
+    def pressing(self) -> dict[str, list[Rule]]:
+        """The rules that may come to oblige an event at a time after what calls for that."""
+        return {
+            event: [rule for rule in rules if rule.trigger in self.may_come_later or self.is_timed(rule)]
+            for event, rules in self.obliging.items()
+        }
+
+    @cached_property
+    def reading_later(self) -> dict[str, list[Rule]]:
+        """The rules that a condition or measure may decide at a time after what calls for their triggers."""
+        return _index(
+            (name, rule)
+            for rule in self.rules
+            if rule.trigger in self.may_come_later
+            for formula in formulas_of(rule)
+            for name in names_of(formula)
+        )
 
     @cached_property
     def _demands(self) -> dict[str, list[Demand]]:

@@ -90,25 +90,28 @@ class Unfolding:
         beginning: Sequence[Fixed] = (),
         rules: Mapping[str, Sequence[Rule]] | None = None,
         most: int = MOST,
+        most_clauses: int = MOST_CLAUSES,
+        times: Mapping[int, int] | None = None,
         impossible: frozenset[str] = frozenset(),
         in_part: int = 0,
         unseen: Mapping[Unseen, bool] | None = None,
     ) -> None:
         """The rules `without` are not in force. `beginning` are instants that are settled, in the order of time, the
-        last of them open to more events; all further ones come after it. `rules` replace those of the program.
+        last of them open to more events; all further ones come after it. `times` are those that are known of further
+        instants, by their numbers. `rules` replace those of the program.
         `impossible` are events that are known to occur in no trace. The first `in_part` instants, after which comes
         now, are only part of those before now; what came about at others is `unseen`, if that is known, or open."""
         self.program = program
         self.formula = Formula()
         self.add = self.formula.clauses.append
-        known = {number: fixed.time for number, fixed in enumerate(beginning)}
+        known = {number: fixed.time for number, fixed in enumerate(beginning)} | dict(times or {})
         self.times = Times(self.formula.fresh, self.add, self.formula.true, known)
         self.instants: list[Instant] = []
         self._without = without
         self._rules = program.by_trigger if rules is None else rules
         patience = PATIENCE if program.is_acyclic else 1
         self._most = most * patience
-        self._most_clauses = MOST_CLAUSES * patience
+        self._most_clauses = most_clauses * patience
         self._grown = 0
         self._impossible = impossible
         self._in_part = in_part

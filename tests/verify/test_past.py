@@ -6,8 +6,9 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_verify.solver import Undecided
+from sleec_verify.timed import conflicts
 from sleec_verify.timed.conflict_cone import Cone
-from sleec_verify.timed.conflicts import conflict
+from sleec_verify.timed.conflicts import MOST_PAST, MOST_SECONDS, conflict
 from sleec_verify.timed.past import past
 from sleec_verify.timed.program import Program
 from tests import timed_oracle as oracle
@@ -34,10 +35,37 @@ def test_one_rule_may_have_to_be_triggered_many_times(seconds):
     assert bound.pending >= seconds
 
 
-def test_more_than_are_tried_is_unknown():
-    text = "RULE slow WHEN Knock THEN NOT Open WITHIN [20, 20] seconds\nRULE fast WHEN Ring THEN Open WITHIN 20 seconds"
+@pytest.mark.parametrize("seconds", [9, 20])
+def test_instants_at_any_of_the_last_seconds_are_tried_together(seconds):
+    slow = f"RULE slow WHEN Knock THEN NOT Open WITHIN [{seconds}, {seconds}] seconds\n"
+    program, rule, bound = asked(slow + f"RULE fast WHEN Ring THEN Open WITHIN {seconds} seconds", "fast")
+    assert bound.most > MOST_PAST
+    assert bound.reach == seconds
+    found = conflict(program, rule)
+    assert found is not None
+    assert len(found.instants) == seconds + 1
+    program, rule, _ = asked(slow + f"RULE fast WHEN Ring THEN Open WITHIN {seconds + 1} seconds", "fast")
+    assert conflict(program, rule) is None
+
+
+def test_what_comes_before_the_last_seconds_is_tried_with_them(monkeypatch):
+    monkeypatch.setattr(conflicts, "MOST_PAST", 2)
+    # A knock long ago counts still, one a second keeps the window shut.
+    text = """RULE slow WHEN Knock THEN NOT Open WITHIN [9, 9] seconds
+    RULE night WHEN Night THEN NOT Shut EVENTUALLY
+    RULE fast WHEN Ring THEN Open WITHIN 9 seconds OTHERWISE Shut WITHIN 3 seconds"""
     program, rule, bound = asked(text, "fast")
-    assert bound.most > 20
+    assert bound.endless == 1
+    found = conflict(program, rule)
+    assert found is not None
+    program, rule, _ = asked(text.replace("NOT Shut EVENTUALLY", "NOT Shut WITHIN 11 seconds"), "fast")
+    assert conflict(program, rule) is None
+
+
+def test_more_than_are_tried_is_unknown():
+    text = "RULE slow WHEN Knock THEN NOT Open WITHIN [2, 2] minutes\nRULE fast WHEN Ring THEN Open WITHIN 2 minutes"
+    program, rule, bound = asked(text, "fast")
+    assert bound.reach > MOST_SECONDS
     with pytest.raises(Undecided, match="no conflict with up to 8 instants before now"):
         conflict(program, rule)
 
@@ -70,17 +98,17 @@ def test_calls_between_which_what_is_done_decides_add_up():
     assert bound.pending >= 3
 
 
-def test_what_only_the_past_needs_is_left_out_of_it():
-    # What triggers `shut` triggers itself, again and again: no number of instants before now is known to be enough.
+def test_what_triggers_itself_again():
+    # The check demands another night soon, which shuts for longer.
     text = """RULE shut WHEN Night THEN NOT Open WITHIN 5 minutes
     RULE again WHEN Night THEN Check WITHIN [1, 2] minutes
     RULE checked WHEN Check THEN Night WITHIN [1, 2] minutes UNLESS stops
     RULE fast WHEN Ring THEN Open WITHIN 6 minutes"""
     program, rule, bound = asked(text, "fast")
     assert not bound.known
-    assert conflict(program, rule) is None
-    program, rule, _ = asked(text.replace("6 minutes", "4 minutes"), "fast")
-    assert conflict(program, rule) is not None
+    found = conflict(program, rule)
+    assert found is not None
+    assert set(found.matter) == {"fast", "shut", "checked"}
 
 
 @pytest.mark.parametrize(
@@ -122,7 +150,7 @@ def test_rules_of_one_event_need_one_instant_each_way():
     minutes = "\n".join(f"RULE s{n} WHEN u{n} THEN Open WITHIN {n} minutes" for n in range(1, 9))
     assert asked(f"{hours}\n{minutes}", "s8")[2][:2] == (2, True)
     # What nothing calls for need not happen again.
-    assert asked(hours, "r8")[2] == (0, True, 0)
+    assert asked(hours, "r8")[2][:3] == (0, True, 0)
 
 
 LATER = "RULE b WHEN t THEN Note WITHIN [1, 2] minutes"
