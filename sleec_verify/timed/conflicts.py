@@ -37,7 +37,7 @@ MOST_PENDING = 12
 MOST_SECONDS = 64
 """Seconds before now that are tried one by one, where histories at any times take too many instants."""
 
-SECONDS_FOR_ONE = 3
+SECONDS_FOR_ONE = 4
 """As many of them are as much work as one instant at any time."""
 
 MOST_LATER = 24
@@ -218,7 +218,7 @@ def conflict(program: Program, rule: Rule) -> History | None:
     # To leave out the instants that nothing pending now needs rules out no history.
     pending = [(needed.pending, 0)] if needed.pending <= MOST_PENDING else []
     by_seconds = 0 < needed.reach <= MOST_SECONDS
-    if by_seconds and needed.endless <= FEW:
+    if by_seconds and needed.endless <= MOST_PENDING:
         pending.append((needed.endless, needed.reach))
     pending.sort(key=lambda tried: tried[0] * SECONDS_FOR_ONE + tried[1])
 

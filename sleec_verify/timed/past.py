@@ -125,18 +125,21 @@ class _Counting:
         """What one obligation of a rule of this trigger adds."""
         ways = _ways(demand)
         if ways is None:
-            leaves = tuple(occurrences(demand))
+            every = tuple(occurrences(demand))
             # What each second may leave, and what may be left for ever.
-            endless = 2 ** len(leaves) if any(what.end is None for what in leaves) else 0
+            endless = 2 ** len(every) if any(what.end is None for what in every) else 0
             self._endless += endless
-            self._add(trigger, leaves, max(what.end or 0 for what in leaves) + endless)
+            self._add(trigger, every, max(what.end or 0 for what in every) + endless)
             return
         for way in ways:
-            shared, more = self._of_way(way)
+            leaves = [o for o in way if o.end != 0 and not (o.negated and self._is_never_called(o.event))]
+            if not leaves or self._can_be_done(leaves):
+                continue
+            shared, more = self._of_leaves(leaves)
             self._add(trigger, way, more)
-            if any(what.end is None for what in way):
+            if any(what.end is None for what in leaves):
                 self._shared_endless.update(shared)
-                self._endless += more
+                self._endless += _past_all_ends(leaves) if more else 0
             instants = self._instants(trigger, way) if shared else 0
             for key in shared:
                 self._shared[key] = max(self._shared.get(key, 0), instants)
@@ -156,12 +159,9 @@ class _Counting:
         done_all_the_same = [1 + self._further(what.event) for what in way if what.negated and what.end != 0]
         return 1 + self._further(trigger) + sum(done_all_the_same)
 
-    def _of_way(self, way: Sequence[Occurs]) -> tuple[list[tuple[str, str]], int]:
+    def _of_leaves(self, leaves: Sequence[Occurs]) -> tuple[list[tuple[str, str]], int]:
         """How many triggerings say all that these responses, of which one has to be kept, come to leave: those that
         they have in common with others, by what they say, and how many more."""
-        leaves = [what for what in way if what.end != 0 and not (what.negated and self._is_never_called(what.event))]
-        if not leaves or self._can_be_done(leaves):
-            return [], 0
         forbidden = [what for what in leaves if what.negated]
         due = [what for what in leaves if not what.negated]
         if len(forbidden) <= 1 and all(map(self._is_settled, due)):
@@ -222,14 +222,19 @@ _LONG = 100
 """Seconds that are not looked at one by one."""
 
 
+def _past_all_ends(leaves: Sequence[Occurs]) -> int:
+    """How many triggerings say all that is left once all windows that end have ended."""
+    for_ever = [what for what in leaves if what.end is None]
+    # What was done all the same tells triggerings apart; the fewer responses are left, the more it says.
+    forbidden = sum(what.negated for what in for_ever)
+    return comb(forbidden, forbidden // 2) if for_ever else 0
+
+
 def _second_by_second(leaves: Sequence[Occurs]) -> int:
     """How many triggerings say all that responses of both kinds come to leave, of which one has to be kept."""
     ends = [what.end for what in leaves if what.end is not None]
     longest = max(ends, default=0)
-    for_ever = [what for what in leaves if what.end is None]
-    # Past all ends, what was done all the same tells triggerings apart; the fewer responses are left, the more it says.
-    forbidden = sum(what.negated for what in for_ever)
-    found = comb(forbidden, forbidden // 2) if for_ever else 0
+    found = _past_all_ends(leaves)
     if longest > _LONG:
         return found + longest
     alike = set()

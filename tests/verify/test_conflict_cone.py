@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from random import Random
+
 import pytest
 
 from sleec_runtime.language import parse
+from sleec_verify.timed import conflicts
+from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.conflicts import conflict
 from sleec_verify.timed.program import Program
 from tests import timed_oracle as oracle
+from tests.timed_agreement import answered
 
 WAYS = {
     "what else forbids what is due, where this rule forbids it for a part of its window": """
@@ -70,3 +75,61 @@ def test_a_conflict_by_way_of(text):
     found = conflict(program, rule)
     assert found is not None
     assert oracle.conflict(program.ruleset, "r", past=len(found.instants) - 1, later=2, longest=4).found
+
+
+class Whole(Cone):
+    """All rules and events, whatever they have to do with each other."""
+
+    def __init__(self, program, rule):
+        self.rules = dict(program.ruleset.by_label)
+        self.events = {rule.trigger for rule in program.rules}
+        self.events |= {what.event for rule in program.rules for what in program.windows(rule)}
+
+
+def sparse(seed):
+    """A text whose rules have less to do with each other than those of tests/timed_strategies.py."""
+    draw = Random(seed)
+    events = [f"E{n}" for n in range(draw.randint(4, 9))]
+    windows = ("",) * 3 + tuple(f" WITHIN {w} seconds" for w in ("1", "2", "[1, 2]", "[2, 2]")) + (" EVENTUALLY",)
+    conditions = ("m", "NOT m", "n", "NOT n", "m AND n")
+
+    def response(otherwise):
+        text = ("NOT " if draw.random() < 0.35 else "") + draw.choice(events) + draw.choice(windows)
+        return f"{text} OTHERWISE {response(otherwise - 1)}" if otherwise and draw.random() < 0.3 else text
+
+    lines = ["CONDITION m", "CONDITION n"]
+    for number in range(draw.randint(3, 6)):
+        guard = f" AND {draw.choice(conditions)}" if draw.random() < 0.3 else ""
+        line = f"RULE R{number} WHEN {draw.choice(events)}{guard} THEN {response(2)}"
+        if "OTHERWISE" not in line and draw.random() < 0.4:
+            line += f" UNLESS {draw.choice(conditions)} IN WHICH CASE {response(0)}"
+        lines.append(line)
+    return "\n".join(lines)
+
+
+def nothing_else_matters(seed, monkeypatch):
+    """How many conflicts were looked for among all rules as well."""
+    program = Program(parse(sparse(seed)))
+    count = 0
+    for rule in program.rules if program.is_acyclic else ():
+        if len(Cone(program, rule).rules) < len(program.rules):
+            ours = answered(lambda: conflict(program, rule) is not None)  # noqa: B023
+            with monkeypatch.context() as patch:
+                patch.setattr(conflicts, "Cone", Whole)
+                whole = answered(lambda: conflict(program, rule) is not None)  # noqa: B023
+            if ours is not None and whole is not None:
+                assert ours == whole, f"seed {seed}, {rule.label}\n{program.ruleset.source.text}"
+                count += 1
+    return count
+
+
+@pytest.mark.parametrize("first", [0, 20])
+def test_nothing_else_matters(first, monkeypatch):
+    assert sum(nothing_else_matters(seed, monkeypatch) for seed in range(first, first + 20)) > 0
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("first", range(40, 1000, 40))
+def test_nothing_else_matters_to_many(first, monkeypatch):
+    for seed in range(first, first + 40):
+        nothing_else_matters(seed, monkeypatch)

@@ -166,7 +166,7 @@ LATER = "RULE b WHEN t THEN Note WITHIN [1, 2] minutes"
         (LATER, (3, True)),
         # And what it calls for, too.
         (f"{LATER}\nRULE c WHEN Note THEN File WITHIN [1, 2] minutes", (4, True)),
-        (f"{LATER}\nRULE c WHEN Note THEN t WITHIN [1, 2] minutes", (2, False)),
+        (f"{LATER}\nRULE c WHEN Note THEN t WITHIN [1, 2] minutes", (122, False)),
         # Done at once, but not whatever the conditions; or because of a relation.
         (
             "RULE b WHEN t THEN Note WITHIN 1 minute\nRULE c WHEN t THEN Note UNLESS c\nRULE d WHEN Note THEN NOT u",
@@ -178,7 +178,7 @@ LATER = "RULE b WHEN t THEN Note WITHIN [1, 2] minutes"
         ),
         ("RELATION t WITNESSES u\nRULE b WHEN u THEN Note WITHIN [1, 2] minutes", (3, True)),
         # What calls for itself from then on, and nothing that keeps it from being done at once.
-        ("RULE b WHEN t THEN t WITHIN 1 minute\nRULE c WHEN Note THEN NOT t", (2, True)),
+        ("RULE b WHEN t THEN t WITHIN 1 minute\nRULE c WHEN Note THEN NOT t", (3, True)),
         ("RULE b WHEN t THEN Note WITHIN 1 minute\nRULE c WHEN Note THEN File WITHIN 1 minute", (2, True)),
     ],
 )
