@@ -14,12 +14,28 @@ All else can be done as before. Time complexity: linear in what is reached.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Literal, NamedTuple
 
-from sleec_runtime.model import Assume, Formula, Never, Rule, formulas_of, names_of
+from sleec_runtime.model import Assume, Never, Rule, formulas_of, names_of
 from sleec_runtime.model_time import Effect, EventRelation, Lasting
-from sleec_verify.timed.program import Law, Program, events_of, formulas_of_law
-from sleec_verify.timed.responses import Demand, occurrences
+from sleec_verify.timed.program import Law, Program, events_of, formulas_of_law, law_name
+from sleec_verify.timed.responses import occurrences
+
+
+class _Step(NamedTuple):
+    """That something is concerned, in one of these ways:
+
+    - ``called``: the event may be done in addition;
+    - ``moved``: the event may have to be done at other times, or not at all;
+    - ``read``: the condition or measure may have another value at an instant to come;
+    - ``taken``: all that the rule of this label demands is concerned;
+    - ``demanded``: the demand of this number of that rule is, and with it what may be done in its place;
+    - ``linked``: the law of this name is concerned."""
+
+    how: Literal["called", "moved", "read", "taken", "demanded", "linked"]
+    what: str
+    number: int = 0
 
 
 class Cone:
@@ -29,88 +45,64 @@ class Cone:
         self._program = program
         self.rules: dict[str, Rule] = {}
         self.events: set[str] = set()
-        self._called: set[str] = set()
-        self._moved: set[str] = set()
-        self._measures: set[str] = set()
-        self._laws: set[int] = set()
-        self._concerned: set[tuple[str, int]] = set()
-        self._ahead: list[Demand] = []
-        self._take([rule])
-        for demand in program.demands(rule):
-            for what in occurrences(demand):
-                if what.negated:
-                    # For other rules it does as well that the event is one of those of now.
-                    self._take_for(what.event, program.obliging, negated=False)
-        while self._ahead:
-            for what in occurrences(self._ahead.pop()):
-                if what.negated:
-                    self._move(what.event)
-                else:
-                    self._call(what.event)
+        ahead = [*self._rule(rule), _Step("taken", rule.label)]
+        for what in program.windows(rule):
+            if what.negated:
+                # For other rules it does as well that the event is one of those of now.
+                ahead += self._of(what.event, program.obliging, negated=False)
+        found: set[_Step] = set()
+        while ahead:
+            step = ahead.pop()
+            if step not in found:
+                found.add(step)
+                ahead += self._next(step)
 
-    def _take(self, rules: Iterable[Rule]) -> None:
-        """All that these rules demand is concerned."""
-        for rule in rules:
-            for number, demand in enumerate(self._program.demands(rule)):
-                self._concern(rule, number, demand)
+    def _next(self, step: _Step) -> Iterator[_Step]:
+        program, what = self._program, step.what
+        if step.how in ("called", "moved"):
+            self.events.add(what)
+            yield from (_Step("linked", law_name(law)) for law in program.laws_of_event.get(what, ()))
+        if step.how == "called":
+            yield from (_Step("taken", rule.label) for rule in program.by_trigger.get(what, ()))
+            yield from self._of(what, program.forbidding, negated=True)
+        elif step.how == "moved":
+            yield from self._of(what, program.pressing, negated=False)
+        elif step.how == "read":
+            yield from (_Step("taken", rule.label) for rule in program.reading_later.get(what, ()))
+            yield from (_Step("linked", law_name(law)) for law in program.laws_of_measure.get(what, ()))
+        elif step.how == "linked":
+            yield from self._law(program.law_named[what])
+        else:
+            rule = program.ruleset.by_label[what]
+            if what not in self.rules:
+                yield from self._rule(rule)
+            demands = program.demands(rule)
+            for demand in demands if step.how == "taken" else demands[step.number : step.number + 1]:
+                for one in occurrences(demand):
+                    yield _Step("moved" if one.negated else "called", one.event)
 
-    def _take_for(self, event: str, index: Mapping[str, Sequence[Rule]], negated: bool) -> None:
-        """What the rules of an index demand of an event is concerned, and with it what may be done in its place."""
+    def _of(self, event: str, index: Mapping[str, Sequence[Rule]], negated: bool) -> Iterator[_Step]:
+        """What the rules of an index demand of an event."""
         for rule in index.get(event, ()):
             for number, demand in enumerate(self._program.demands(rule)):
                 if any(what.event == event and what.negated == negated for what in occurrences(demand)):
-                    self._concern(rule, number, demand)
+                    yield _Step("demanded", rule.label, number)
 
-    def _concern(self, rule: Rule, number: int, demand: Demand) -> None:
-        key = (rule.label, number)
-        if key in self._concerned:
-            return
-        self._concerned.add(key)
-        self._ahead.append(demand)
-        if rule.label not in self.rules:
-            self.rules[rule.label] = rule
-            self.events.add(rule.trigger)
-            self.events.update(what.event for what in self._program.windows(rule))
-            if rule.trigger in self._program.may_come_later:
-                # Then, another of its clauses may decide.
-                self._move(rule.trigger)
-                self._read(formulas_of(rule))
-                self._take([rule])
+    def _rule(self, rule: Rule) -> Iterator[_Step]:
+        """Anything of a rule is concerned."""
+        self.rules[rule.label] = rule
+        self.events.add(rule.trigger)
+        self.events.update(what.event for what in self._program.windows(rule))
+        if rule.trigger in self._program.may_come_later:
+            # Then, another of its clauses may decide.
+            yield _Step("moved", rule.trigger)
+            yield from (_Step("read", name) for formula in formulas_of(rule) for name in names_of(formula))
+            yield _Step("taken", rule.label)
 
-    def _call(self, event: str) -> None:
-        """The event may be done in addition."""
-        self.events.add(event)
-        if event not in self._called:
-            self._called.add(event)
-            program = self._program
-            self._take(program.by_trigger.get(event, ()))
-            self._take_for(event, program.forbidding, negated=True)
-            self._link(program.laws_of_event.get(event, ()))
-
-    def _move(self, event: str) -> None:
-        """The event may have to be done at other times."""
-        self.events.add(event)
-        if event not in self._moved:
-            self._moved.add(event)
-            self._take_for(event, self._program.pressing, negated=False)
-            self._link(self._program.laws_of_event.get(event, ()))
-
-    def _read(self, formulas: Iterable[Formula]) -> None:
-        for name in (name for formula in formulas for name in names_of(formula)):
-            if name not in self._measures:
-                self._measures.add(name)
-                self._take(self._program.reading_later.get(name, ()))
-                self._link(self._program.laws_of_measure.get(name, ()))
-
-    def _link(self, laws: Iterable[Law]) -> None:
-        for law in laws:
-            if law.span.start not in self._laws:
-                self._laws.add(law.span.start)
-                for event in events_of(law):
-                    self._move(event)
-                for event in _may_call(law):
-                    self._call(event)
-                self._read(formulas_of_law(law))
+    def _law(self, law: Law) -> Iterator[_Step]:
+        yield from (_Step("moved", event) for event in events_of(law))
+        yield from (_Step("called", event) for event in _may_call(law))
+        yield from (_Step("read", name) for formula in formulas_of_law(law) for name in names_of(formula))
 
 
 def _may_call(law: Law) -> Iterator[str]:

@@ -158,6 +158,10 @@ class Program:
         return index
 
     @cached_property
+    def law_named(self) -> dict[str, Law]:
+        return {law_name(law): law for law in self.laws}
+
+    @cached_property
     def laws_of_event(self) -> dict[str, list[Law]]:
         """The laws that speak of an event."""
         return _index((event, law) for law in self.laws for event in events_of(law))

@@ -133,3 +133,12 @@ def test_nothing_else_matters(first, monkeypatch):
 def test_nothing_else_matters_to_many(first, monkeypatch):
     for seed in range(first, first + 40):
         nothing_else_matters(seed, monkeypatch)
+
+
+def test_a_long_chain():
+    count = 2_000
+    chain = "\n".join(f"RULE R{n} WHEN E{n} THEN E{n + 1} WITHIN 5 seconds" for n in range(count))
+    program = Program(parse(chain))
+    cone = Cone(program, program.rules[count // 2])
+    # What was triggered before may press, and what is triggered now leads on.
+    assert len(cone.rules) == count
