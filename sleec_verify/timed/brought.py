@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume, Never
 from sleec_runtime.model_time import Effect, EventRelation
-from sleec_verify.timed.responses import Occurs, occurrences
+from sleec_verify.timed.responses import Demand, Occurs, occurrences, ways_of
 
 if TYPE_CHECKING:
     from sleec_verify.timed.program import Program
@@ -92,25 +92,55 @@ class Brought:
         speaks of them, and all that they call for can be done at the same time. They forbid nothing."""
         known = self._harmless.get(event)
         if known is None:
-            known = self._harmless[event] = self._is_harmless(event)
+            with_it = self._all_at_once(event)
+            # What an event that is harmless calls for is so too.
+            self._harmless.update(dict.fromkeys(with_it or (), True))
+            known = self._harmless[event] = with_it is not None
         return known
 
-    def _is_harmless(self, event: str) -> bool:
+    def _all_at_once(self, event: str) -> set[str] | None:
+        """The events that are done at once with an event that is harmless; None if it is not."""
         found, ahead = {event}, [event]
         while ahead:
             trigger = ahead.pop()
-            if trigger in self._program.bound or trigger in self._program.forbidding:
-                return False
+            if self._harmless.get(trigger):
+                continue
+            if trigger in self._program.bound or trigger in self._program.forbidding or trigger in self._harmless:
+                return None
             for rule in self._program.by_trigger.get(trigger, ()):
                 for demand in self._program.demands(rule):
                     # What may come in its place comes after it.
                     answer = next(occurrences(demand))
                     if answer.negated or answer.is_later:
-                        return False
+                        return None
                     if answer.event not in found:
                         found.add(answer.event)
                         ahead.append(answer.event)
-        return True
+        return found
+
+    def can_be_done(self, leaves: Sequence[Occurs]) -> bool:
+        """Whether, as long as anything of it is pending, something of it can be done at once, whatever else is the
+        case."""
+        reached = 0
+        harmless = [what for what in leaves if not what.negated and self.is_harmless(what.event)]
+        for what in sorted(harmless, key=lambda what: what.start or 0):
+            if (what.start or 0) > reached + 1:
+                return False
+            if what.end is None:
+                return True
+            reached = max(reached, what.end)
+        return all(what.end is not None and what.end <= reached for what in leaves)
+
+    def is_free(self, demand: Demand) -> bool:
+        """Whether a demand can be met whatever else is the case, when it is made and as long as it is pending."""
+        ways = ways_of(demand)
+        return ways is not None and all(map(self._is_free, ways))
+
+    def _is_free(self, way: Sequence[Occurs]) -> bool:
+        # A law may call for something else at an instant that is only there for this.
+        at_hand = (what for what in way if not what.negated and (not what.is_later or not self._program.laws))
+        pending = [what for what in way if what.end != 0]
+        return any(self.is_harmless(what.event) for what in at_hand) and (not pending or self.can_be_done(pending))
 
     def _at_once_with(self, trigger: str, surely: bool = False) -> set[str]:
         """The events that may come at once with an event; `surely`, only those that do whatever the conditions."""

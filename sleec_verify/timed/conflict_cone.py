@@ -9,7 +9,8 @@ change for it spreads, from the rule on:
 - At an instant to come, the measures are what suits the rules that are triggered there: those that speak of the same
   ones are concerned, by laws as well. (Where nothing speaks of them, they can be what they are now.)
 
-All else can be done as before. Time complexity: linear in what is reached.
+What can be met whatever else is the case concerns nothing, and all else can be done as before. Time complexity: linear
+in what is reached.
 """
 
 from __future__ import annotations
@@ -45,7 +46,8 @@ class Cone:
         self._program = program
         self.rules: dict[str, Rule] = {}
         self.events: set[str] = set()
-        ahead = [*self._rule(rule), _Step("taken", rule.label)]
+        self._add(rule)
+        ahead = [_Step("taken", rule.label)]
         for what in program.windows(rule):
             if what.negated:
                 # For other rules it does as well that the event is one of those of now.
@@ -56,6 +58,11 @@ class Cone:
             if step not in found:
                 found.add(step)
                 ahead += self._next(step)
+
+    def _add(self, rule: Rule) -> None:
+        self.rules[rule.label] = rule
+        self.events.add(rule.trigger)
+        self.events.update(what.event for what in self._program.windows(rule))
 
     def _next(self, step: _Step) -> Iterator[_Step]:
         program, what = self._program, step.what
@@ -74,12 +81,13 @@ class Cone:
             yield from self._law(program.law_named[what])
         else:
             rule = program.ruleset.by_label[what]
-            if what not in self.rules:
-                yield from self._rule(rule)
             demands = program.demands(rule)
-            for demand in demands if step.how == "taken" else demands[step.number : step.number + 1]:
-                for one in occurrences(demand):
-                    yield _Step("moved" if one.negated else "called", one.event)
+            chosen = demands if step.how == "taken" else demands[step.number : step.number + 1]
+            concerned = [demand for demand in chosen if not program.brought.is_free(demand)]
+            if concerned:
+                yield from self._rule(rule)
+            for one in (one for demand in concerned for one in occurrences(demand)):
+                yield _Step("moved" if one.negated else "called", one.event)
 
     def _of(self, event: str, index: Mapping[str, Sequence[Rule]], negated: bool) -> Iterator[_Step]:
         """What the rules of an index demand of an event."""
@@ -90,9 +98,7 @@ class Cone:
 
     def _rule(self, rule: Rule) -> Iterator[_Step]:
         """Anything of a rule is concerned."""
-        self.rules[rule.label] = rule
-        self.events.add(rule.trigger)
-        self.events.update(what.event for what in self._program.windows(rule))
+        self._add(rule)
         if rule.trigger in self._program.may_come_later:
             # Then, another of its clauses may decide.
             yield _Step("moved", rule.trigger)

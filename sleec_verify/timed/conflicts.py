@@ -206,6 +206,8 @@ def conflict(program: Program, rule: Rule) -> History | None:
 
     Raises Undecided where more instants could matter than are tried.
     """
+    if all(map(program.brought.is_free, program.demands(rule))):
+        return None
     cone = Cone(program, rule)
     needed = past(program, cone.rules.values())
 
@@ -259,7 +261,8 @@ def conflict(program: Program, rule: Rule) -> History | None:
     try:
         found = any_times()
     except Undecided:
-        if not by_seconds:
+        # Where responses come back to their own trigger, each further try may take as long as the first.
+        if not (by_seconds and program.is_acyclic):
             raise
         found = each_second()
     return None if found is None else _shown(program, rule, _smaller(program, rule, found))

@@ -26,14 +26,13 @@ be done at once; at which an event was that has to come before another one, or t
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from itertools import chain, product
 from math import comb
 from typing import NamedTuple
 
 from sleec_runtime.model import Exclusive, Rule
 from sleec_runtime.model_time import EventRelation, Lasting, MeasureRelation
 from sleec_verify.timed.program import Program
-from sleec_verify.timed.responses import Demand, Every, Occurs, Some, occurrences, seconds
+from sleec_verify.timed.responses import Demand, Occurs, occurrences, seconds, ways_of
 
 
 class Past(NamedTuple):
@@ -123,7 +122,7 @@ class _Counting:
 
     def _count(self, trigger: str, demand: Demand) -> None:
         """What one obligation of a rule of this trigger adds."""
-        ways = _ways(demand)
+        ways = ways_of(demand)
         if ways is None:
             every = tuple(occurrences(demand))
             # What each second may leave, and what may be left for ever.
@@ -133,7 +132,7 @@ class _Counting:
             return
         for way in ways:
             leaves = [o for o in way if o.end != 0 and not (o.negated and self._is_never_called(o.event))]
-            if not leaves or self._can_be_done(leaves):
+            if not leaves or self._brought.can_be_done(leaves):
                 continue
             shared, more = self._of_leaves(leaves)
             self._add(trigger, way, more)
@@ -204,19 +203,6 @@ class _Counting:
             )
         )
 
-    def _can_be_done(self, leaves: Sequence[Occurs]) -> bool:
-        """Whether, as long as anything of it is pending, something of it can be done at once, whatever else is the
-        case."""
-        reached = 0
-        harmless = [what for what in leaves if not what.negated and self._brought.is_harmless(what.event)]
-        for what in sorted(harmless, key=lambda what: what.start or 0):
-            if (what.start or 0) > reached + 1:
-                return False
-            if what.end is None:
-                return True
-            reached = max(reached, what.end)
-        return all(what.end is not None and what.end <= reached for what in leaves)
-
 
 _LONG = 100
 """Seconds that are not looked at one by one."""
@@ -248,20 +234,3 @@ def _second_by_second(leaves: Sequence[Occurs]) -> int:
         else:
             found += 1
     return found + len(alike)
-
-
-def _ways(demand: Demand) -> list[tuple[Occurs, ...]] | None:
-    """For each way in which hedges inside may decide, the responses of which one has to be kept; None where several
-    have to be."""
-    if isinstance(demand, Occurs):
-        return [(demand,)]
-    assert not isinstance(demand, int), "a literal is no response"
-    # The literal that a clause of a chain decides is no response.
-    parts = [_ways(part) for part in demand.parts if not isinstance(part, int)]
-    if isinstance(demand, Every):
-        if not all(isinstance(part, Some) and isinstance(part.parts[0], int) for part in demand.parts):
-            return None
-        return None if None in parts else [way for ways in parts for way in ways or ()]
-    if None in parts:
-        return None
-    return [tuple(chain.from_iterable(choice)) for choice in product(*(ways or () for ways in parts))]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import chain, product
 from math import ceil, floor
 from typing import NamedTuple, Union
 
@@ -113,3 +114,20 @@ def occurrences(demand: Demand) -> Iterator[Occurs]:
     elif not isinstance(demand, int):
         for part in demand.parts:
             yield from occurrences(part)
+
+
+def ways_of(demand: Demand) -> list[tuple[Occurs, ...]] | None:
+    """For each way in which hedges inside may decide, the responses of which one has to be kept; None where several
+    have to be."""
+    if isinstance(demand, Occurs):
+        return [(demand,)]
+    assert not isinstance(demand, int), "a literal is no response"
+    # The literal that a clause of a chain decides is no response.
+    parts = [ways_of(part) for part in demand.parts if not isinstance(part, int)]
+    if isinstance(demand, Every):
+        if not all(isinstance(part, Some) and isinstance(part.parts[0], int) for part in demand.parts):
+            return None
+        return None if None in parts else [way for ways in parts for way in ways or ()]
+    if None in parts:
+        return None
+    return [tuple(chain.from_iterable(choice)) for choice in product(*(ways or () for ways in parts))]

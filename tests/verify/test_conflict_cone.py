@@ -135,10 +135,21 @@ def test_nothing_else_matters_to_many(first, monkeypatch):
         nothing_else_matters(seed, monkeypatch)
 
 
+def chain(count):
+    return "\n".join(f"RULE R{n} WHEN E{n} THEN E{n + 1} WITHIN 5 seconds" for n in range(count))
+
+
 def test_a_long_chain():
     count = 2_000
-    chain = "\n".join(f"RULE R{n} WHEN E{n} THEN E{n + 1} WITHIN 5 seconds" for n in range(count))
-    program = Program(parse(chain))
+    program = Program(parse(f"{chain(count)}\nRULE shut WHEN S THEN NOT E{count} WITHIN 5 seconds"))
     cone = Cone(program, program.rules[count // 2])
     # What was triggered before may press, and what is triggered now leads on.
-    assert len(cone.rules) == count
+    assert len(cone.rules) == count + 1
+
+
+def test_what_can_be_done_whatever_else_is_the_case_concerns_nothing():
+    program = Program(parse(f"{chain(100)}\nRULE other WHEN E0 THEN NOT E0 OTHERWISE E50"))
+    assert list(Cone(program, program.rules[50]).rules) == ["R50"]
+    # E0 is forbidden, but nothing calls for it again.
+    assert conflict(program, program.rules[0]) is None
+    assert conflict(program, program.rules[100]) is None
