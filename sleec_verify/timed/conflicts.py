@@ -23,7 +23,7 @@ from sleec_verify.timed.program import Program
 from sleec_verify.timed.questions import decided, needed
 from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.timeline import Timeline, excerpt
-from sleec_verify.timed.unfolding import MOST_CLAUSES, Unfolding, Unseen
+from sleec_verify.timed.unfolding import MOST_CLAUSES, PATIENCE, Unfolding, Unseen
 
 MOST_PAST = 8
 """Instants before now that are tried. Each more takes half as long again."""
@@ -70,7 +70,7 @@ class _Search:
         self.cone = cone
         self.rule = rule
         # Seconds that are known are little work each.
-        patience = 5 if seconds else 1
+        patience = PATIENCE if seconds else 1
         self._times = {instants + second: _LONG_SINCE + second for second in range(seconds + 1)} if seconds else {}
         self.outer = Unfolding(
             program,
@@ -245,7 +245,7 @@ def conflict(program: Program, rule: Rule) -> History | None:
             return None
         raise Undecided(f"no conflict with up to {tried} instants before now, and more could matter")
 
-    def each_second() -> tuple[Fixed, ...] | None:
+    def each_second(otherwise: Undecided) -> tuple[Fixed, ...] | None:
         if all_go_on():
             return None
         # Times that are further from each other than any rule can tell may as well be near.
@@ -256,15 +256,15 @@ def conflict(program: Program, rule: Rule) -> History | None:
                 return found
         if needed.known and enough <= MOST_SECONDS:
             return None
-        raise Undecided(f"no conflict with instants at some of the last {MOST_SECONDS} seconds, and more could matter")
+        raise otherwise
 
     try:
         found = any_times()
-    except Undecided:
+    except Undecided as reason:
         # Where responses come back to their own trigger, each further try may take as long as the first.
         if not (by_seconds and program.is_acyclic):
             raise
-        found = each_second()
+        found = each_second(reason)
     return None if found is None else _shown(program, rule, _smaller(program, rule, found))
 
 

@@ -51,14 +51,14 @@ def test_instants_at_any_of_the_last_seconds_are_tried_together(seconds):
 def test_what_comes_before_the_last_seconds_is_tried_with_them(monkeypatch):
     monkeypatch.setattr(conflicts, "MOST_PAST", 2)
     # A knock long ago counts still, one a second keeps the window shut.
-    text = """RULE slow WHEN Knock THEN NOT Open WITHIN [9, 9] seconds
+    text = """RULE slow WHEN Knock THEN NOT Open WITHIN [6, 6] seconds
     RULE night WHEN Night THEN NOT Shut EVENTUALLY
-    RULE fast WHEN Ring THEN Open WITHIN 9 seconds OTHERWISE Shut WITHIN 3 seconds"""
+    RULE fast WHEN Ring THEN Open WITHIN 6 seconds OTHERWISE Shut WITHIN 3 seconds"""
     program, rule, bound = asked(text, "fast")
     assert bound.endless == 1
     found = conflict(program, rule)
     assert found is not None
-    program, rule, _ = asked(text.replace("NOT Shut EVENTUALLY", "NOT Shut WITHIN 11 seconds"), "fast")
+    program, rule, _ = asked(text.replace("NOT Shut EVENTUALLY", "NOT Shut WITHIN 8 seconds"), "fast")
     assert conflict(program, rule) is None
 
 

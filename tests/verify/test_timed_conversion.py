@@ -109,7 +109,7 @@ def mean_the_same(one, other):
 
 
 @pytest.mark.slow
-@settings(max_examples=100)
+@settings(max_examples=60)
 @given(dsl_rulesets())
 def test_the_dsl_is_the_same_after_structured_english(ruleset):
     english = convert(ruleset, "english").ruleset
@@ -127,7 +127,7 @@ def with_chain_of_default_first(statement):
 
 
 @pytest.mark.slow
-@settings(max_examples=100)
+@settings(max_examples=60)
 @given(timed_rulesets(phrases=False), st.sampled_from(("cascade", "priority")))
 def test_structured_english_means_the_same_in_the_dsl_and_back(ruleset, reading):
     there = convert(ruleset, "legos").ruleset
@@ -138,7 +138,7 @@ def test_structured_english_means_the_same_in_the_dsl_and_back(ruleset, reading)
 
 
 @pytest.mark.slow
-@settings(max_examples=80)
+@settings(max_examples=50)
 @given(timed_rulesets(phrases=False))
 def test_sleec_tk_means_the_same_or_says_what_it_lacks(ruleset):
     try:
