@@ -18,9 +18,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Literal, NamedTuple
 
-from sleec_runtime.model import Assume, Never, Rule, formulas_of, names_of
-from sleec_runtime.model_time import Effect, EventRelation, Lasting
-from sleec_verify.timed.program import Law, Program, events_of, formulas_of_law, law_name
+from sleec_runtime.model import Rule, formulas_of, names_of
+from sleec_verify.timed.program import Law, Program, events_of, formulas_of_law, law_name, may_call
 from sleec_verify.timed.responses import occurrences
 
 
@@ -107,19 +106,5 @@ class Cone:
 
     def _law(self, law: Law) -> Iterator[_Step]:
         yield from (_Step("moved", event) for event in events_of(law))
-        yield from (_Step("called", event) for event in _may_call(law))
+        yield from (_Step("called", event) for event in may_call(law))
         yield from (_Step("read", name) for formula in formulas_of_law(law) for name in names_of(formula))
-
-
-def _may_call(law: Law) -> Iterator[str]:
-    """The events that a law may call for."""
-    if isinstance(law, EventRelation):
-        if law.relation in ("equal", "happenBefore"):
-            yield law.left
-        if law.relation in ("equal", "witness"):
-            yield law.right
-    elif isinstance(law, Lasting):
-        if law.end is not None:
-            yield law.end
-    elif isinstance(law, (Assume, Never)) or (isinstance(law, Effect) and law.relation == "causation"):
-        yield from events_of(law)

@@ -59,6 +59,20 @@ def events_of(law: Law) -> Iterator[str]:
         yield from (leaf.name for leaf in leaves(law.formula) if isinstance(leaf, Atom) and leaf.kind != "condition")
 
 
+def may_call(law: Law) -> Iterator[str]:
+    """The events that a law may call for."""
+    if isinstance(law, EventRelation):
+        if law.relation in ("equal", "happenBefore"):
+            yield law.left
+        if law.relation in ("equal", "witness"):
+            yield law.right
+    elif isinstance(law, Lasting):
+        if law.end is not None:
+            yield law.end
+    elif isinstance(law, (Assume, Never)) or (isinstance(law, Effect) and law.relation == "causation"):
+        yield from events_of(law)
+
+
 def formulas_of_law(law: Law) -> Iterator[Formula]:
     """What a law says of the conditions and measures."""
     if isinstance(law, MeasureRelation):
@@ -120,10 +134,7 @@ class Program:
 
     @cached_property
     def by_trigger(self) -> dict[str, list[Rule]]:
-        index: dict[str, list[Rule]] = {}
-        for rule in self.rules:
-            index.setdefault(rule.trigger, []).append(rule)
-        return index
+        return _index((rule.trigger, rule) for rule in self.rules)
 
     @cached_property
     def laws(self) -> list[Law]:
@@ -141,11 +152,7 @@ class Program:
         return self._answering(negated=True)
 
     def _answering(self, negated: bool) -> dict[str, list[Rule]]:
-        index: dict[str, list[Rule]] = {}
-        for rule in self.rules:
-            for name in dict.fromkeys(o.name for o in responses_of(rule) if o.negated == negated):
-                index.setdefault(name, []).append(rule)
-        return index
+        return _index((o.name, rule) for rule in self.rules for o in responses_of(rule) if o.negated == negated)
 
     @cached_property
     def bound(self) -> dict[str, set[str]]:
@@ -159,6 +166,7 @@ class Program:
 
     @cached_property
     def law_named(self) -> dict[str, Law]:
+        """The laws by what they go by (`law_name`)."""
         return {law_name(law): law for law in self.laws}
 
     @cached_property
@@ -178,11 +186,7 @@ class Program:
         """The events that rules or laws may come to call for at a time after what calls for them."""
         found: set[str] = set()
         ahead = [what.event for rule in self.rules for what in self.windows(rule) if what.end != 0 and not what.negated]
-        for law in self.laws:
-            if isinstance(law, Lasting) and law.end is not None:
-                ahead.append(law.end)
-            elif isinstance(law, (Assume, Never)) or (isinstance(law, Effect) and law.relation == "causation"):
-                ahead += events_of(law)
+        ahead += [event for law in self.laws if not isinstance(law, EventRelation) for event in may_call(law)]
         while ahead:
             event = ahead.pop()
             if event not in found:

@@ -109,6 +109,8 @@ def test_what_triggers_itself_again():
     found = conflict(program, rule)
     assert found is not None
     assert set(found.matter) == {"fast", "shut", "checked"}
+    program, rule, _ = asked(text.replace("6 minutes", "4 minutes"), "fast")
+    assert conflict(program, rule) is not None
 
 
 @pytest.mark.parametrize(
@@ -150,7 +152,7 @@ def test_rules_of_one_event_need_one_instant_each_way():
     minutes = "\n".join(f"RULE s{n} WHEN u{n} THEN Open WITHIN {n} minutes" for n in range(1, 9))
     assert asked(f"{hours}\n{minutes}", "s8")[2][:2] == (2, True)
     # What nothing calls for need not happen again.
-    assert asked(hours, "r8")[2][:3] == (0, True, 0)
+    assert asked(hours, "r8")[2] == (0, True, 0, 8 * 3600, 0)
 
 
 LATER = "RULE b WHEN t THEN Note WITHIN [1, 2] minutes"
