@@ -22,6 +22,7 @@ class Brought:
         self._found: dict[str, int | None] = {}
         self._due: dict[str, set[Occurs]] = {}
         self._harmless: dict[str, bool] = {}
+        self._late: dict[str, bool] = {}
 
     def instants(self, trigger: str, missing: Collection[str] = ()) -> int | None:
         """How many instants the deadlines take that an event brings with it, and those of what they call for; None
@@ -119,8 +120,10 @@ class Brought:
         return found
 
     def can_be_done(self, leaves: Sequence[Occurs]) -> bool:
-        """Whether, as long as anything of it is pending, something of it can be done at once, whatever else is the
-        case."""
+        """Whether, as long as anything of it is pending, something of it can be done, at once or after all else,
+        whatever else is the case."""
+        if self._can_wait(leaves):
+            return True
         reached = 0
         harmless = [what for what in leaves if not what.negated and self.is_harmless(what.event)]
         for what in sorted(harmless, key=lambda what: what.start or 0):
@@ -137,10 +140,24 @@ class Brought:
         return ways is not None and all(map(self._is_free, ways))
 
     def _is_free(self, way: Sequence[Occurs]) -> bool:
+        if self._can_wait(way):
+            return True
         # A law may call for something else at an instant that is only there for this.
         at_hand = (what for what in way if not what.negated and (not what.is_later or not self._program.laws))
         pending = [what for what in way if what.end != 0]
         return any(self.is_harmless(what.event) for what in at_hand) and (not pending or self.can_be_done(pending))
+
+    def _can_wait(self, way: Sequence[Occurs]) -> bool:
+        """Whether something of it has no end, and can be done after all else."""
+        return any(not what.negated and what.end is None and self._comes_late(what.event) for what in way)
+
+    def _comes_late(self, event: str) -> bool:
+        known = self._late.get(event)
+        if known is None:
+            from sleec_verify.timed.policy import can_come_late
+
+            known = self._late[event] = can_come_late(self._program, event)
+        return known
 
     def _at_once_with(self, trigger: str, surely: bool = False) -> set[str]:
         """The events that may come at once with an event; `surely`, only those that do whatever the conditions."""

@@ -10,15 +10,18 @@ is a plan that the next history must defeat as well; if not, it is the conflict.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from sleec_runtime.model import Rule
+from sleec_runtime.model_time import EventRelation
 from sleec_verify.solver import Undecided
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.instant import Fixed
-from sleec_verify.timed.past import past
+from sleec_verify.timed.past import Past, past
 from sleec_verify.timed.plans import Later, Plan, Plans, at_once
+from sleec_verify.timed.policy import Policies
 from sleec_verify.timed.program import Program
 from sleec_verify.timed.questions import decided, needed
 from sleec_verify.timed.responses import Demand, Every, Occurs
@@ -30,6 +33,9 @@ MOST_PAST = 8
 
 FEW = 2
 """Histories with fewer instants before now are tried first: most conflicts need no more."""
+
+MOST_WORK = 100_000
+"""Clauses of all tries together after which no further ones are made that could only find a history."""
 
 MOST_PENDING = 12
 """Instants before now that are tried where those that matter only to these are left out."""
@@ -44,6 +50,13 @@ MOST_LATER = 24
 """Instants that may be added to a history, for what its instants before now call for."""
 
 MOST_PLANS = 200
+
+FEW_PLANS = (2, 4, 7)
+"""Numbers of plans, and of instants before now, with which all histories are tried at once, all plans being reckoned
+from now: for each of these plans, there is one instant at most before now that it does not suit."""
+
+FEW_PLANS_CLAUSES = 10_000
+"""Clauses with which such a try adds no more instants."""
 
 _LONG_SINCE = 10**9
 """Seconds before the first of those that are tried one by one, for what is before all of them."""
@@ -64,11 +77,20 @@ class _Search:
     have come about at the others may have."""
 
     def __init__(
-        self, program: Program, rule: Rule, cone: Cone, instants: int, in_part: bool = False, seconds: int = 0
+        self,
+        program: Program,
+        rule: Rule,
+        cone: Cone,
+        instants: int,
+        in_part: bool = False,
+        seconds: int = 0,
+        from_now: bool = False,
     ) -> None:
         self.program = program
         self.cone = cone
         self.rule = rule
+        self._most_plans = instants if from_now else MOST_PLANS
+        self._from_now = from_now
         # Seconds that are known are little work each.
         patience = PATIENCE if seconds else 1
         self._times = {instants + second: _LONG_SINCE + second for second in range(seconds + 1)} if seconds else {}
@@ -76,7 +98,7 @@ class _Search:
             program,
             impossible=program.impossible(frozenset({rule.label})),
             most=MOST_LATER * patience,
-            most_clauses=MOST_CLAUSES * patience,
+            most_clauses=FEW_PLANS_CLAUSES if from_now else MOST_CLAUSES * patience,
             in_part=instants + seconds if in_part else 0,
             times=self._times,
         )
@@ -100,6 +122,12 @@ class _Search:
             self.add([-given, here.event(name)])
         self.add([self.given[rule.trigger]])
         self.plans = Plans(self.outer, cone, self.past, self.now, self.given)
+        self.policies = Policies(program, cone.rules, cone.events, program.impossible())
+        self._before = {
+            law.left
+            for law in program.laws
+            if isinstance(law, EventRelation) and law.relation == "happenBefore" and law.right in cone.events
+        }
         clauses = self.plans.deciding(rule)
         self.add([literal for _, literal in clauses])
         for clause, literal in clauses:
@@ -132,19 +160,34 @@ class _Search:
                 continue
             beginning = self._beginning()
             unseen = self._unseen()
-            inner = _after(self.program, beginning, unseen=unseen)
-            if not inner.ask():
+            inner = self._going_on(beginning, unseen)
+            if inner is None:
                 if _after(self.program, beginning, self.rule, unseen).ask():
                     return beginning
                 # It was lost before the rule came to it.
                 self.outer.grow()
                 continue
-            plan = self._plan(inner, len(beginning) - 1)
-            if plan in plans or len(plans) > MOST_PLANS:
+            plan = next((plan for plan in self._ways(inner, len(beginning) - 1, unseen) if plan not in plans), None)
+            if plan is None or len(plans) >= self._most_plans:
                 raise Undecided(f"no answer after {len(plans)} ways to go on")
             plans.add(plan)
             self.plans.defeat(plan)
         return None
+
+    def _going_on(self, beginning: tuple[Fixed, ...], unseen: Mapping[Unseen, bool]) -> Unfolding | None:
+        """How a history can be continued, if it can: where that is possible, by doing now what has to come before
+        something else."""
+        happened = {event for fixed in beginning for event in fixed.events}
+        if self._before - happened:
+            inner = _after(self.program, beginning, unseen=unseen)
+            now = inner.instants[len(beginning) - 1]
+            try:
+                if inner.ask(*(now.event(event) for event in sorted(self._before - happened))):
+                    return inner
+            except Undecided:
+                pass
+        inner = _after(self.program, beginning, unseen=unseen)
+        return inner if inner.ask() else None
 
     def _beginning(self) -> tuple[Fixed, ...]:
         outer = self.outer
@@ -167,27 +210,29 @@ class _Search:
             if key.at in place
         }
 
-    def _plan(self, inner: Unfolding, now: int) -> Plan:
-        """How the history just tried can be continued, by as little of it as can be."""
-        _, waits = inner.schedule()
+    def _ways(self, inner: Unfolding, now: int, unseen: Mapping[Unseen, bool]) -> Iterator[Plan]:
+        """How the history just tried can be continued, by as little of it as can be: by a policy, if one suits it."""
         forced = {event for event, literal in self.given.items() if self.outer.true(literal)}
+        due = [
+            (one.rule.trigger, event)
+            for one in inner.decided
+            if one.at == now and one.rule.label in self.cone.rules and inner.true(one.guard)
+            for event in at_once(one.due)
+        ]
         grew = True
         while grew:
-            fresh = {
-                event
-                for rule in self.cone.rules.values()
-                if rule.trigger in forced
-                for clause, guard in inner.guards(now, rule)
-                if clause.obligations and inner.true(guard)
-                for event in at_once(inner.due(now, clause.obligations))
-            }
+            fresh = {event for trigger, event in due if trigger in forced}
             grew = not fresh <= forced
             forced |= fresh
         added = (inner.happening(now) - forced) & set(self.given)
+        policy = self.policies.suiting(inner, now, unseen)
+        if policy is not None:
+            yield Plan(frozenset(added), policy=policy)
+        times, waits = inner.schedule()
         later = []
         for number in inner.used():
             if number > now:
-                at, wait = number, 0
+                at, wait = (now, times[number] - times[now]) if self._from_now else (number, 0)
                 while at > now:
                     at, more = waits[at]
                     wait += more
@@ -198,7 +243,26 @@ class _Search:
                     wait -= self._times[self.now] - self._times[after]
                     after = self.now
                 later.append(Later(after, wait, inner.happening(number), values))
-        return Plan(frozenset(added), tuple(later))
+        yield Plan(frozenset(added), tuple(later))
+
+
+class _Partial(NamedTuple):
+    """A search for parts of histories, to show that all histories can be continued."""
+
+    instants: int
+    seconds: int = 0
+    from_now: bool = False
+
+
+def _partial(needed: Past, by_seconds: bool) -> tuple[list[_Partial], list[_Partial]]:
+    """The searches for parts of histories that are worth a try, and those that are if nothing else helps."""
+    *few, several = (_Partial(plans, from_now=True) for plans in FEW_PLANS)
+    # To leave out the instants that nothing pending now needs rules out no history.
+    pending = [_Partial(needed.pending)] if needed.pending <= MOST_PENDING else []
+    if by_seconds and needed.endless <= MOST_PENDING:
+        pending.append(_Partial(needed.endless, needed.reach))
+    pending.sort(key=lambda tried: tried.instants * SECONDS_FOR_ONE + tried.seconds)
+    return [*few, *pending[:1]], [several, *pending[1:]]
 
 
 def conflict(program: Program, rule: Rule) -> History | None:
@@ -210,44 +274,51 @@ def conflict(program: Program, rule: Rule) -> History | None:
         return None
     cone = Cone(program, rule)
     needed = past(program, cone.rules.values())
+    work = 0
 
-    def search(instants: int, in_part: bool = False, seconds: int = 0) -> tuple[Fixed, ...] | None:
+    def search(
+        instants: int, in_part: bool = False, seconds: int = 0, from_now: bool = False
+    ) -> tuple[Fixed, ...] | None:
         def ask() -> tuple[Fixed, ...] | None:
-            return _Search(program, rule, cone, instants, in_part, seconds).find()
+            nonlocal work
+            one = _Search(program, rule, cone, instants, in_part, seconds, from_now)
+            try:
+                return one.find()
+            finally:
+                work += len(one.outer.formula.clauses)
 
         return decided(program, ask, frozenset(), frozenset({rule.label}))
 
-    # To leave out the instants that nothing pending now needs rules out no history.
-    pending = [(needed.pending, 0)] if needed.pending <= MOST_PENDING else []
     by_seconds = 0 < needed.reach <= MOST_SECONDS
-    if by_seconds and needed.endless <= MOST_PENDING:
-        pending.append((needed.endless, needed.reach))
-    pending.sort(key=lambda tried: tried[0] * SECONDS_FOR_ONE + tried[1])
+    early, rest = _partial(needed, by_seconds)
 
-    def all_go_on() -> bool:
-        if not pending:
-            return False
-        instants, seconds = pending.pop(0)
-        try:
-            return search(instants, in_part=True, seconds=seconds) is None
-        except Undecided:
-            return False
+    def all_go_on(tries: list[_Partial]) -> bool:
+        while tries:
+            instants, seconds, from_now = tries.pop(0)
+            try:
+                if search(instants, True, seconds, from_now) is None:
+                    return True
+            except Undecided:
+                pass
+        return False
 
     def any_times() -> tuple[Fixed, ...] | None:
         tried = min(needed.most, MOST_PAST)
         for instants in range(tried + 1):
-            if instants == FEW and all_go_on():
+            if instants == FEW and all_go_on(early):
                 return None
             found = search(instants)
             if found is not None:
                 return found
-        if (needed.known and needed.most <= tried) or (tried < FEW and all_go_on()):
+            if work > MOST_WORK and needed.most > MOST_PAST:
+                # That there is none would not follow from the further ones either.
+                tried = instants
+                break
+        if (needed.known and needed.most <= tried) or (tried < FEW and all_go_on(early)) or all_go_on(rest):
             return None
         raise Undecided(f"no conflict with up to {tried} instants before now, and more could matter")
 
     def each_second(otherwise: Undecided) -> tuple[Fixed, ...] | None:
-        if all_go_on():
-            return None
         # Times that are further from each other than any rule can tell may as well be near.
         enough = needed.most * (needed.reach + 1)
         for seconds in (needed.reach, min(enough, MOST_SECONDS)):
@@ -262,7 +333,11 @@ def conflict(program: Program, rule: Rule) -> History | None:
         found = any_times()
     except Undecided as reason:
         # Where responses come back to their own trigger, each further try may take as long as the first.
-        if not (by_seconds and program.is_acyclic):
+        if not program.is_acyclic:
+            raise
+        if all_go_on(rest):
+            return None
+        if not by_seconds:
             raise
         found = each_second(reason)
     return None if found is None else _shown(program, rule, _smaller(program, rule, found))

@@ -1,8 +1,8 @@
 """Plans: ways to go on after a history, and which histories they do not work with.
 
-A plan depends on the history as little as possible. It adds events now, which bring with them all that is due at once,
-and instants later, at distances from instants of the history. Whether it keeps everything is a formula over the
-history.
+A plan depends on the history as little as possible. It adds events now, which bring with them all that is due at once;
+from then on it follows a policy, or adds instants at distances from those of the history. Whether it keeps everything
+is a formula over the history.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from sleec_runtime.model import And, Assume, Atom, Clause, Exclusive, Never, Not
 from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.instant import Fixed, Instant
+from sleec_verify.timed.policy import Policy
 from sleec_verify.timed.program import Program, events_of, law_name
 from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
 from sleec_verify.timed.unfolding import Unfolding
@@ -31,10 +32,12 @@ class Later:
 
 @dataclass(frozen=True)
 class Plan:
-    """A way to go on: events added now, and what happens later."""
+    """A way to go on: events added now, and what happens later: at instants of its own, or by a policy
+    (`sleec_verify.timed.policy`)."""
 
     added: frozenset[str]
     later: tuple[Later, ...] = ()
+    policy: Policy | None = None
 
 
 class _Point:
@@ -91,7 +94,8 @@ class Plans:
             fixed = Fixed(0, later.events, dict(later.conditions))
             instant = Instant(self.outer.formula, self.program.ruleset.measures, self.true, fixed)
             points.append(_Point(instant, later.after, later.wait, instant.event, self.true))
-        failures = [*self._out_of_order(points), *self._broken(points), *self._laws_broken(points)]
+        policy = plan.policy or Policy()
+        failures = [*self._out_of_order(points), *self._broken(points, policy), *self._laws_broken(points, policy)]
         for point in points:
             point.instant.settle()
         self.add(failures)
@@ -164,7 +168,7 @@ class Plans:
             for other in ahead[place + 1 :]:
                 yield self.outer.formula.every(self._gap(point, other, 0, 0))
 
-    def _broken(self, points: Sequence[_Point]) -> Iterator[int]:
+    def _broken(self, points: Sequence[_Point], policy: Policy) -> Iterator[int]:
         """For each rule and instant, a literal that implies that the rule is broken there."""
         reading = self.program.ruleset.reading
         for number, point in enumerate(points):
@@ -176,26 +180,33 @@ class Plans:
                     if clause.obligations:
                         chain = lambda c, i=point.instant: i.chain(c, reading)  # noqa: E731
                         broken = self.program.responses.of(clause.obligations, chain, kept=False)
-                        literal = self._fails(points, number, broken)
+                        literal = self._fails(points, number, broken, policy)
                         if literal != -self.true:
                             yield self.outer.formula.every([guard, literal])
 
-    def _fails(self, points: Sequence[_Point], at: int, demand: Demand) -> int:
+    def _fails(self, points: Sequence[_Point], at: int, demand: Demand, policy: Policy) -> int:
         """A literal that implies a demand of one of the points."""
         formula = self.outer.formula
         if isinstance(demand, int):
             return demand
         if isinstance(demand, Occurs):
-            return self._occurs(points, at, demand)
-        parts = [self._fails(points, at, part) for part in demand.parts]
+            return self._occurs(points, at, demand, policy)
+        parts = [self._fails(points, at, part, policy) for part in demand.parts]
         if isinstance(demand, Every):
             return -self.true if -self.true in parts else formula.every(parts) if parts else self.true
         parts = [part for part in parts if part != -self.true]
         return formula.any_of(parts) if parts else -self.true
 
-    def _occurs(self, points: Sequence[_Point], at: int, what: Occurs) -> int:
+    def _occurs(self, points: Sequence[_Point], at: int, what: Occurs, policy: Policy) -> int:
         formula = self.outer.formula
         there: list[list[int]] = []
+        done = what.event in policy.soon or (what.event in policy.late and what.end is None)
+        if done and not what.is_empty:
+            # It occurs as long as there is time left after now.
+            begins = what.start - 1 if what.event in policy.next and what.start is not None else None
+            left = self._gap(points[at], points[len(self.past)], begins, None if what.end is None else what.end - 1)
+            if -self.true not in left:
+                there.append(left)
         for point in points:
             event = point.event(what.event)
             bounds = self._gap(points[at], point, what.start, what.end)
@@ -212,7 +223,7 @@ class Plans:
             self.add([-never, *(-literal for literal in literals)])
         return never
 
-    def _laws_broken(self, points: Sequence[_Point]) -> Iterator[int]:
+    def _laws_broken(self, points: Sequence[_Point], policy: Policy) -> Iterator[int]:
         """For each law and instant of now or later, a literal that implies that it is broken there; those of the past
         hold, as the history breaks nothing."""
         every, true = self.outer.formula.every, self.true
@@ -228,10 +239,13 @@ class Plans:
                     left, right = point.event(law.left), point.event(law.right)
                     if number < since:
                         continue
+                    if law.relation == "happenBefore" and law.right in policy.events:
+                        yield self._occurs(points, since, Occurs(law.left, None, 0, negated=True), Policy())
                     if law.relation == "mutualExclusive":
                         yield every([left, right])
                     elif law.relation == "happenBefore":
-                        yield every([right, self._occurs(points, number, Occurs(law.left, None, -1, True))])
+                        before = Occurs(law.left, None, -1, negated=True)
+                        yield every([right, self._occurs(points, number, before, policy)])
                     else:
                         yield every([left, -right])
                         if law.relation == "equal":

@@ -32,6 +32,15 @@ class Occurs(NamedTuple):
         """Whether it calls for the event by some time after the trigger."""
         return not self.negated and self.end is not None and self.end > 0
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether there is no time at all in its window."""
+        return self.start is not None and self.end is not None and self.start > self.end
+
+    def covers(self, after: int) -> bool:
+        """Whether the time so many seconds after the trigger is in the window."""
+        return (self.start is None or self.start <= after) and (self.end is None or after <= self.end)
+
 
 class Every(NamedTuple):
     parts: tuple[Demand, ...]

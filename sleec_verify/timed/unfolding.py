@@ -56,13 +56,14 @@ class _Need:
 
 
 class Decided(NamedTuple):
-    """That a clause of a rule decides at an instant where `guard` is true."""
+    """That a clause of a rule decides at an instant where `guard` is true, and demands what is `due`."""
 
     at: int
     rule: Rule
     number: int
     clause: Clause
     guard: int
+    due: Demand
 
 
 class Unseen(NamedTuple):
@@ -247,7 +248,15 @@ class Unfolding:
             return self.formula.true if self._unseen_known.get(key) else -self.formula.true
         literal = self.unseen.get(key)
         if literal is None:
-            literal = self.unseen[key] = self.formula.fresh()
+            literal = self.formula.fresh()
+            for other, its in self.unseen.items():
+                if (other.at, other.what) == (at, what):
+                    # What comes about in a part of a window does so in all of it.
+                    if _within(start, end, other.start, other.end):
+                        self.add([-literal, its])
+                    if _within(other.start, other.end, start, end):
+                        self.add([-its, literal])
+            self.unseen[key] = literal
             # There has been time for it, after this instant and before now.
             for bound in self.times.bounds(at, self._in_part, max(start or 0, 1) + 1, None):
                 self.add([-literal, bound])
@@ -304,13 +313,17 @@ class Unfolding:
         in_force = self.in_force(rule.label)
         for number, (clause, guard) in enumerate(self.guards(at, rule)):
             if clause.obligations:
-                self.decided.append(Decided(at, rule, number, clause, guard))
-                self.add([-in_force, -guard, self.demand(at, self.due(at, clause.obligations))])
+                due = self.due(at, clause.obligations)
+                self.decided.append(Decided(at, rule, number, clause, guard, due))
+                self.add([-in_force, -guard, self.demand(at, due)])
 
     def deciding(self, at: int, rule: Rule) -> list[Decided]:
         """The clauses of a rule with the literals that they decide at an instant, if it triggers the rule."""
         guards = self.instants[at].guards(rule, self.program.ruleset.reading, self.formula.true)
-        return [Decided(at, rule, n, clause, guard) for n, (clause, guard) in enumerate(zip(rule.clauses(), guards))]
+        return [
+            Decided(at, rule, number, clause, guard, self.due(at, clause.obligations))
+            for number, (clause, guard) in enumerate(zip(rule.clauses(), guards))
+        ]
 
     def condition(self, at: int, condition: Condition | None) -> int:
         return self.formula.true if condition is None else self.instants[at].literal(condition)
@@ -444,3 +457,9 @@ class Unfolding:
     def schedule(self) -> tuple[dict[int, int], dict[int, tuple[int, int]]]:
         """The earliest times of the trace of the last `ask`, and what each instant waits for."""
         return self.times.schedule(self.true, self.used())
+
+
+def _within(start: int | None, end: int | None, other_start: int | None, other_end: int | None) -> bool:
+    """Whether a window is part of another one."""
+    begins = other_start is None or (start is not None and start >= other_start)
+    return begins and (other_end is None or (end is not None and end <= other_end))
