@@ -24,7 +24,7 @@ from sleec_runtime.model import (
     names_of,
 )
 from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, Lasting, MeasureRelation, Relation
-from sleec_verify.solver import Recorder
+from sleec_verify.solver import Recorder, Undecided
 from sleec_verify.timed.responses import Demand, Occurs, Responses, occurrences
 from sleec_verify.timed.scope import Untimed
 
@@ -117,6 +117,8 @@ class Program:
         self.untimed = untimed
         self.rules = ruleset.rules
         self.responses = Responses(untimed)
+        self._demands: dict[str, list[Demand]] = {}
+        self._windows: dict[str, list[Occurs]] = {}
         self._endless: dict[frozenset[str], frozenset[str]] = {}
 
     def impossible(self, without: frozenset[str] = frozenset()) -> frozenset[str]:
@@ -185,7 +187,9 @@ class Program:
     def may_come_later(self) -> frozenset[str]:
         """The events that rules or laws may come to call for at a time after what calls for them."""
         found: set[str] = set()
-        ahead = [what.event for rule in self.rules for what in self.windows(rule) if what.end != 0 and not what.negated]
+        ahead = [
+            what.event for rule in self.rules for what in self._at_most(rule) if what.end != 0 and not what.negated
+        ]
         ahead += [event for law in self.laws if not isinstance(law, EventRelation) for event in may_call(law)]
         while ahead:
             event = ahead.pop()
@@ -218,34 +222,33 @@ class Program:
             for name in names_of(formula)
         )
 
-    @cached_property
-    def _demands(self) -> dict[str, list[Demand]]:
-        return {
-            rule.label: [
-                self.responses.of((obligation,), lambda c: [1] * _size(c))
-                for clause in rule.clauses()
-                for obligation in clause.obligations
-            ]
-            for rule in self.rules
-        }
-
     def demands(self, rule: Rule) -> list[Demand]:
         """What each obligation of a rule demands, itself or what is due in its place.
 
         Raises Undecided for a window whose length a measure says."""
-        return self._demands[rule.label]
-
-    @cached_property
-    def _windows(self) -> dict[str, list[Occurs]]:
-        return {
-            label: [one for demand in demands for one in occurrences(demand)]
-            for label, demands in self._demands.items()
-        }
+        found = self._demands.get(rule.label)
+        if found is None:
+            found = self._demands[rule.label] = [
+                self.responses.of((obligation,), lambda c: [1] * _size(c))
+                for clause in rule.clauses()
+                for obligation in clause.obligations
+            ]
+        return found
 
     def windows(self, rule: Rule) -> list[Occurs]:
         """Every occurrence that a rule may come to call for or forbid. Raises Undecided for a window whose length a
         measure says."""
-        return self._windows[rule.label]
+        found = self._windows.get(rule.label)
+        if found is None:
+            found = self._windows[rule.label] = [one for demand in self.demands(rule) for one in occurrences(demand)]
+        return found
+
+    def _at_most(self, rule: Rule) -> list[Occurs]:
+        """As `windows`, with all times from the trigger on where a measure says how long."""
+        try:
+            return self.windows(rule)
+        except Undecided:
+            return [Occurs(response.name, 0, None, response.negated) for response in responses_of(rule)]
 
     @cached_property
     def brought(self) -> Brought:
@@ -291,7 +294,7 @@ class Program:
 
     def is_timed(self, rule: Rule) -> bool:
         """Whether a rule demands anything of other instants than that of its trigger."""
-        return any(o.start != 0 or o.end != 0 for o in self.windows(rule))
+        return any(o.start != 0 or o.end != 0 for o in self._at_most(rule))
 
     @cached_property
     def has_delays(self) -> bool:

@@ -76,6 +76,31 @@ def test_a_window_leaves_room_that_now_does_not():
     assert [moment.time for moment in finding.timeline.moments] == [0, 300]
 
 
+def test_what_nothing_calls_for_is_said():
+    asked = "def_start event A event B event C def_end rule_start R1 when A then B R2 when {} then not C {} rule_end"
+    (finding,) = verdicts(asked.format("B", ""))["conflict"].findings
+    assert finding.rules == ("R1", "R2")
+    assert finding.help.startswith("none of these rules calls for C: see to it that it is not done then; or decide")
+    # What triggers the rule is there in any case, and what some rule calls for has to give way or not.
+    for text in (asked.format("A", "R3 when A then C"), asked.format("B", "R3 when A then C")):
+        assert {f.help for f in verdicts(text)["conflict"].findings} == {
+            "decide which should give way, and say so with a hedge"
+        }
+
+
+def test_a_window_that_a_measure_says_is_a_matter_of_the_rules_around_it_only():
+    rules = ("R1 when A then B within {x} seconds", "R2 when C then D", "R3 when C and {m} then not D")
+    names = "".join(f" event {e}" for e in "ABCD")
+    for more, concerned in (("", "R1"), (" R4 when D then not B", "R1, R2, R3, R4")):
+        found = verdicts(
+            f"def_start{names} measure x: numeric measure m: boolean def_end "
+            f"rule_start {' '.join(rules)}{more} rule_end"
+        )
+        assert found["conflict"].verdict.why.startswith(f"{concerned}: the length of time x seconds is that of a")
+        assert {f.rules for f in found["conflict"].findings} == (set() if more else {("R2", "R3"), ("R3", "R2")})
+        assert found["vacuous-conflict"].verdict.why.startswith("R1: ")
+
+
 def test_the_length_of_a_window_that_a_measure_says_is_not_analysed():
     found = verdicts(text("B within x seconds"))
     assert set(unknown(found)) == {"conflict", "vacuous-conflict", "redundant-rule", "redundant-hedge"}

@@ -26,6 +26,7 @@ def _conflicts(cones: Cones) -> Iterator[Finding]:
         others = [name for name in history.matter if name != rule.label]
         words = in_words(known, others)
         now = history.timeline.moments[-1]
+        unasked = sorted(_unasked(known, history.matter) & (set(now.events) - {rule.trigger}))
         yield CONFLICT.finding(
             f"{rule.label} can be triggered where it cannot be kept"
             + (f" together with {listed(words)}" if words else ""),
@@ -34,7 +35,7 @@ def _conflicts(cones: Cones) -> Iterator[Finding]:
             obligations=tuple(sorted(_contested(known, history.matter))),
             witness=Witness(now.events, now.conditions),
             timeline=history.timeline,
-            help="decide which should give way, and say so with a hedge" if words else "mend the response",
+            help=_help(bool(words), unasked),
             related=tuple(
                 (other.label_span if other.labelled else other.span, "with this one")
                 for other in (known.ruleset.by_label[label] for label in rules_in(known, others))
@@ -44,8 +45,28 @@ def _conflicts(cones: Cones) -> Iterator[Finding]:
     yield from each(((rule.label, rule) for rule in known.rules), of)
 
 
+def _help(others: bool, unasked: list[str]) -> str:
+    mend = "decide which should give way, and say so with a hedge" if others else "mend the response"
+    if not unasked:
+        return mend
+    they = "it is" if len(unasked) == 1 else "they are"
+    return f"none of these rules calls for {listed(unasked)}: see to it that {they} not done then; or {mend}"
+
+
+def _unasked(cones: Cones, labels: tuple[str, ...]) -> set[str]:
+    """The events that some of these rules forbid, and none calls for."""
+    called, forbidden = _said(cones, labels)
+    return forbidden - called
+
+
 def _contested(cones: Cones, labels: tuple[str, ...]) -> set[str]:
     """The events that some of these rules call for and some forbid."""
+    called, forbidden = _said(cones, labels)
+    return called & forbidden
+
+
+def _said(cones: Cones, labels: tuple[str, ...]) -> tuple[set[str], set[str]]:
+    """The events that these rules call for, and those that they forbid."""
     from sleec_verify.timed.program import responses_of
 
     said: dict[bool, set[str]] = {False: set(), True: set()}
@@ -53,7 +74,7 @@ def _contested(cones: Cones, labels: tuple[str, ...]) -> set[str]:
         if label in cones.ruleset.by_label:
             for obligation in responses_of(cones.ruleset.by_label[label]):
                 said[obligation.negated].add(obligation.name)
-    return said[False] & said[True]
+    return said[False], said[True]
 
 
 CONFLICT = replace(OF_SITUATIONS, run=_conflicts)
