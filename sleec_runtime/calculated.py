@@ -17,7 +17,8 @@ class Calculated:
 
     `terms` are the summands in the order of the text: a whole factor other than 0, and the one or two measures that it
     multiplies, by name. No two have the same measures, the factors share no divisor, and the first is positive. `line`
-    is that of the text, 0 if there is none.
+    is that of the text, 0 if there is none. In a length of time, what is added comes first, and one summand may be a
+    number: a factor without measures; or there may be one summand only.
     """
 
     terms: tuple[tuple[int, tuple[str, ...]], ...]
@@ -46,8 +47,11 @@ class Calculated:
         """As text, each name as `measure` writes it, and each sum and product of two as `operation` does."""
         text = ""
         for factor, names in self.terms:
-            first, *others = (*([str(abs(factor))] if abs(factor) != 1 else []), *map(measure, names))
+            first, *others = (*([str(abs(factor))] if abs(factor) != 1 or not names else []), *map(measure, names))
             for other in others:
                 first = operation(f"{first} * {other}")
-            text = operation(f"{text} {'-' if factor < 0 else '+'} {first}") if text else first
+            if text:
+                text = operation(f"{text} {'-' if factor < 0 else '+'} {first}")
+            else:
+                text = operation(f"0 - {first}") if factor < 0 else first
         return text

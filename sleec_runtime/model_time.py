@@ -13,6 +13,7 @@ from typing import Literal, NamedTuple, Union
 from sleec_runtime.model import (
     NO_COMMENTS,
     NOWHERE,
+    Calculated,
     Clause,
     Comments,
     Formula,
@@ -41,19 +42,37 @@ EffectKind = Literal["causation", "includes", "forbid"]
 
 @dataclass(frozen=True, slots=True)
 class Length:
-    """A length of time as it is written: a number, a constant or a measure, and a unit."""
+    """A length of time as it is written: a number, a constant, a measure or what is calculated from measures, and a
+    unit."""
 
-    amount: Number | MeasureRef
+    amount: Number | MeasureRef | Calculated
     unit: Unit
     span: Span = field(default=NOWHERE, compare=False, repr=False)
 
     @property
     def seconds(self) -> Rational | None:
-        """The length in seconds; None where a measure says how long it is."""
+        """The length in seconds; None where measures say how long it is."""
         return self.amount.value * SECONDS[self.unit] if isinstance(self.amount, Number) else None
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """The measures that say how long it is, each once."""
+        if isinstance(self.amount, Calculated):
+            return self.amount.measures
+        return (self.amount.name,) if isinstance(self.amount, MeasureRef) else ()
+
+    def seconds_where(self, values: Mapping[str, Rational]) -> Rational:
+        """The length in seconds where the measures that say it have these values. Raises KeyError for one that has
+        none."""
+        amount = self.amount
+        if isinstance(amount, Calculated):
+            return amount.value(values) * SECONDS[self.unit]
+        return (values[amount.name] if isinstance(amount, MeasureRef) else amount.value) * SECONDS[self.unit]
 
     def __str__(self) -> str:
         amount = self.amount
+        if isinstance(amount, Calculated):
+            return f"({amount}) {self.unit}"
         if isinstance(amount, MeasureRef):
             return f"{amount.name} {self.unit}"
         return f"{amount.constant or amount.value} {self.unit[:-1] if amount.value == 1 else self.unit}"

@@ -28,7 +28,6 @@ from sleec_runtime.model import (
     Formula,
     Never,
     Not,
-    Number,
     Obligation,
     Or,
     Rational,
@@ -40,7 +39,6 @@ from sleec_runtime.model import (
 )
 from sleec_runtime.model_time import (
     RELATIONS,
-    SECONDS,
     Claim,
     Effect,
     EventRelation,
@@ -308,18 +306,19 @@ def _in_place(obligation: Obligation, due: Rational, own: _Due) -> Iterator[tupl
 
 
 def _seconds(length: Length, instant: Instant) -> Rational:
-    """A length of time in seconds; where a measure says how long, its value at `instant`, that of the trigger.
+    """A length of time in seconds; where measures say how long, by their values at `instant`, that of the trigger.
 
-    Raises WrongType if the measure has no value there that is a number.
+    Raises WrongType if one of them has no value there that is a number.
     """
-    if isinstance(length.amount, Number):
-        return length.amount.value * SECONDS[length.unit]
-    value = instant.conditions.get(length.amount.name)
-    number = exact(value)
-    if number is None:
-        hint = "give it a value at every instant at which a rule that asks for it is triggered"
-        raise WrongType(length.amount.name, value, "the length of a window, a number", hint)
-    return number * SECONDS[length.unit]
+    values = {}
+    for name in length.measures:
+        value = instant.conditions.get(name)
+        number = exact(value)
+        if number is None:
+            hint = "give it a value at every instant at which a rule that asks for it is triggered"
+            raise WrongType(name, value, "the length of a window, a number", hint)
+        values[name] = number
+    return length.seconds_where(values)
 
 
 # What is true at every instant ----------------------------------------------------------------------------

@@ -26,6 +26,15 @@ def calculations(ruleset: Ruleset) -> list[Calculated]:
     return list(dict.fromkeys(one for formula in formulas for one in calculations_in(formula)))
 
 
+def calculated_lengths(ruleset: Ruleset) -> list[Calculated]:
+    """What a ruleset calculates how long something takes by, in the order of the text."""
+    if not ruleset.is_timed:
+        return []
+    from sleec_verify.timed.names import beside_rules
+
+    return [length.amount for length in beside_rules(ruleset)[2] if isinstance(length.amount, Calculated)]
+
+
 def named(found: Iterable[Calculated]) -> str:
     """Calculations as messages name them, each with its line."""
     return ", ".join(f"`{one}`" + (f" in line {one.line}" if one.line else "") for one in found)
@@ -51,7 +60,7 @@ def refuse_calculations(ruleset: Ruleset, who: str) -> None:
 
 def refuse_unsayable_calculations(ruleset: Ruleset, language: str, hint: str) -> None:
     """Raises Unsayable for the first calculation of a ruleset, which `language` has no words for."""
-    found = calculations(ruleset)
+    found = calculations(ruleset) + calculated_lengths(ruleset)
     if found:
         place = f"{ruleset.source.path}:{found[0].line}: " if found[0].line else ""
         raise Unsayable(f"{place}{language} has no calculations, as `{found[0]}` is", hint)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from math import ceil, floor
 from typing import TYPE_CHECKING
 
-from sleec_runtime.model import Clause, Context, Number, Obligation, Ruleset, in_text_order
-from sleec_runtime.model_time import SECONDS, Length
+from sleec_runtime.model import Clause, Context, Obligation, Ruleset, in_text_order
+from sleec_runtime.model_time import Length
 from sleec_verify.cnf import Encoder
 from sleec_verify.solver import MiniSat
 from sleec_verify.timed.scope import Untimed, speaks_of_traces
@@ -109,15 +109,14 @@ class _Writer:
             return next(c for c, literal in zip(in_text_order(clause), decides) if solver.holds(literal))
 
     def _seconds(self, length: Length) -> float | None:
-        """A length in seconds; where a measure says it, by the situation, and None if it is not given there."""
-        if isinstance(length.amount, Number):
-            amount = length.amount.value
-        else:
-            given = self._context.conditions.get(length.amount.name)
+        """A length in seconds; where measures say it, by the situation, and None if one of them is not given there."""
+        values = {}
+        for name in length.measures:
+            given = self._context.conditions.get(name)
             if given is None or isinstance(given, (bool, str)):
                 return None
-            amount = given
-        return float(amount * SECONDS[length.unit])
+            values[name] = given
+        return float(length.seconds_where(values))
 
 
 @dataclass(frozen=True)

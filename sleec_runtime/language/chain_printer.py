@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from sleec_runtime.language.formula_printer import print_formula, print_term
 from sleec_runtime.language.line_printer import behind, comment_lines, trimmed
 from sleec_runtime.language.responses import is_choice
-from sleec_runtime.model import Clause, Comments, MeasureRef, Number, Obligation
+from sleec_runtime.model import Calculated, Clause, Comments, MeasureRef, Number, Obligation
 
 # As `typing` has it; the values of that module are not needed to print them.
 TYPE_CHECKING = False
@@ -131,5 +131,5 @@ def length_text(length: Length) -> str:
     return f"{_amount(length.amount)} {unit}"
 
 
-def _amount(amount: Number | MeasureRef) -> str:
+def _amount(amount: Number | MeasureRef | Calculated) -> str:
     return print_term(amount)

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Iterator
 
 from sleec_runtime.errors import NotEnforced, UnsupportedTimes
-from sleec_runtime.model import Clause, MeasureRef, Obligation, Rule, Ruleset, Span, in_text_order
+from sleec_runtime.model import Clause, Obligation, Rule, Ruleset, Span, in_text_order
 from sleec_runtime.model_time import RELATIONS, relation_name
 
 _SHOWN = 5
@@ -82,5 +82,5 @@ def _limits(obligation: Obligation) -> Iterator[tuple[str, Span]]:
     if window.end is None and not obligation.negated:
         yield f"{obligation.name} eventually (it is begun, and has no deadline)", window.span
     for length in (window.start, window.end):
-        if length is not None and isinstance(length.amount, MeasureRef):
-            yield f"a window for as long as {length.amount.name} says, while that has no value", window.span
+        for name in length.measures if length is not None else ():
+            yield f"a window for as long as {name} says, while that has no value", window.span

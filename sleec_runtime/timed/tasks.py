@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from sleec_runtime.errors import UndeterminedDecision, WrongType
 from sleec_runtime.evaluation import Decision, Situation, Undetermined, walk
-from sleec_runtime.model import Clause, Number, Obligation, Rational, Rule
-from sleec_runtime.model_time import SECONDS, Length
+from sleec_runtime.model import Clause, Obligation, Rational, Rule
+from sleec_runtime.model_time import Length
 
 if TYPE_CHECKING:
     from sleec_runtime.instance import Instance
@@ -167,12 +167,15 @@ def _active(clause: Clause, origin: Origin) -> tuple[Obligation, ...]:
 
 
 def _seconds(length: Length, origin: Origin) -> Rational:
-    if isinstance(length.amount, Number):
-        return length.amount.value * SECONDS[length.unit]
-    name = length.amount.name
-    value = origin.snapshot.conditions.get(name)
-    if value is None:
-        raise UndeterminedDecision((origin.rule.trigger,), (name,), f"report {name} with update(): it is how long")
-    if isinstance(value, (bool, str)) or value < 0:
-        raise WrongType(name, value, "the length of a window, a number from 0 on")
-    return value * SECONDS[length.unit]
+    values = {}
+    for name in length.measures:
+        value = origin.snapshot.conditions.get(name)
+        if value is None:
+            raise UndeterminedDecision((origin.rule.trigger,), (name,), f"report {name} with update(): it is how long")
+        if isinstance(value, (bool, str)):
+            raise WrongType(name, value, "the length of a window, a number from 0 on")
+        values[name] = value
+    found = length.seconds_where(values)
+    if found < 0:
+        raise WrongType(str(length.amount), found, "the length of a window, a number from 0 on")
+    return found

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from sleec_runtime.dispatch import refuse_misfit
 from sleec_runtime.errors import NotBound
 from sleec_runtime.instance import Unfinished
-from sleec_runtime.model import Clause, Number, Obligation, Rule, literals
+from sleec_runtime.model import Clause, Obligation, Rule, literals
 from sleec_runtime.obligations import is_coroutine_function
 
 if TYPE_CHECKING:
@@ -131,7 +131,7 @@ def _start(obligation: Obligation) -> object:
     window = None if obligation.timing is None else obligation.timing.window
     if window is None or window.start is None:
         return 0
-    return window.start.seconds if isinstance(window.start.amount, Number) else str(window.start)
+    return str(window.start) if window.start.measures else window.start.seconds
 
 
 def require_alternatives(rule: Rule, obligation: Obligation, instance: Instance) -> None:

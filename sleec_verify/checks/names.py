@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from sleec_runtime.model import (
     NOWHERE,
@@ -13,7 +14,6 @@ from sleec_runtime.model import (
     DeclaredKind,
     Exclusive,
     Formula,
-    MeasureRef,
     Never,
     Number,
     Rule,
@@ -25,6 +25,9 @@ from sleec_runtime.model import (
     literals,
     measures_of,
 )
+
+if TYPE_CHECKING:
+    from sleec_runtime.model_time import Length
 
 
 def _formulas(ruleset: Ruleset) -> Iterator[Formula]:
@@ -47,7 +50,7 @@ def events_of_rules(ruleset: Ruleset) -> set[str]:
     return triggers | {o.name for rule in ruleset.rules for clause in rule.clauses() for o in literals(clause)}
 
 
-def _beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Number | MeasureRef]]:
+def _beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Length]]:
     """The events and formulas of concerns, purposes and relations, and what the lengths of all windows are."""
     if not ruleset.is_timed:
         return set(), [], []
@@ -60,8 +63,8 @@ def names_used(ruleset: Ruleset) -> dict[DeclaredKind, set[str]]:
     """The names that rules and constraints use, by kind; measures count as conditions, and an event is used wherever
     it stands."""
     used: dict[DeclaredKind, set[str]] = {"trigger": set(), "condition": set(), "obligation": set()}
-    events, _, amounts = _beside_rules(ruleset)
-    used["condition"].update(amount.name for amount in amounts if isinstance(amount, MeasureRef))
+    events, _, lengths = _beside_rules(ruleset)
+    used["condition"].update(name for length in lengths for name in length.measures)
     for formula in _formulas(ruleset):
         for leaf in leaves(formula):
             if isinstance(leaf, Atom):
@@ -82,7 +85,7 @@ def constants_used(ruleset: Ruleset) -> set[str]:
     """The constants that comparisons, calculations or other constants name."""
     used = set(ruleset.calculated_with)
     used |= {s.alias for s in ruleset.statements if isinstance(s, Constant) and s.alias is not None}
-    amounts = _beside_rules(ruleset)[2]
+    amounts = [length.amount for length in _beside_rules(ruleset)[2]]
     used |= {a.constant for a in amounts if isinstance(a, Number) and a.constant is not None}
     for formula in _formulas(ruleset):
         for leaf in leaves(formula):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from sleec_runtime.model import Clause, MeasureRef, Obligation, Rule, Ruleset, Span, Statement, literals
+from sleec_runtime.model import Clause, Obligation, Rule, Ruleset, Span, Statement, literals
 from sleec_runtime.model_time import RELATIONS, Claim
 from sleec_verify.calculations import refuse_unsayable_calculations
 from sleec_verify.conversion.to_dsl import refuse
@@ -47,6 +47,6 @@ def _of_literal(literal: Obligation) -> str | None:
         return "SLEEC-TK has no eventually"
     if window is not None and window.start is not None:
         return "SLEEC-TK has no windows that begin later"
-    if window is not None and window.end is not None and isinstance(window.end.amount, MeasureRef):
+    if window is not None and window.end is not None and window.end.measures:
         return "SLEEC-TK has no windows as long as a measure says"
     return None

@@ -7,8 +7,6 @@ from collections.abc import Iterator
 from sleec_runtime.model import (
     Clause,
     Formula,
-    MeasureRef,
-    Number,
     Rule,
     Ruleset,
     conditions_in,
@@ -18,8 +16,8 @@ from sleec_runtime.model import (
 from sleec_runtime.model_time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation
 
 
-def beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Number | MeasureRef]]:
-    """The events and formulas of concerns, purposes and relations, and the amounts of all lengths of time."""
+def beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Length]]:
+    """The events and formulas of concerns, purposes and relations, and all lengths of time."""
     events: set[str] = set()
     formulas: list[Formula] = []
     lengths: list[Length] = []
@@ -41,7 +39,7 @@ def beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Number
             own = (statement.condition, statement.formula, statement.end_condition)
             formulas += [formula for formula in own if formula is not None]
             lengths += [statement.duration] if statement.duration is not None else []
-    return events, formulas, [length.amount for length in lengths]
+    return events, formulas, lengths
 
 
 def _of_claim(claim: Claim, events: set[str], formulas: list[Formula], lengths: list[Length]) -> None:

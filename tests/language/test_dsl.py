@@ -17,6 +17,7 @@ from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import (
     And,
     Atom,
+    Calculated,
     Comparison,
     Context,
     MeasureRef,
@@ -137,6 +138,29 @@ def test_windows_with_two_ends(text):
 
 def test_a_measure_may_say_how_long():
     assert timing("B within {x} seconds").window.end == Length(MeasureRef("x"), "seconds")
+
+
+@pytest.mark.parametrize(
+    ("text", "amount", "printed"),
+    [
+        ("({x} + 2) minutes", ((1, ("x",)), (2, ())), "({x} + 2) minutes"),
+        ("(120 - ((22 - {x}) * 15)) seconds", ((15, ("x",)), (-210, ())), "((15 * {x}) - 210) seconds"),
+        ("(K - {x}) seconds", ((5, ()), (-1, ("x",))), "(5 - {x}) seconds"),
+        ("(2 * {x}) hours", ((2, ("x",)),), "(2 * {x}) hours"),
+        ("({x} * {x} - 1) days", ((1, ("x", "x")), (-1, ())), "(({x} * {x}) - 1) days"),
+    ],
+)
+def test_measures_may_say_how_long_by_a_calculation(text, amount, printed):
+    found = timing(f"B within {text}").window.end
+    assert (found.amount, found.seconds, found.measures) == (Calculated(amount), None, ("x",))
+    again = print_ruleset(rules(f"R1 when A then B within {text} unless {{m}}"))
+    assert f"within {printed}" in again
+    assert parse(again).rules[0].default.obligations[0].timing.window.end == found
+
+
+def test_what_comes_to_a_measure_or_a_number_is_one():
+    assert timing("B within ({x} + K - 5) seconds").window.end == Length(MeasureRef("x"), "seconds")
+    assert timing("B within ({x} - {x} + K) seconds").window.end == Length(Number(5), "seconds")
 
 
 def test_otherwise_and_else_belong_to_the_nearest_response():

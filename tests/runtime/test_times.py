@@ -176,6 +176,23 @@ def test_a_measure_says_how_long():
     assert home.log == []
 
 
+def test_a_calculation_says_how_long():
+    home = Home(
+        "def_start event A event X measure warmth: numeric measure load: numeric def_end "
+        "rule_start a when A then X within (120 - (22 - {warmth}) * {load}) seconds rule_end",
+        slow=("X",),
+    )
+    home.sleec.update({"warmth": 20})
+    with pytest.raises(errors.UndeterminedDecision, match="report load with update"):
+        home.sleec.trigger("A")
+    home.sleec.update({"load": 100})
+    with pytest.raises(errors.WrongType, match=r"a number from 0 on, and -80 is not"):
+        home.sleec.trigger("A")
+    home.sleec.update({"load": 15})
+    (due,) = home.sleec.trigger("A").due
+    assert str(due) == "X (a): under way, from 0 to 90"
+
+
 # In place of what is not done -----------------------------------------------------------------------------
 
 

@@ -131,6 +131,9 @@ def test_what_is_broken_is_told_by_time_and_then_by_the_order_of_the_text():
         ("A then B within {x} seconds", "0: A x=1 | 2: B x=9", [0]),
         ("A then B within {x} minutes", "0: A x=1 | 60: B", []),
         ("A then B within {x} seconds", "1: A B x=-1", [1]),
+        ("A then B within (2 * {x} - 1) seconds", "0: A x=2 | 3: B x=9", []),
+        ("A then B within (2 * {x} - 1) seconds", "0: A x=2 | 4: B x=9", [0]),
+        ("A then B within ({x} * {x} - 1) seconds", "0: A x=2 | 3: B x=9", []),
         # One after the other.
         ("A then B within 2 seconds otherwise C", "0: A | 1: B", []),
         ("A then B within 2 seconds otherwise C", "0: A | 2: C", []),

@@ -260,22 +260,25 @@ class Names:
             did_you_mean(near) or f"define it, between def_start and def_end: {as_in}",
         )
 
-    def number(self, side: Operand) -> Union[Number, MeasureRef, None]:
-        """A number, a constant, a numeric measure, or a calculation that comes to one of them; None, and a problem, if
-        it is nothing of that."""
-        if isinstance(side, Calculation):
-            whole = self._sum(side)
-            if whole is None:
-                return None
-            if not whole.terms:
-                return Number(whole.number)
-            (measures, factor), *more = whole.terms.items()
-            if (len(measures), factor, whole.number) == (1, 1, 0) and not more:
-                return self._ref(measures[0])
-            self.problem(
-                "a calculation with a measure is no length of time", side.span, "use the measure alone, or none"
-            )
+    def amount(self, operand: Operand) -> Union[Number, MeasureRef, Calculated, None]:
+        """How long something takes: a number, a constant, a numeric measure, or what is calculated from these; None,
+        and a problem, if it is nothing of that."""
+        if isinstance(operand, Side):
+            return self.number(operand)
+        whole = self._sum(operand)
+        if whole is None:
             return None
+        if not whole.terms:
+            return Number(whole.number)
+        (measures, factor), *more = whole.terms.items()
+        if (len(measures), factor, whole.number) == (1, 1, 0) and not more:
+            return self._ref(measures[0])
+        terms = [(factor, names) for names, factor in whole.terms.items()]
+        number = [(whole.number, ())] if whole.number else []
+        return Calculated(tuple(sorted([*terms, *number], key=lambda term: term[0] < 0)), self.line(operand.span))
+
+    def number(self, side: Side) -> Union[Number, MeasureRef, None]:
+        """A number, a constant or a numeric measure; None, and a problem, if it is nothing of that."""
         name = side.written
         if not isinstance(name, str):
             return Number(name)

@@ -12,7 +12,7 @@ from sleec_runtime.language.dsl.definitions import DefinitionParser
 from sleec_runtime.language.dsl.names import Side
 from sleec_runtime.language.token_reader import ALTERNATIVE_LEVELS, Abandon, quoted
 from sleec_runtime.language.units import UNITS, unit_meant
-from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Obligation, Span
+from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Number, Obligation, Span
 
 if TYPE_CHECKING:
     from sleec_runtime.model_time import Length, Timing, Unit, Window
@@ -144,7 +144,7 @@ class ResponseParser(DefinitionParser):
         if self.kinds[first] == "[" or (self.token_text(first) in UNITS and self.kinds[first + 1] != "word"):
             self.expected("a number before the unit", "as in: within 5 minutes")
         side = self.operand("a length of time, such as 5 minutes")
-        amount = None if self.hurt else self.names.number(side)
+        amount = None if self.hurt else self.names.amount(side)
         if isinstance(side, Side) and isinstance(side.written, int) and side.written < 0:
             self.fail(
                 f"a window cannot be negative: {side.written}",
@@ -158,7 +158,7 @@ class ResponseParser(DefinitionParser):
             span = NOWHERE
         else:
             unit, span = self._unit(), self.span(first)
-        if getattr(amount, "value", 0) < 0:
+        if isinstance(amount, Number) and amount.value < 0:
             self.fail(
                 f"a window cannot be negative: {quoted(self.text[side.span.start : side.span.end])} is",
                 side.span,
