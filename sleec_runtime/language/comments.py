@@ -35,10 +35,12 @@ def attach(
     ends: array[int],
     line_starts: Collection[str] = LINE_STARTS,
     settings: Collection[str] = SETTINGS,
+    openings: Collection[str] = (),
 ) -> tuple[dict[int, Comments], tuple[str, ...]]:
     """The comments of each token that starts a line of rules, and those that come after the last one.
 
-    `line_starts` are the kinds of the tokens that start a line; those of `settings` among them keep no comments.
+    `line_starts` are the kinds of the tokens that start a line; those of `settings` among them keep no comments. What
+    stands right below one of `openings` is not divided by empty lines, so that all of it stays there.
     """
     attached: dict[int, Comments] = {}
     pending: list[str] = []
@@ -48,12 +50,16 @@ def attach(
 
     def hand_over(token: int) -> None:
         """The pending comments stand above `token`, which starts a line of rules."""
-        if kinds[token] in settings or text.count("\n", end_before, starts[token]) > 1:
+        if kinds[token] in settings or is_divided(starts[token]):
             _leave_gap(pending)
         if kinds[token] not in settings:
             before = attached.get(token, NO_COMMENTS)
             attached[token] = Comments(before.above + tuple(pending), before.behind)
             pending.clear()
+
+    def is_divided(start: int) -> bool:
+        """Whether an empty line before this place tells comments apart."""
+        return text.count("\n", end_before, start) > 1 and (line < 0 or kinds[line] not in openings)
 
     for remark in remarks:
         while seen < remark.token:
@@ -73,7 +79,7 @@ def attach(
             else:
                 attached[owner] = Comments((*before.above, words), before.behind)
         else:
-            if pending and text.count("\n", end_before, remark.start) > 1:
+            if pending and is_divided(remark.start):
                 _leave_gap(pending)
             pending.append(words)
             if behind:

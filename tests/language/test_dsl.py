@@ -459,3 +459,14 @@ def test_a_window_may_be_calculated() -> None:
     (rule,) = parse((CALCULATING % "({x} > 1)").replace("then B", "then B within (2 * K) minutes")).rules
     (obligation,) = rule.default.obligations
     assert str(obligation.timing) == "within 6 minutes"
+
+
+@pytest.mark.parametrize("gap", ["\n", "\n\n"])
+def test_comments_inside_a_block_stay_inside(gap):
+    text = (
+        "// head\n\n// of the names\ndef_start\n    event A\n    event B\ndef_end\n\n// of the rules\nrule_start\n"
+        f"    // all of them{gap}    // the first{gap}    R1 when A then B\nrule_end\n"
+    )
+    written = print_ruleset(parse(text))
+    assert written == text.replace("\n\n    ", "\n    ")
+    assert print_ruleset(parse(written)) == written

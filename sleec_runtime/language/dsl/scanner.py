@@ -67,7 +67,7 @@ def scan(text: str) -> Tokens:
         starts.append(len(text))
         ends.append(len(text))
     _mark_relations(text, kinds, starts, ends)
-    comments, closing = attach(remarks, text, kinds, starts, ends, LINE_STARTS, BLOCK_MARKS)
+    comments, closing = attach(remarks, text, kinds, starts, ends, LINE_STARTS, BLOCK_MARKS, BLOCKS)
     return Tokens(kinds, starts, ends, comments, closing)
 
 
