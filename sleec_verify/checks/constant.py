@@ -254,9 +254,9 @@ CONSTANT_CONDITION = Check(
             "SLEEC512",
             "warning",
             "a condition, or a part of one, that never changes",
-            "Whatever the situation, this part of a condition is true, or it is false: it decides nothing. Mostly a "
-            "bound is off by one, or AND and OR are mixed up. Guards and hedges whose whole condition is never true "
-            "are dead rules and dead hedges, and reported as these.",
+            "Whatever the situation, this part of a condition is true, or it is false: it tells no situation from "
+            "another. Mostly a bound is off by one, or AND and OR are mixed up. Guards and hedges whose whole "
+            "condition is never true are dead rules and dead hedges, and reported as these.",
             "Compare the bounds with what you want to say, and look whether AND should be OR. If all is as it should "
             "be, leave out of an AND what is always true, and out of an OR what is always false. The other way round, "
             "leaving it out would change what the rules mean: what is always true makes the whole OR true, what is "
