@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import re
+from collections.abc import Iterator
 
 from sleec_runtime.model import Clause, Formula, Not, Obligation, Reading, Rule
 from sleec_verify.checks.base import Check, FindingKind, clause_name, listed
@@ -102,7 +103,7 @@ def _finding(cones: Cones, position: int, rule: Rule, situations: Formula) -> Fi
         deciding = {r: next(n for n, g in enumerate(guards) if question.true(g)) for r, guards in by_reading.items()}
     clauses = cones.clauses[position]
     said = [
-        f"read as {r}, {clause_name(rule, n)} decides: {_response(clauses[n])}"
+        f"read as {r}, {clause_name(rule, n)} decides: {_response(clauses[n], cones.ruleset.syntax == 'dsl')}"
         for r, n in ((r, deciding[r]) for r in (reading, OTHER[reading]))
     ]
     return READING.finding(
@@ -138,9 +139,14 @@ def _due(rule: Rule, reading: Reading) -> dict[Obligation, Formula]:
     return {obligation: disjunction(where) for obligation, where in guards.items()}
 
 
-def _response(clause: Clause) -> str:
-    names: Iterable[str] = (str(obligation) for obligation in clause.obligations)
-    return listed(names) if clause.obligations else "nothing is due"
+def _response(clause: Clause, dsl: bool) -> str:
+    """What a clause calls for, with its times; in rules of the DSL with `not` as it is written there."""
+    from sleec_runtime.model_time import described
+
+    if not clause.obligations:
+        return "nothing is due"
+    words = listed(map(described, clause.obligations))
+    return re.sub(r"\bNOT ", "not ", words) if dsl else words
 
 
 READING = Check(

@@ -98,8 +98,15 @@ def _redundant_hedges(cones: Cones) -> Iterator[Finding]:
                 clauses[number].span,
                 rules=(rule.label,),
                 clauses=(ClauseRef(rule.label, number),),
-                help="check whether its response is the one you meant, or remove it and check again",
+                help=what_to_do(clauses[number]),
             )
+
+
+def what_to_do(hedge: Clause) -> str:
+    """What to do about a hedge that can be removed."""
+    if not hedge.obligations:
+        return "it calls for nothing: add the response that you meant, if any, or remove it and check again"
+    return "check whether its response is the one you meant, or remove it and check again"
 
 
 def _not_plainly_needed(cones: Cones, position: int, others: Sequence[int]) -> list[int]:
@@ -168,8 +175,10 @@ REDUNDANT_HEDGE = Check(
             "warning",
             "a hedge without which every situation obliges the same",
             "The rule with this hedge and the rule without it oblige the same in every situation, as the hedge "
-            "repeats the response that would be due anyway, or never decides.",
-            "Remove the hedge, or change its response to what it was meant to be.",
+            "repeats the response that would be due anyway, or never decides. A hedge without a response may take away "
+            "what other rules call for all the same.",
+            "Remove the hedge, or change its response to what it was meant to be; if it has none, give it one, or "
+            "look which other rules call for what it was to take away.",
             "WHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE Answer\n",
             "WHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE WaitUntilAwake\n",
         ),

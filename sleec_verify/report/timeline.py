@@ -1,12 +1,14 @@
 """Timelines: in words, and as a small chart of text.
 
 The chart has a column for each moment and a row for each event: ``*`` where it occurs, ``-`` while it is due, ``x``
-while it is forbidden, ``!`` where it is both.
+while it is forbidden, ``!`` while it is forbidden and is due, or occurs. ``>``: and so on, past the last moment.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from sleec_verify.report.words import listed, quoted, value_text
@@ -63,45 +65,56 @@ def chart_of(timeline: Timeline) -> list[str]:
     heads = [_short(time) for time in times]
     if timeline.now is not None:
         heads[timeline.now] += " now"
-    width = max(8, *(len(head) + 2 for head in heads))
-    dues = [due for moment in timeline.moments for due in moment.due]
-    names = list(dict.fromkeys([e for m in timeline.moments for e in m.events] + [due.event for due in dues]))
+    demands = [due for moment in timeline.moments for due in moment.due]
+    names = list(dict.fromkeys([e for m in timeline.moments for e in m.events] + [due.event for due in demands]))
     label = max(len(name) for name in names)
-    open_end = timeline.now is not None or any(_beyond(due, times) for due in dues)
+    marks = {name: _marks(name, timeline.moments, demands) for name in names}
+    # A column has the mark of its moment and one at least for each stretch after it; "> " may end the last.
+    stretches = max(len(after) for row in marks.values() for _, after in row)
+    width = max(8, stretches + 3, *(len(head) + 2 for head in heads))
     rows = ["".ljust(label) + "  " + "".join(head.ljust(width) for head in heads).rstrip()]
-    for name in names:
-        cells = [_cell(name, place, timeline, dues, width) for place in range(len(times))]
-        row = "".join(cells)
-        if not open_end:
-            row = row.rstrip("-x ")
-        rows.append(f"{name.ljust(label)}  {row.rstrip()}")
+    for name, row in marks.items():
+        cells = [here + _spread(after, width - 1) for here, after in row[:-1]]
+        here, after = row[-1]
+        cells.append(here + (_spread(after, width - 3) + ">" if after else ""))
+        rows.append(f"{name.ljust(label)}  {''.join(cells).rstrip()}")
     return rows
 
 
-def _cell(name: str, place: int, timeline: Timeline, dues: list[Due], width: int) -> str:
-    moments = timeline.moments
-    time = moments[place].time
-    following = moments[place + 1].time if place + 1 < len(moments) else None
-    mine = [due for due in dues if due.event == name]
+def _marks(name: str, moments: Sequence[Moment], demands: Sequence[Due]) -> list[tuple[str, str]]:
+    """For each moment the mark of an event there, and those of the time up to the next moment, one for each stretch
+    in which nothing changes. What comes after all demands is not among those of the last moment."""
+    times = [moment.time for moment in moments if name in moment.events]
+    mine = [_while_open(due, times) for due in demands if due.event == name]
 
-    def mark(first: int, last: int) -> str:
-        now = {due.negated for due in mine if due.start <= last and (due.end is None or first <= due.end)}
-        return "!" if len(now) == 2 else "x" if True in now else "-" if now else " "
+    def mark(time: int) -> str:
+        kinds = {due.negated for due in mine if due.start <= time and (due.end is None or time <= due.end)}
+        if True in kinds and (False in kinds or time in times):
+            return "!"
+        if time in times:
+            return "*"
+        return "x" if True in kinds else "-" if kinds else " "
 
-    here = mark(time, time)
-    if name in moments[place].events:
-        here = "!" if here == "x" else "*"
-    if following is None:
-        ahead = [due for due in mine if due.end is None or due.end > time]
-        after = ("x" if ahead[0].negated else "-") if ahead else " "
-        return here + after * (width - 3) + ("> " if ahead else "  ")
-    if following <= time + 1:
-        return here.ljust(width)
-    return here + mark(time + 1, following - 1) * (width - 1)
+    changes = {due.start for due in mine} | {due.end + 1 for due in mine if due.end is not None}
+    found = []
+    for place, moment in enumerate(moments):
+        first = moment.time + 1
+        behind = moments[place + 1].time if place + 1 < len(moments) else None
+        begins = sorted(time for time in {first, *changes} if time >= first and (behind is None or time < behind))
+        after = "".join(kind for kind, _ in groupby(map(mark, begins)))
+        found.append((mark(moment.time), after.rstrip() if behind is None else after))
+    return found
 
 
-def _beyond(due: Due, times: list[int]) -> bool:
-    return due.end is None or due.end > times[-1]
+def _while_open(due: Due, times: Sequence[int]) -> Due:
+    """The demand for as long as it is one: what is called for is due until it is done, what is forbidden stays so."""
+    done = [time for time in times if due.start <= time and (due.end is None or time <= due.end)]
+    return replace(due, end=min(done)) if done and not due.negated else due
+
+
+def _spread(marks: str, width: int) -> str:
+    """The marks over so many characters, each of them about as many times."""
+    return "".join(marks[place * len(marks) // width] for place in range(width)) if marks else " " * width
 
 
 def _short(seconds: int) -> str:

@@ -152,6 +152,13 @@ def test_many_copies_of_a_rule_take_few_questions(monkeypatch):
     assert len(asked) <= 8 * copies
 
 
+def test_a_hedge_without_a_response_that_can_be_removed_is_not_asked_about_it():
+    (finding,) = found("WHEN t THEN o UNLESS a\nWHEN t THEN o", "redundant-hedge")
+    assert finding.help == "it calls for nothing: add the response that you meant, if any, or remove it and check again"
+    (finding,) = found("WHEN t THEN o UNLESS a IN WHICH CASE o", "redundant-hedge")
+    assert finding.help == "check whether its response is the one you meant, or remove it and check again"
+
+
 def test_the_reading_that_the_text_states_is_named():
     text = "WHEN t THEN o UNLESS a IN WHICH CASE p UNLESS b IN WHICH CASE q"
     (silent,) = found(text, "reading")

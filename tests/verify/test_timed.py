@@ -109,7 +109,29 @@ def test_the_length_of_a_window_that_a_measure_says_is_not_analysed():
 
 def test_the_readings_part_where_only_times_differ():
     found = verdicts(text("B within 1 hours unless m then B within 2 hours unless n then B within 3 hours"))
-    assert [f.rules for f in found["reading"].findings] == [("R1",)]
+    (finding,) = found["reading"].findings
+    assert finding.rules == ("R1",)
+    assert finding.note == (
+        "with all else false: read as priority, hedge 2 of R1 decides: B within 3 hours; "
+        "read as cascade, the default of R1 decides: B within 1 hour"
+    )
+
+
+def test_what_is_forbidden_is_said_as_the_language_says_it():
+    found = verdicts(text("B unless m then B within 2 hours unless n then not B within 3 hours"))
+    (finding,) = found["reading"].findings
+    assert "hedge 2 of R1 decides: not B within 3 hours" in finding.note
+
+
+def test_a_hedge_without_a_response_has_none_to_be_checked():
+    def said(response):
+        findings = verdicts(text(response))["redundant-hedge"].findings
+        return [finding.help for finding in findings if finding.clauses[0] == ("R1", 1)]
+
+    with_one = "check whether its response is the one you meant, or remove it and check again"
+    without = "it calls for nothing: add the response that you meant, if any, or remove it and check again"
+    assert said("B within 1 hours unless m then B within 1 hours") == [with_one]
+    assert said("B within 1 hours unless m\n  R9 when A then B within 1 hours") == [without]
 
 
 def test_relations_rule_out():

@@ -10,7 +10,7 @@ from sleec_runtime.model import Rule
 from sleec_verify.checks.base import clause_name, listed
 from sleec_verify.checks.redundant import REDUNDANT_HEDGE as HEDGE_OF_SITUATIONS
 from sleec_verify.checks.redundant import REDUNDANT_RULE as RULE_OF_SITUATIONS
-from sleec_verify.checks.redundant import without_hedge
+from sleec_verify.checks.redundant import what_to_do, without_hedge
 from sleec_verify.checks.timed.each import each, in_words, rules_in, traces
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
@@ -51,12 +51,13 @@ def _redundant_hedges(cones: Cones) -> Iterator[Finding]:
             return
         if exchanging(known.program, less, rule).trace is not None:
             return
+        hedge = next(islice(rule.clauses(), number, None))
         yield REDUNDANT_HEDGE.finding(
             f"{clause_name(rule, number)} can be removed: without it the same is allowed and called for",
-            next(islice(rule.clauses(), number, None)).span,
+            hedge.span,
             rules=(rule.label,),
             clauses=(ClauseRef(rule.label, number),),
-            help="check whether its response is the one you meant, or remove it and check again",
+            help=what_to_do(hedge),
         )
 
     hedges = (
