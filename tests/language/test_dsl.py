@@ -113,6 +113,41 @@ def test_rules_of_the_dsl_are_read_by_priority():
     assert [hedge.obligations != () for hedge in rule.hedges] == [True, False]
 
 
+# Problems -------------------------------------------------------------------------------------------------
+
+HELD = (
+    "when A and {m} then B within {x} minutes otherwise C else {not B unless {n} then {C unless {m}} unless {n} then C} "
+    "unless ({m} and {n}) then {B unless {m} then C within 1 minute otherwise {A unless {n}}} unless {n}"
+).split(" ")
+
+
+@pytest.mark.parametrize("place", range(1, len(HELD) + 1))
+def test_a_problem_anywhere_in_a_rule_with_braces_is_one_problem(place):
+    whole = " ".join(HELD)
+    assert rules(f"R1 {whole}")
+    broken = " ".join([*HELD[:place], "?", *HELD[place:]])
+    with pytest.raises(LanguageError) as caught:
+        rules(f"R1 {broken}\nR2 {whole}")
+    (problem,) = caught.value.problems
+    assert "?" in problem.message
+
+
+@pytest.mark.parametrize(
+    ("clause", "count"),
+    [
+        ("then B within ({x} + 2) minutes otherwise C else {not B unless {n} then C} unless m", 1),
+        ("then not {B unless {n} then C} unless m", 1),
+        ("then B within 2 munites unless m then {not B unless n then C} unless ? then A", 2),
+        ("and {m then B unless ? then {C unless n} unless ! then A", 3),
+        ("then B} unless ?", 2),
+    ],
+)
+def test_after_a_problem_the_hedges_of_the_rule_are_read_and_those_in_braces_are_not(clause, count):
+    with pytest.raises(LanguageError) as caught:
+        rules(f"R1 when A {clause}")
+    assert len(caught.value.problems) == count
+
+
 # Times ----------------------------------------------------------------------------------------------------
 
 

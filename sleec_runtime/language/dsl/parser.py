@@ -20,7 +20,6 @@ from sleec_runtime.model import Clause, Constant, Formula, Rule, Ruleset, Source
 from sleec_runtime.model_time import ClaimKind
 
 _Read = TypeVar("_Read")
-_CLAUSES = ITEM_STARTS | {"unless"}
 _BELONGS = {
     "def_start": ("an event, a measure or a constant", "define something, as in: event SmokeDetected"),
     "rule_start": ("a rule", "a rule looks like this: R1 when Event then Response"),
@@ -58,6 +57,9 @@ def parse_dsl(source: Source) -> Ruleset:
 
 class DslParser(RelationParser):
     """Reads a whole text, once."""
+
+    _hedges_of_rules: set[int] | None = None
+    """Every `unless` that begins a hedge of a rule, once a problem makes it worth knowing."""
 
     def statements(self) -> list[Statement]:
         """Everything in the text, in its order; what could not be read is among the problems instead."""
@@ -162,7 +164,28 @@ class DslParser(RelationParser):
         return None if self.hurt else found
 
     def recover(self) -> None:
-        self.skip(_CLAUSES)
+        """On to the next hedge of the rule, or behind the rule. A hedge in braces is none of the rule's."""
+        if self._hedges_of_rules is None:
+            self._hedges_of_rules = self._outside_braces()
+        while self.kinds[self.at] not in ITEM_STARTS and self.at not in self._hedges_of_rules:
+            self.at += 1
+
+    def _outside_braces(self) -> set[int]:
+        """Every `unless` that no braces hold. Braces that are not closed before the next rule begins hold nothing."""
+        outside: list[int] = []
+        opened: list[int] = []
+        for token, kind in enumerate(self.kinds):
+            if kind == "unless":
+                outside.append(token)
+            elif kind == "{":
+                opened.append(token)
+            elif kind == "}" and opened:
+                opening = opened.pop()
+                while outside and outside[-1] > opening:
+                    outside.pop()
+            elif kind in ITEM_STARTS:
+                opened.clear()
+        return set(outside)
 
     # Rules ----------------------------------------------------------------------------------------------------
 
