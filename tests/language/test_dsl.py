@@ -115,10 +115,9 @@ def test_rules_of_the_dsl_are_read_by_priority():
 
 # Problems -------------------------------------------------------------------------------------------------
 
-HELD = (
-    "when A and {m} then B within {x} minutes otherwise C else {not B unless {n} then {C unless {m}} unless {n} then C} "
-    "unless ({m} and {n}) then {B unless {m} then C within 1 minute otherwise {A unless {n}}} unless {n}"
-).split(" ")
+HELD = """when A and {m} then B within {x} minutes otherwise C
+else {not B unless {n} then {C unless {m}} unless {n} then C}
+unless ({m} and {n}) then {B unless {m} then C within 1 minute otherwise {A unless {n}}} unless {n}""".split()
 
 
 @pytest.mark.parametrize("place", range(1, len(HELD) + 1))
@@ -434,6 +433,22 @@ def guard_of(condition: str):
 )
 def test_a_calculation_is_read_as_a_comparison(written: str, meant: str) -> None:
     assert guard_of(written) == guard_of(meant)
+
+
+@pytest.mark.parametrize(
+    ("written", "value"),
+    [("0 < 1", True), ("50 <> 34", True), ("(K < 3)", False), ("3 >= K", True), ("K = -> K", True), ("-1 > 0", False)],
+)
+def test_a_comparison_of_fixed_numbers_is_true_or_false(written: str, value: bool) -> None:
+    text = CALCULATING % written
+    ruleset = parse(text)
+    (rule,) = ruleset.rules
+    assert rule.guard == Truth(value)
+    assert text[slice(*rule.guard.span)] in written
+    assert ruleset.calculated_with == ({"K"} if "K" in written else set())
+    printed = print_ruleset(ruleset)
+    assert f"and {str(value).lower()} then" in printed
+    assert parse(printed) == ruleset
 
 
 @pytest.mark.parametrize(

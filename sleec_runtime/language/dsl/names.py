@@ -102,7 +102,7 @@ class Names:
         self.measures: dict[str, Measure] = {}
         self.constants: dict[str, Constant] = {}
         self.calculated_with: set[str] = set()
-        """The constants of calculations, which these do not name any more once they are worked out."""
+        """The constants of what is worked out when it is read, and does not name them any more."""
         self.defects: list[Defect] = []
         self.complete = True
         """False once a definition could not be read: then a name without one is no news."""
@@ -344,8 +344,9 @@ class Names:
 
     # Comparisons ----------------------------------------------------------------------------------------------
 
-    def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison | None:
-        """``left operator right``; None, and a problem, if the sides do not fit."""
+    def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison | Truth | None:
+        """``left operator right``; None, and a problem, if the sides do not fit. Of two fixed numbers it is true or false,
+        whatever the situation."""
         one, two = self._scale(left), self._scale(right)
         terms: tuple[Term | None, Term | None]
         if one is not None and two is not None:
@@ -365,14 +366,10 @@ class Names:
         else:
             if self._stray(left, right) or self._stray(right, left):
                 return None
-            terms = self.number(left), self.number(right)
-            if isinstance(terms[0], Number) and isinstance(terms[1], Number):
-                self.problem(
-                    "both sides are fixed numbers, so the answer is always the same",
-                    span,
-                    "compare a measure with a number, or write true or false",
-                )
-                return None
+            terms = number, other = self.number(left), self.number(right)
+            if isinstance(number, Number) and isinstance(other, Number):
+                self.calculated_with.update(name for name in (number.constant, other.constant) if name is not None)
+                return Truth(_COMPARED[operator](number.value, other.value), span)
         first, second = terms
         return None if first is None or second is None else Comparison(first, operator, second, span)
 
