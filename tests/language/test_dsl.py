@@ -117,16 +117,17 @@ def test_rules_of_the_dsl_are_read_by_priority():
 
 HELD = """when A and {m} then B within {x} minutes otherwise C
 else {not B unless {n} then {C unless {m}} unless {n} then C}
-unless ({m} and {n}) then {B unless {m} then C within 1 minute otherwise {A unless {n}}} unless {n}""".split()
+unless ({m} and {n}) then {B unless {m} then C within 1 minute otherwise {A unless {n}}} unless {n}"""
+PLACES = len(HELD.split())
 
 
-@pytest.mark.parametrize("place", range(1, len(HELD) + 1))
+@pytest.mark.parametrize("place", range(1, PLACES + 1))
 def test_a_problem_anywhere_in_a_rule_with_braces_is_one_problem(place):
-    whole = " ".join(HELD)
-    assert rules(f"R1 {whole}")
-    broken = " ".join([*HELD[:place], "?", *HELD[place:]])
+    assert rules(f"R1 {HELD}")
+    words = HELD.split()
+    broken = " ".join([*words[:place], "?", *words[place:]])
     with pytest.raises(LanguageError) as caught:
-        rules(f"R1 {broken}\nR2 {whole}")
+        rules(f"R1 {broken}\nR2 {HELD}")
     (problem,) = caught.value.problems
     assert "?" in problem.message
 
@@ -139,6 +140,8 @@ def test_a_problem_anywhere_in_a_rule_with_braces_is_one_problem(place):
         ("then B within 2 munites unless m then {not B unless n then C} unless ? then A", 2),
         ("and {m then B unless ? then {C unless n} unless ! then A", 3),
         ("then B} unless ?", 2),
+        ("then B unless (({m}) then C unless {n} unless {m} then A)", 1),
+        ("then B unless (({m}) then C unless ? unless {m} then A unless !", 3),
     ],
 )
 def test_after_a_problem_the_hedges_of_the_rule_are_read_and_those_in_braces_are_not(clause, count):

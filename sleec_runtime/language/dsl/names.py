@@ -345,8 +345,8 @@ class Names:
     # Comparisons ----------------------------------------------------------------------------------------------
 
     def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison | Truth | None:
-        """``left operator right``; None, and a problem, if the sides do not fit. Of two fixed numbers it is true or false,
-        whatever the situation."""
+        """``left operator right``; None, and a problem, if the sides do not fit. With two fixed numbers it is true or
+        false, whatever the situation."""
         one, two = self._scale(left), self._scale(right)
         terms: tuple[Term | None, Term | None]
         if one is not None and two is not None:

@@ -164,27 +164,29 @@ class DslParser(RelationParser):
         return None if self.hurt else found
 
     def recover(self) -> None:
-        """On to the next hedge of the rule, or behind the rule. A hedge in braces is none of the rule's."""
+        """On to the next hedge of the rule, or behind the rule. What brackets hold is no hedge of the rule."""
         if self._hedges_of_rules is None:
-            self._hedges_of_rules = self._outside_braces()
+            self._hedges_of_rules = self._outside_brackets()
         while self.kinds[self.at] not in ITEM_STARTS and self.at not in self._hedges_of_rules:
             self.at += 1
 
-    def _outside_braces(self) -> set[int]:
-        """Every `unless` that no braces hold. Braces that are not closed before the next rule begins hold nothing."""
+    def _outside_brackets(self) -> set[int]:
+        """Every `unless` that neither braces nor parentheses hold; what is not closed before the next rule begins holds
+        nothing."""
         outside: list[int] = []
-        opened: list[int] = []
+        opened: dict[str, list[int]] = {"}": [], ")": []}
         for token, kind in enumerate(self.kinds):
             if kind == "unless":
                 outside.append(token)
-            elif kind == "{":
-                opened.append(token)
-            elif kind == "}" and opened:
-                opening = opened.pop()
+            elif kind in ("{", "("):
+                opened["}" if kind == "{" else ")"].append(token)
+            elif kind in opened:
+                opening = opened[kind].pop() if opened[kind] else token
                 while outside and outside[-1] > opening:
                     outside.pop()
             elif kind in ITEM_STARTS:
-                opened.clear()
+                for openings in opened.values():
+                    openings.clear()
         return set(outside)
 
     # Rules ----------------------------------------------------------------------------------------------------
