@@ -150,6 +150,37 @@ def test_after_a_problem_the_hedges_of_the_rule_are_read_and_those_in_braces_are
     assert len(caught.value.problems) == count
 
 
+def problems_of(text: str) -> list[tuple[int, str]]:
+    with pytest.raises(LanguageError) as caught:
+        parse(text)
+    return [(caught.value.source.place(p.span).line, p.message) for p in caught.value.problems]
+
+
+def test_where_nothing_is_defined_that_is_one_problem():
+    text = "rule_start\nR1 when A and {m} and ({x} > K) then B within K minutes unless {r} = low\nR2 when B then A\n"
+    nothing = (1, "there is no def_start block, so no name in this text is defined")
+    assert problems_of(f"{text}rule_end") == [nothing]
+    assert problems_of(f"{text}R3 when A then not\nrule_end") == [
+        nothing,
+        (4, "expected the name of an event, but rule_end comes next"),
+    ]
+    assert problems_of(f"event A {text}rule_end") == [
+        (1, "expected the start of a block, such as def_start, but event comes next")
+    ]
+    assert problems_of("rule_start rule_end") == [(1, "there are no rules in this text")]
+
+
+def test_a_name_without_a_definition_is_reported_where_it_is_used_first():
+    text = "R1 when Aa and {mm} then Bb\nR2 when Aa then Bb unless {mm}\nR3 when A and ({y} > k) then B within k days"
+    assert problems_of(f"def_start event A event B def_end rule_start\n{text}\nR4 when Bb then A rule_end") == [
+        (2, "there is no event `Aa`; it is used in 1 more place"),
+        (2, "there is no boolean measure `mm`; it is used in 1 more place"),
+        (2, "there is no event `Bb`; it is used in 2 more places"),
+        (4, "there is no constant or numeric measure `y`"),
+        (4, "there is no constant or numeric measure `k`; it is used in 1 more place"),
+    ]
+
+
 # Times ----------------------------------------------------------------------------------------------------
 
 

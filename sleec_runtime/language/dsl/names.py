@@ -97,7 +97,8 @@ class _Sum(NamedTuple):
 class Names:
     """The names of one text and what they stand for."""
 
-    def __init__(self, source: Source, problems: list[Problem]) -> None:
+    def __init__(self, source: Source, problems: list[Problem], defined: bool = True) -> None:
+        """`defined` says whether the text has a block of definitions at all."""
         self.kinds: dict[str, NameKind] = {}
         self.measures: dict[str, Measure] = {}
         self.constants: dict[str, Constant] = {}
@@ -112,6 +113,9 @@ class Names:
         self._owners: dict[str, str] = {}
         self._labels: dict[str, tuple[Span, int]] = {}
         self._refs: dict[str, MeasureRef] = {}
+        self._defined = defined
+        self._undefined: dict[str, tuple[int, int]] = {}
+        """Names without a definition: which problem says so, and how often each is used."""
         self._nearest = Suggester().nearest
 
     def problem(self, message: str, span: Span, hint: str | None) -> None:
@@ -216,7 +220,7 @@ class Names:
         if kind == "event" or (kind is None and not self.complete):
             return
         if kind is None:
-            self._undefined(name, span, "event", "event")
+            self._no_name(name, span, "event", "event", f"event {name}")
         else:
             self.problem(
                 f"{quoted(name)} is {_ARTICLE[kind]} (line {self.line(self._spans[name])}); {what} is an event",
@@ -232,7 +236,7 @@ class Names:
         if kind == "boolean" or (kind is None and not self.complete):
             return
         if kind is None:
-            self._undefined(name, span, "boolean measure", "boolean")
+            self._no_name(name, span, "boolean measure", "boolean", f"measure {name}: boolean")
         elif kind == "event":
             self.problem(
                 f"{quoted(name)} is an event (line {self.line(self._spans[name])}), and conditions speak of measures",
@@ -248,17 +252,40 @@ class Names:
                 f"as in: {name} {example}",
             )
 
-    def _undefined(self, name: str, span: Span, what: str, kind: NameKind) -> None:
+    def _no_name(self, name: str, span: Span, what: str, kind: NameKind, definition: str) -> None:
+        """Reports a name that has no definition where it is used first, and counts the other uses. Where nothing is
+        defined, that is one problem, and none of any name."""
+        if not self._defined:
+            self._no_definitions()
+            return
+        if name in self._undefined:
+            problem, uses = self._undefined[name]
+            self._undefined[name] = problem, uses + 1
+            return
+        self._undefined[name] = len(self._problems), 1
         known = [other for other, its in self.kinds.items() if its == kind]
         near = self._nearest(name, known) if len(self._problems) < MAX_PROBLEMS else None
-        as_in = (
-            f"event {name}" if kind == "event" else f"measure {name}: {'boolean' if kind == 'boolean' else 'numeric'}"
-        )
         self.problem(
             f"there is no {what} {quoted(name)}",
             span,
-            did_you_mean(near) or f"define it, between def_start and def_end: {as_in}",
+            did_you_mean(near) or f"define it, between def_start and def_end: {definition}",
         )
+
+    def _no_definitions(self) -> None:
+        self.complete = False
+        self.problem(
+            "there is no def_start block, so no name in this text is defined",
+            Span(0, 0),
+            "begin with definitions, as in: def_start event SmokeDetected measure userAtHome: boolean def_end",
+        )
+
+    def count_uses(self) -> None:
+        """Adds to what is said of each name without a definition how often it is used, once all uses are known."""
+        for problem, uses in self._undefined.values():
+            if uses > 1:
+                more = "1 more place" if uses == 2 else f"{uses - 1:,} more places"
+                said = self._problems[problem]
+                self._problems[problem] = replace(said, message=f"{said.message}; it is used in {more}")
 
     def number(self, side: Operand) -> Union[Number, MeasureRef, None]:
         """A number, a constant, a numeric measure, or a calculation that comes to one of them; None, and a problem, if
@@ -287,7 +314,7 @@ class Names:
             return self._ref(name)
         if name not in self.kinds:
             if self.complete:
-                self._undefined(name, side.span, "constant or numeric measure", "measure")
+                self._no_name(name, side.span, "constant or numeric measure", "measure", f"measure {name}: numeric")
         else:
             self.problem(
                 f"{quoted(name)} is {'a scale' if measure is not None else _ARTICLE[self.kinds[name]]}, not a number",

@@ -39,9 +39,10 @@ def parse_dsl(source: Source) -> Ruleset:
     with uncollected():
         tokens = scan(source.text)
         dialect = sniff(tokens)
-        names = Names(source, problems)
+        names = Names(source, problems, "def_start" in tokens.kinds)
         statements = DslParser(source, tokens, dialect, problems, names).statements()
     if problems:
+        names.count_uses()
         raise LanguageError(source, first_problems(problems))
     return Ruleset(
         statements=tuple(statements),
@@ -116,7 +117,9 @@ class DslParser(RelationParser):
             try:
                 if self.kinds[self.at] in BLOCKS.values():
                     self.fail(f"this {self.token_text(self.at)} closes no block", self.token_span(self.at), "delete it")
-                self.expected("the start of a block, such as rule_start", "rules stand between rule_start and rule_end")
+                what, block = ("definitions", "def") if self.kinds[self.at] in DEFINITIONS else ("rules", "rule")
+                hint = f"{what} stand between {block}_start and {block}_end"
+                self.expected(f"the start of a block, such as {block}_start", hint)
             except Abandon:
                 self.names.complete = False
                 self.at += 1
