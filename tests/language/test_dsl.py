@@ -181,6 +181,72 @@ def test_a_name_without_a_definition_is_reported_where_it_is_used_first():
     ]
 
 
+UNNAMED = [(13, "the rule in line 13 has no name")]
+
+
+@pytest.mark.parametrize(
+    "response",
+    [
+        "B",
+        "not B",
+        "B eventually",
+        "B within 2 minutes",
+        "B within K minutes",
+        "B within {x} minutes",
+        "B within (K + 2) minutes",
+        "B within [1, 5] minutes",
+        "B within 2 minutes otherwise C",
+        "B else C",
+        "B unless m",
+        "B unless not {n}",
+        "B unless risk = high",
+        "B unless x > 5",
+        "B unless m then C",
+        "B unless m then {C unless n}",
+    ],
+)
+def test_a_rule_without_a_name_is_said_to_be_one(response):
+    def found(text: str) -> list[tuple[int, str]]:
+        return problems_of(f"{DEFINITIONS}rule_start {text} rule_end")
+
+    one = f"R1 when A then {response}"
+    assert found(f"{one}\nwhen C then B") == UNNAMED
+    assert found(f"{one}\nwhen C then B\nR3 when A then B") == UNNAMED
+    assert found(f"{one}\nwhen C then B\nwhen C then B") == [*UNNAMED, (14, "the rule in line 14 has no name")]
+    assert found(f"{one}\nwhen C then not") == [
+        *UNNAMED,
+        (13, "expected the name of an event, but rule_end comes next"),
+    ]
+    for label in ("\nR2 ", " R2 ", "\nR2\n", "\nminutes ", "\n R2\t"):
+        ruleset = rules(f"{one}{label}when C then B")
+        assert [rule.label for rule in ruleset.rules] == ["R1", label.strip()]
+        assert parse(print_ruleset(ruleset)) == ruleset
+
+
+def test_an_unfinished_rule_before_one_with_a_name_is_said_to_be_one():
+    for unfinished in ("then", "then B within 2", "then B unless", "and", "then B within 2 minutes otherwise"):
+        ((line, message),) = problems_of(f"{DEFINITIONS}rule_start R1 when A {unfinished}\nR2 when A then B rule_end")
+        assert line == 12
+        assert message.endswith("but here the rule `R2` begins")
+
+
+def test_names_of_rules_and_claims_have_no_colon():
+    text = f"{DEFINITIONS}rule_start R1: when A then B\nR2 : when A then B unless ?\nR3: exists A rule_end\n"
+    claims = (
+        "concern_start c1: exists A while B\nexists B\nwhen B then C concern_end purpose_start exists A purpose_end"
+    )
+    assert problems_of(text + claims) == [
+        (12, "there is no colon behind the name of a rule"),
+        (13, "there is no colon behind the name of a rule"),
+        (13, "expected a condition, but found `?`"),
+        (14, "exists asks whether something can be, and a rule says what must be"),
+        (15, "there is no colon behind the name of a concern"),
+        (16, "the concern in line 16 has no name"),
+        (17, "the concern in line 17 has no name"),
+        (17, "the purpose in line 17 has no name"),
+    ]
+
+
 # Times ----------------------------------------------------------------------------------------------------
 
 

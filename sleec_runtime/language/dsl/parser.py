@@ -12,7 +12,7 @@ from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.dsl.cursor import ITEM_STARTS
 from sleec_runtime.language.dsl.names import Names
 from sleec_runtime.language.dsl.relations import RelationParser
-from sleec_runtime.language.dsl.scanner import BLOCKS, DEFINITIONS, scan, sniff
+from sleec_runtime.language.dsl.scanner import BLOCKS, DEFINITIONS, UNNAMED, scan, sniff
 from sleec_runtime.language.garbage import uncollected
 from sleec_runtime.language.resolve import first_problems
 from sleec_runtime.language.token_reader import Abandon
@@ -133,9 +133,11 @@ class DslParser(RelationParser):
         kind = self.kinds[self.at]
         if block == "relation_start" and kind == "relation":
             return self._read(self.relation, "the next relation")
-        if block == "rule_start" and kind == "label" and self.kinds[self.at + 1] == "when":
+        begins = kind in ("label", UNNAMED)
+        keyword = self._keyword() if begins else self.at
+        if block == "rule_start" and begins and self.token_text(keyword) == "when":
             return self._rule()
-        if block in ("concern_start", "purpose_start") and kind == "label":
+        if block in ("concern_start", "purpose_start") and begins:
             of = cast("ClaimKind", block[:7])
             return self._read(lambda: self.claim(of), f"the next {of}")
         what, hint = _BELONGS[block]
@@ -143,10 +145,10 @@ class DslParser(RelationParser):
         try:
             if block == "rule_start" and kind in ("when", "word") and self.kinds[self.at - 1] not in BLOCKS:
                 hint = "every rule begins with its name: R1 when Event then Response"
-            if kind == "label":
+            if begins and block == "rule_start":
                 self.fail(
                     f"exists asks whether something can be, and {what} says what must be",
-                    self.token_span(self.at + 1),
+                    self.token_span(keyword),
                     "write when, or move it to the concerns or purposes",
                 )
             self.expected(f"{what}", hint)
@@ -154,6 +156,13 @@ class DslParser(RelationParser):
             self.at += 1
             self.skip(ITEM_STARTS)
             return None
+
+    def _keyword(self) -> int:
+        """The ``when`` or ``exists`` of the rule or claim that begins here."""
+        at = self.at
+        if self.kinds[at] == "label":
+            at += 2 if self.kinds[at + 1] == ":" else 1
+        return at
 
     def _read(self, read: Callable[[], _Read], what: str) -> _Read | None:
         """What `read` reads, to the end of the item; None if there was a problem."""
@@ -196,9 +205,8 @@ class DslParser(RelationParser):
 
     def _rule(self) -> Rule | None:
         first = self.at
-        label_span = self.token_span(first)
-        label = self.names.label(self.token_text(first), label_span)
-        self.at += 2
+        label, label_span = self.label("rule")
+        self.at += 1
         opening: tuple[str, Span, Formula | None, Clause] | None = None
         self.begin_clause()
         try:
