@@ -181,6 +181,25 @@ def test_a_name_without_a_definition_is_reported_where_it_is_used_first():
     ]
 
 
+SCALE_OR_NUMBER = "compare `risk` with it, or write a number"
+
+
+@pytest.mark.parametrize("comparison", ["({level} = low)", "level = low", "low < level"])
+def test_a_measure_without_a_definition_that_is_compared_with_a_value_of_a_scale(comparison):
+    with pytest.raises(LanguageError) as caught:
+        rules(f"R1 when A and {comparison} then B unless ({{level}} > 3)")
+    (problem,) = caught.value.problems
+    assert problem.message == "there is no measure `level`; it is used in 1 more place"
+    assert problem.hint == "define it, between def_start and def_end: measure level: scale(low, ...)"
+    with pytest.raises(LanguageError) as caught:
+        rules("R1 when A and {m} = low then B unless rism = low unless ({x} = low)")
+    assert [(problem.message, problem.hint) for problem in caught.value.problems] == [
+        ("`m` is no scale, and `low` is a value of `risk`: they cannot be compared", SCALE_OR_NUMBER),
+        ("there is no measure `rism`", "did you mean `risk`?"),
+        ("`x` is no scale, and `low` is a value of `risk`: they cannot be compared", SCALE_OR_NUMBER),
+    ]
+
+
 UNNAMED = [(13, "the rule in line 13 has no name")]
 
 

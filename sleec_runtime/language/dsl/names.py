@@ -220,7 +220,7 @@ class Names:
         if kind == "event" or (kind is None and not self.complete):
             return
         if kind is None:
-            self._no_name(name, span, "event", "event", f"event {name}")
+            self._without_definition(name, span, "event", "event", f"event {name}")
         else:
             self.problem(
                 f"{quoted(name)} is {_ARTICLE[kind]} (line {self.line(self._spans[name])}); {what} is an event",
@@ -236,7 +236,7 @@ class Names:
         if kind == "boolean" or (kind is None and not self.complete):
             return
         if kind is None:
-            self._no_name(name, span, "boolean measure", "boolean", f"measure {name}: boolean")
+            self._without_definition(name, span, "boolean measure", "boolean", f"measure {name}: boolean")
         elif kind == "event":
             self.problem(
                 f"{quoted(name)} is an event (line {self.line(self._spans[name])}), and conditions speak of measures",
@@ -252,7 +252,7 @@ class Names:
                 f"as in: {name} {example}",
             )
 
-    def _no_name(self, name: str, span: Span, what: str, kind: NameKind, definition: str) -> None:
+    def _without_definition(self, name: str, span: Span, what: str, kind: NameKind, definition: str) -> None:
         """Reports a name that has no definition where it is used first, and counts the other uses. Where nothing is
         defined, that is one problem, and none of any name."""
         if not self._defined:
@@ -314,7 +314,9 @@ class Names:
             return self._ref(name)
         if name not in self.kinds:
             if self.complete:
-                self._no_name(name, side.span, "constant or numeric measure", "measure", f"measure {name}: numeric")
+                self._without_definition(
+                    name, side.span, "constant or numeric measure", "measure", f"measure {name}: numeric"
+                )
         else:
             self.problem(
                 f"{quoted(name)} is {'a scale' if measure is not None else _ARTICLE[self.kinds[name]]}, not a number",
@@ -480,6 +482,13 @@ class Names:
         value = side.written
         if not isinstance(value, str) or value in self.kinds or value not in self._owners:
             return False
+        compared = other.written
+        if isinstance(compared, str) and compared not in self.kinds and compared not in self._owners:
+            if self.complete:
+                self._without_definition(
+                    compared, other.span, "measure", "measure", f"measure {compared}: scale({value}, ...)"
+                )
+            return True
         self.problem(
             f"{quoted(str(other.written))} is no scale, and {quoted(value)} is a value of "
             f"{quoted(self._owners[value])}: they cannot be compared",
