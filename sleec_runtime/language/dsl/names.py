@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from math import ceil, floor, gcd
-from typing import Literal, NamedTuple, Union
+from typing import Literal, Union
 
 from sleec_runtime.errors import Problem
+from sleec_runtime.language.dsl.operands import Calculation, Operand, Side, Sum
 from sleec_runtime.language.formulas import MAX_DIGITS
 from sleec_runtime.language.resolve import MAX_PROBLEMS, did_you_mean
 from sleec_runtime.language.suggest import Suggester
@@ -48,50 +49,6 @@ _COMPARED: Mapping[Operator, Callable[[Rational, Rational], bool]] = {
     ">": operators.gt,
 }
 _MIRRORED: Mapping[Operator, Operator] = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
-
-
-class Side(NamedTuple):
-    """One side of a comparison as it is written; `braced` if it is a measure in braces."""
-
-    written: str | Rational
-    span: Span
-    braced: bool = False
-
-
-class Calculation(NamedTuple):
-    """Two sides joined by ``+``, ``-`` or ``*``."""
-
-    operator: str
-    left: Side | Calculation
-    right: Side | Calculation
-    span: Span
-
-
-Operand = Union[Side, Calculation]
-
-
-class _Sum(NamedTuple):
-    """What a calculation comes to: so many times each measure or product of two, and a number."""
-
-    terms: dict[tuple[str, ...], int]
-    number: int
-
-    def plus(self, other: _Sum, times: int = 1) -> _Sum:
-        names = [*self.terms, *(name for name in other.terms if name not in self.terms)]
-        found = {name: self.terms.get(name, 0) + times * other.terms.get(name, 0) for name in names}
-        return _Sum({name: factor for name, factor in found.items() if factor}, self.number + times * other.number)
-
-    def multiplied(self, other: _Sum) -> _Sum:
-        found = _Sum({}, self.number * other.number)
-        for one in (*self.terms.items(), ((), self.number)):
-            for two in (*other.terms.items(), ((), other.number)):
-                if names := (*one[0], *two[0]):
-                    found = found.plus(_Sum({tuple(sorted(names)): one[1] * two[1]}, 0))
-        return found
-
-    def digits(self) -> int:
-        """Those of the longest number in it."""
-        return max(len(str(abs(number))) for number in (self.number, *self.terms.values()))
 
 
 class Names:
@@ -325,17 +282,17 @@ class Names:
             )
         return None
 
-    def _sum(self, side: Operand) -> _Sum | None:
+    def _sum(self, side: Operand) -> Sum | None:
         """What a side comes to; None, and a problem, if it cannot be told."""
         if isinstance(side, Side):
             term = self.number(side)
             if term is None:
                 return None
             if isinstance(term, MeasureRef):
-                return _Sum({(term.name,): 1}, 0)
+                return Sum({(term.name,): 1}, 0)
             if term.constant is not None:
                 self.calculated_with.add(term.constant)
-            return _Sum({}, int(term.value))
+            return Sum({}, int(term.value))
         left, right = self._sum(side.left), self._sum(side.right)
         if left is None or right is None:
             return None
@@ -350,7 +307,7 @@ class Names:
             found = left.multiplied(right)
         return self._limited(found, side.span)
 
-    def _limited(self, found: _Sum, span: Span) -> _Sum | None:
+    def _limited(self, found: Sum, span: Span) -> Sum | None:
         """What a calculation comes to; None, and a problem, if that is too long."""
         if len(found.terms) > MAX_TERMS:
             self.problem(
