@@ -342,7 +342,7 @@ class Ruleset:
     `statements` holds everything in the order of the text. `inferred` are the measures that the rules compare but
     the text does not declare. `reading` is how chains of hedges are read; `reading_stated` says whether the text
     says so itself. `dialect` is that of a text in the DSL, `defects` what of it is read only because others read it,
-    and `calculated_with` are the constants of its calculations, which are worked out when it is read.
+    and `calculated_with` are the constants of what is worked out when it is read, and does not name them any more.
     """
 
     statements: tuple[Statement, ...]

@@ -95,11 +95,11 @@ def worked_out(written: str, known) -> bool:
 
 
 def read(written: str):
-    """The guard, or None where both sides are fixed numbers, or have products of more than two measures."""
+    """The guard, or None where there are products of more than two measures."""
     try:
         return guard_of(written)
     except LanguageError as error:
-        if {p.message[:9] for p in error.problems} <= {"both side", "a product"}:
+        if {p.message[:9] for p in error.problems} <= {"a product"}:
             return None
         raise
 

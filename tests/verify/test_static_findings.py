@@ -164,6 +164,9 @@ def test_the_nearest_event_is_suggested_where_none_is_declared():
         ("{asleep} or ({heat} <> {heat})", ["{heat} <> {heat}"]),
         ("not (not ({asleep} or (not {asleep})))", ["{asleep} or (not {asleep})"]),
         ("true", ["true"]),
+        ("0 < LIMIT", ["0 < LIMIT"]),
+        ("{asleep} and (50 <> 34)", ["50 <> 34"]),
+        ("{asleep} or (0 > 1)", ["0 > 1"]),
         # That the whole is never true is said by dead-rule.
         ("({heat} > 3) and ({heat} < 4)", []),
         ("{asleep} and false", []),

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import NoReturn
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.dsl.scanner import BLOCK_MARKS, BLOCKS, DEFINITIONS, KEYWORDS
+from sleec_runtime.language.dsl.scanner import BLOCK_MARKS, BLOCKS, DEFINITIONS, KEYWORDS, UNNAMED
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.suggest import nearest
 from sleec_runtime.language.token_reader import MAX_DEPTH, MAX_NAME, TokenReader, composed, quoted
 from sleec_runtime.model import Dialect, Source, Span
 
-ITEM_STARTS = BLOCK_MARKS | DEFINITIONS | {"label", "relation", "end"}
+ITEM_STARTS = BLOCK_MARKS | DEFINITIONS | {"label", UNNAMED, "relation", "end"}
 """The kinds of token that start a definition, a rule, a claim or a relation, or end a block."""
 
 _SUGGESTED = sorted(KEYWORDS)

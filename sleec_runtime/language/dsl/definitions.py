@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sleec_runtime.language.dsl.formulas import FormulaParser
-from sleec_runtime.language.dsl.names import Side
+from sleec_runtime.language.dsl.operands import Side
 from sleec_runtime.language.suggest import nearest
 from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import Agent, Constant, Declaration, Measure, Span

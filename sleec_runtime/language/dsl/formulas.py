@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.dsl.cursor import Cursor
-from sleec_runtime.language.dsl.names import Calculation, Names, Operand, Side
+from sleec_runtime.language.dsl.names import Names
+from sleec_runtime.language.dsl.operands import Calculation, Operand, Side
 from sleec_runtime.language.formulas import MAX_DIGITS, OPERATORS
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.token_reader import quoted

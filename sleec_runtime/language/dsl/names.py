@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from math import ceil, floor, gcd
-from typing import Literal, NamedTuple, Union
+from typing import Literal, Union
 
 from sleec_runtime.errors import Problem
+from sleec_runtime.language.dsl.operands import Operand, Side, Sum
 from sleec_runtime.language.formulas import MAX_DIGITS
 from sleec_runtime.language.resolve import MAX_PROBLEMS, did_you_mean
 from sleec_runtime.language.suggest import Suggester
@@ -50,59 +51,16 @@ _COMPARED: Mapping[Operator, Callable[[Rational, Rational], bool]] = {
 _MIRRORED: Mapping[Operator, Operator] = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
 
-class Side(NamedTuple):
-    """One side of a comparison as it is written; `braced` if it is a measure in braces."""
-
-    written: str | Rational
-    span: Span
-    braced: bool = False
-
-
-class Calculation(NamedTuple):
-    """Two sides joined by ``+``, ``-`` or ``*``."""
-
-    operator: str
-    left: Side | Calculation
-    right: Side | Calculation
-    span: Span
-
-
-Operand = Union[Side, Calculation]
-
-
-class _Sum(NamedTuple):
-    """What a calculation comes to: so many times each measure or product of two, and a number."""
-
-    terms: dict[tuple[str, ...], int]
-    number: int
-
-    def plus(self, other: _Sum, times: int = 1) -> _Sum:
-        names = [*self.terms, *(name for name in other.terms if name not in self.terms)]
-        found = {name: self.terms.get(name, 0) + times * other.terms.get(name, 0) for name in names}
-        return _Sum({name: factor for name, factor in found.items() if factor}, self.number + times * other.number)
-
-    def multiplied(self, other: _Sum) -> _Sum:
-        found = _Sum({}, self.number * other.number)
-        for one in (*self.terms.items(), ((), self.number)):
-            for two in (*other.terms.items(), ((), other.number)):
-                if names := (*one[0], *two[0]):
-                    found = found.plus(_Sum({tuple(sorted(names)): one[1] * two[1]}, 0))
-        return found
-
-    def digits(self) -> int:
-        """Those of the longest number in it."""
-        return max(len(str(abs(number))) for number in (self.number, *self.terms.values()))
-
-
 class Names:
     """The names of one text and what they stand for."""
 
-    def __init__(self, source: Source, problems: list[Problem]) -> None:
+    def __init__(self, source: Source, problems: list[Problem], defined: bool = True) -> None:
+        """`defined` says whether the text has a block of definitions at all."""
         self.kinds: dict[str, NameKind] = {}
         self.measures: dict[str, Measure] = {}
         self.constants: dict[str, Constant] = {}
         self.calculated_with: set[str] = set()
-        """The constants of calculations, which these do not name any more once they are worked out."""
+        """The constants of what is worked out when it is read, and does not name them any more."""
         self.defects: list[Defect] = []
         self.complete = True
         """False once a definition could not be read: then a name without one is no news."""
@@ -112,6 +70,9 @@ class Names:
         self._owners: dict[str, str] = {}
         self._labels: dict[str, tuple[Span, int]] = {}
         self._refs: dict[str, MeasureRef] = {}
+        self._defined = defined
+        self._undefined: dict[str, tuple[int, int]] = {}
+        """Names without a definition: which problem says so, and how often each is used."""
         self._nearest = Suggester().nearest
 
     def problem(self, message: str, span: Span, hint: str | None) -> None:
@@ -216,7 +177,7 @@ class Names:
         if kind == "event" or (kind is None and not self.complete):
             return
         if kind is None:
-            self._undefined(name, span, "event", "event")
+            self._without_definition(name, span, "event", "event", f"event {name}")
         else:
             self.problem(
                 f"{quoted(name)} is {_ARTICLE[kind]} (line {self.line(self._spans[name])}); {what} is an event",
@@ -232,7 +193,7 @@ class Names:
         if kind == "boolean" or (kind is None and not self.complete):
             return
         if kind is None:
-            self._undefined(name, span, "boolean measure", "boolean")
+            self._without_definition(name, span, "boolean measure", "boolean", f"measure {name}: boolean")
         elif kind == "event":
             self.problem(
                 f"{quoted(name)} is an event (line {self.line(self._spans[name])}), and conditions speak of measures",
@@ -248,17 +209,40 @@ class Names:
                 f"as in: {name} {example}",
             )
 
-    def _undefined(self, name: str, span: Span, what: str, kind: NameKind) -> None:
+    def _without_definition(self, name: str, span: Span, what: str, kind: NameKind, definition: str) -> None:
+        """Reports a name that has no definition where it is used first, and counts the other uses. Where nothing is
+        defined, that is one problem, and none of any name."""
+        if not self._defined:
+            self._no_definitions()
+            return
+        if name in self._undefined:
+            problem, uses = self._undefined[name]
+            self._undefined[name] = problem, uses + 1
+            return
+        self._undefined[name] = len(self._problems), 1
         known = [other for other, its in self.kinds.items() if its == kind]
         near = self._nearest(name, known) if len(self._problems) < MAX_PROBLEMS else None
-        as_in = (
-            f"event {name}" if kind == "event" else f"measure {name}: {'boolean' if kind == 'boolean' else 'numeric'}"
-        )
         self.problem(
             f"there is no {what} {quoted(name)}",
             span,
-            did_you_mean(near) or f"define it, between def_start and def_end: {as_in}",
+            did_you_mean(near) or f"define it, between def_start and def_end: {definition}",
         )
+
+    def _no_definitions(self) -> None:
+        self.complete = False
+        self.problem(
+            "there is no def_start block, so no name in this text is defined",
+            Span(0, 0),
+            "begin with definitions, as in: def_start event SmokeDetected measure userAtHome: boolean def_end",
+        )
+
+    def count_uses(self) -> None:
+        """Adds to what is said of each name without a definition how often it is used, once all uses are known."""
+        for problem, uses in self._undefined.values():
+            if uses > 1:
+                more = "1 more place" if uses == 2 else f"{uses - 1:,} more places"
+                said = self._problems[problem]
+                self._problems[problem] = replace(said, message=f"{said.message}; it is used in {more}")
 
     def amount(self, operand: Operand) -> Union[Number, MeasureRef, Calculated, None]:
         """How long something takes: a number, a constant, a numeric measure, or what is calculated from these; None,
@@ -290,7 +274,9 @@ class Names:
             return self._ref(name)
         if name not in self.kinds:
             if self.complete:
-                self._undefined(name, side.span, "constant or numeric measure", "measure")
+                self._without_definition(
+                    name, side.span, "constant or numeric measure", "measure", f"measure {name}: numeric"
+                )
         else:
             self.problem(
                 f"{quoted(name)} is {'a scale' if measure is not None else _ARTICLE[self.kinds[name]]}, not a number",
@@ -299,17 +285,17 @@ class Names:
             )
         return None
 
-    def _sum(self, side: Operand) -> _Sum | None:
+    def _sum(self, side: Operand) -> Sum | None:
         """What a side comes to; None, and a problem, if it cannot be told."""
         if isinstance(side, Side):
             term = self.number(side)
             if term is None:
                 return None
             if isinstance(term, MeasureRef):
-                return _Sum({(term.name,): 1}, 0)
+                return Sum({(term.name,): 1}, 0)
             if term.constant is not None:
                 self.calculated_with.add(term.constant)
-            return _Sum({}, int(term.value))
+            return Sum({}, int(term.value))
         left, right = self._sum(side.left), self._sum(side.right)
         if left is None or right is None:
             return None
@@ -324,7 +310,7 @@ class Names:
             found = left.multiplied(right)
         return self._limited(found, side.span)
 
-    def _limited(self, found: _Sum, span: Span) -> _Sum | None:
+    def _limited(self, found: Sum, span: Span) -> Sum | None:
         """What a calculation comes to; None, and a problem, if that is too long."""
         if len(found.terms) > MAX_TERMS:
             self.problem(
@@ -347,8 +333,9 @@ class Names:
 
     # Comparisons ----------------------------------------------------------------------------------------------
 
-    def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison | None:
-        """``left operator right``; None, and a problem, if the sides do not fit."""
+    def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison | Truth | None:
+        """``left operator right``; None, and a problem, if the sides do not fit. With two fixed numbers it is true or
+        false, whatever the situation."""
         one, two = self._scale(left), self._scale(right)
         terms: tuple[Term | None, Term | None]
         if one is not None and two is not None:
@@ -368,14 +355,10 @@ class Names:
         else:
             if self._stray(left, right) or self._stray(right, left):
                 return None
-            terms = self.number(left), self.number(right)
-            if isinstance(terms[0], Number) and isinstance(terms[1], Number):
-                self.problem(
-                    "both sides are fixed numbers, so the answer is always the same",
-                    span,
-                    "compare a measure with a number, or write true or false",
-                )
-                return None
+            terms = number, other = self.number(left), self.number(right)
+            if isinstance(number, Number) and isinstance(other, Number):
+                self.calculated_with.update(name for name in (number.constant, other.constant) if name is not None)
+                return Truth(_COMPARED[operator](number.value, other.value), span)
         first, second = terms
         return None if first is None or second is None else Comparison(first, operator, second, span)
 
@@ -459,6 +442,13 @@ class Names:
         value = side.written
         if not isinstance(value, str) or value in self.kinds or value not in self._owners:
             return False
+        compared = other.written
+        if isinstance(compared, str) and compared not in self.kinds and compared not in self._owners:
+            if self.complete:
+                self._without_definition(
+                    compared, other.span, "measure", "measure", f"measure {compared}: scale({value}, ...)"
+                )
+            return True
         self.problem(
             f"{quoted(str(other.written))} is no scale, and {quoted(value)} is a value of "
             f"{quoted(self._owners[value])}: they cannot be compared",

@@ -12,7 +12,7 @@ from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.dsl.cursor import ITEM_STARTS
 from sleec_runtime.language.dsl.names import Names
 from sleec_runtime.language.dsl.relations import RelationParser
-from sleec_runtime.language.dsl.scanner import BLOCKS, DEFINITIONS, scan, sniff
+from sleec_runtime.language.dsl.scanner import BLOCKS, DEFINITIONS, UNNAMED, scan, sniff
 from sleec_runtime.language.garbage import uncollected
 from sleec_runtime.language.resolve import first_problems
 from sleec_runtime.language.token_reader import Abandon
@@ -20,7 +20,6 @@ from sleec_runtime.model import Clause, Constant, Formula, Rule, Ruleset, Source
 from sleec_runtime.model_time import ClaimKind
 
 _Read = TypeVar("_Read")
-_CLAUSES = ITEM_STARTS | {"unless"}
 _BELONGS = {
     "def_start": ("an event, a measure or a constant", "define something, as in: event SmokeDetected"),
     "rule_start": ("a rule", "a rule looks like this: R1 when Event then Response"),
@@ -40,9 +39,10 @@ def parse_dsl(source: Source) -> Ruleset:
     with uncollected():
         tokens = scan(source.text)
         dialect = sniff(tokens)
-        names = Names(source, problems)
+        names = Names(source, problems, "def_start" in tokens.kinds)
         statements = DslParser(source, tokens, dialect, problems, names).statements()
     if problems:
+        names.count_uses()
         raise LanguageError(source, first_problems(problems))
     return Ruleset(
         statements=tuple(statements),
@@ -58,6 +58,9 @@ def parse_dsl(source: Source) -> Ruleset:
 
 class DslParser(RelationParser):
     """Reads a whole text, once."""
+
+    _hedges_of_rules: set[int] | None = None
+    """Every `unless` that begins a hedge of a rule, once a problem makes it worth knowing."""
 
     def statements(self) -> list[Statement]:
         """Everything in the text, in its order; what could not be read is among the problems instead."""
@@ -114,7 +117,9 @@ class DslParser(RelationParser):
             try:
                 if self.kinds[self.at] in BLOCKS.values():
                     self.fail(f"this {self.token_text(self.at)} closes no block", self.token_span(self.at), "delete it")
-                self.expected("the start of a block, such as rule_start", "rules stand between rule_start and rule_end")
+                what, block = ("definitions", "def") if self.kinds[self.at] in DEFINITIONS else ("rules", "rule")
+                hint = f"{what} stand between {block}_start and {block}_end"
+                self.expected(f"the start of a block, such as {block}_start", hint)
             except Abandon:
                 self.names.complete = False
                 self.at += 1
@@ -128,9 +133,11 @@ class DslParser(RelationParser):
         kind = self.kinds[self.at]
         if block == "relation_start" and kind == "relation":
             return self._read(self.relation, "the next relation")
-        if block == "rule_start" and kind == "label" and self.kinds[self.at + 1] == "when":
+        begins = kind in ("label", UNNAMED)
+        keyword = self._keyword() if begins else self.at
+        if block == "rule_start" and begins and self.token_text(keyword) == "when":
             return self._rule()
-        if block in ("concern_start", "purpose_start") and kind == "label":
+        if block in ("concern_start", "purpose_start") and begins:
             of = cast("ClaimKind", block[:7])
             return self._read(lambda: self.claim(of), f"the next {of}")
         what, hint = _BELONGS[block]
@@ -138,10 +145,10 @@ class DslParser(RelationParser):
         try:
             if block == "rule_start" and kind in ("when", "word") and self.kinds[self.at - 1] not in BLOCKS:
                 hint = "every rule begins with its name: R1 when Event then Response"
-            if kind == "label":
+            if begins and block == "rule_start":
                 self.fail(
                     f"exists asks whether something can be, and {what} says what must be",
-                    self.token_span(self.at + 1),
+                    self.token_span(keyword),
                     "write when, or move it to the concerns or purposes",
                 )
             self.expected(f"{what}", hint)
@@ -149,6 +156,13 @@ class DslParser(RelationParser):
             self.at += 1
             self.skip(ITEM_STARTS)
             return None
+
+    def _keyword(self) -> int:
+        """The ``when`` or ``exists`` of the rule or claim that begins here."""
+        at = self.at
+        if self.kinds[at] == "label":
+            at += 2 if self.kinds[at + 1] == ":" else 1
+        return at
 
     def _read(self, read: Callable[[], _Read], what: str) -> _Read | None:
         """What `read` reads, to the end of the item; None if there was a problem."""
@@ -162,15 +176,37 @@ class DslParser(RelationParser):
         return None if self.hurt else found
 
     def recover(self) -> None:
-        self.skip(_CLAUSES)
+        """On to the next hedge of the rule, or behind the rule. What brackets hold is no hedge of the rule."""
+        if self._hedges_of_rules is None:
+            self._hedges_of_rules = self._outside_brackets()
+        while self.kinds[self.at] not in ITEM_STARTS and self.at not in self._hedges_of_rules:
+            self.at += 1
+
+    def _outside_brackets(self) -> set[int]:
+        """Every `unless` that neither braces nor parentheses hold; what is not closed before the next rule begins holds
+        nothing."""
+        outside: list[int] = []
+        opened: dict[str, list[int]] = {"}": [], ")": []}
+        for token, kind in enumerate(self.kinds):
+            if kind == "unless":
+                outside.append(token)
+            elif kind in ("{", "("):
+                opened["}" if kind == "{" else ")"].append(token)
+            elif kind in opened:
+                opening = opened[kind].pop() if opened[kind] else token
+                while outside and outside[-1] > opening:
+                    outside.pop()
+            elif kind in ITEM_STARTS:
+                for openings in opened.values():
+                    openings.clear()
+        return set(outside)
 
     # Rules ----------------------------------------------------------------------------------------------------
 
     def _rule(self) -> Rule | None:
         first = self.at
-        label_span = self.token_span(first)
-        label = self.names.label(self.token_text(first), label_span)
-        self.at += 2
+        label, label_span = self.label("rule")
+        self.at += 1
         opening: tuple[str, Span, Formula | None, Clause] | None = None
         self.begin_clause()
         try:

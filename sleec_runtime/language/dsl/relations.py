@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
+from sleec_runtime.errors import Problem
 from sleec_runtime.language.dsl.responses import ResponseParser
+from sleec_runtime.language.dsl.scanner import UNNAMED
 from sleec_runtime.language.suggest import nearest
 from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Span
@@ -23,8 +25,32 @@ _EVENT_RELATIONS = ("witness", "equal", "mutualExclusive", "happenBefore")
 _MEASURE_RELATIONS = ("imply", "iff", "mutualExclusive", "opposite", "invariant")
 
 
+_NAMED = {
+    "rule": "every rule begins with its name: R1 when Event then Response",
+    "concern": "every concern begins with its name: c1 when Event then not Response",
+    "purpose": "every purpose begins with its name: p1 exists Event",
+}
+
+
 class RelationParser(ResponseParser):
     """Reads what a ruleset says besides its rules."""
+
+    def label(self, what: str) -> tuple[str, Span]:
+        """Reads the name of a rule or claim, as `what` says, up to its ``when`` or ``exists``. What is wrong with it
+        leaves the rest readable."""
+        at = self.at
+        span = self.token_span(at)
+        if self.kinds[at] == UNNAMED:
+            message = f"the {what} in line {self.line_of(at)} has no name"
+            self.problems.append(Problem(message, span, _NAMED[what]))
+            return "", span
+        self.at += 1
+        label = self.names.label(self.token_text(at), span)
+        if self.kinds[self.at] == ":":
+            message = f"there is no colon behind the name of a {what}"
+            self.problems.append(Problem(message, self.token_span(self.at), "leave it out"))
+            self.at += 1
+        return label, span
 
     def occasion(self, what: str) -> tuple[str, Span, Formula | None]:
         """``Event [and condition]``."""
@@ -41,12 +67,11 @@ class RelationParser(ResponseParser):
 
     def claim(self, kind: ClaimKind) -> Claim:
         first = self.at
-        self.at += 1
-        label = self.names.label(self.token_text(first), self.token_span(first))
+        label, _ = self.label(kind)
         return self._claim(kind, label, first)
 
     def _claim(self, kind: ClaimKind, label: str, first: int) -> Claim:
-        form: ClaimForm = "exists" if self.kinds[self.at] == "exists" else "when"
+        form: ClaimForm = "exists" if self.token_text(self.at) == "exists" else "when"
         self.at += 1
         event, event_span, condition = self.occasion(f"the event of a {kind}")
         responses: list[Clause] = []

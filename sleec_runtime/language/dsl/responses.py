@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, cast
 
 from sleec_runtime.language.dsl.definitions import DefinitionParser
-from sleec_runtime.language.dsl.names import Side
+from sleec_runtime.language.dsl.operands import Side
 from sleec_runtime.language.token_reader import ALTERNATIVE_LEVELS, Abandon, quoted
 from sleec_runtime.language.units import UNITS, unit_meant
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Number, Obligation, Span

@@ -7,10 +7,14 @@ from array import array
 
 from sleec_runtime.language.comments import Remark, attach
 from sleec_runtime.language.scanner import Tokens
+from sleec_runtime.language.units import UNITS
 from sleec_runtime.model import Dialect
 
 BLOCKS = {f"{name}_start": f"{name}_end" for name in ("def", "rule", "concern", "purpose", "relation")}
 """The keywords that open a block, each with the one that closes it."""
+
+UNNAMED = "unnamed"
+"""The kind of a ``when`` or ``exists`` that begins a rule or claim without a name."""
 
 BLOCK_MARKS = frozenset(BLOCKS) | frozenset(BLOCKS.values())
 DEFINITIONS = frozenset({"event", "measure", "constant"})
@@ -22,6 +26,12 @@ KEYWORDS = (
 )
 EVENT_RELATIONS = frozenset({"witness", "equal", "mutualExclusive", "happenBefore"})
 EFFECTS = frozenset({"causation", "includes", "forbid"})
+
+_UNFINISHED = DEFINITIONS | {
+    *("when", "exists", UNNAMED, "then", "while", "until", "otherwise", "else", "unless", "within"),
+    *("and", "or", "not", "operator", "+", "-", "*", "->", "(", "[", "{", ","),
+}
+"""The kinds of token behind which a name goes on with what they begin."""
 
 LINE_STARTS = BLOCK_MARKS | DEFINITIONS | {"label", "relation", "unless"}
 """The kinds of token that begin a line where the printer writes one."""
@@ -40,7 +50,8 @@ _MARKS = {
 def scan(text: str) -> Tokens:
     """The tokens of `text`, in time linear in its length. Nothing is refused here; the parser says what is wrong.
 
-    A name before ``when`` or ``exists`` is a ``label``, and what begins a relation is a ``relation``.
+    A name before ``when`` or ``exists`` is a ``label``, unless it ends what stands before it; where nothing is one, the
+    ``when`` is `UNNAMED`. What begins a relation is a ``relation``.
     """
     kinds: list[str] = []
     starts = array("q")
@@ -57,8 +68,8 @@ def scan(text: str) -> Tokens:
                 remarks += _remarks(token, match.start(), len(kinds))
                 continue
             kind = _kind(token, first)
-        elif kind in ("when", "exists") and kinds and kinds[-1] == "word":
-            kinds[-1] = "label"
+        elif kind in ("when", "exists"):
+            kind = _mark_label(kind, text, match.start(), kinds, starts, ends)
         kinds.append(kind)
         starts.append(match.start())
         ends.append(match.end())
@@ -69,6 +80,32 @@ def scan(text: str) -> Tokens:
     _mark_relations(text, kinds, starts, ends)
     comments, closing = attach(remarks, text, kinds, starts, ends, LINE_STARTS, BLOCK_MARKS, BLOCKS)
     return Tokens(kinds, starts, ends, comments, closing)
+
+
+def _mark_label(kind: str, text: str, start: int, kinds: list[str], starts: array[int], ends: array[int]) -> str:
+    """Marks the label before the ``when`` or ``exists`` that begins at `start`; the kind of that token itself."""
+    before = kinds[-1] if kinds else "end"
+    colon = before == ":"
+    at = len(kinds) - (2 if colon else 1)
+    if at >= 0 and kinds[at] == "word" and not _ends_response(at, text, start, kinds, starts, ends):
+        kinds[at] = "label"
+        return kind
+    begins_line = "\n" in text[ends[-1] : start] if kinds else True
+    begins_rule = before in BLOCK_MARKS or before == "word" or begins_line
+    return UNNAMED if begins_rule and before not in ("(", "meanwhile", "when", "exists", UNNAMED) else kind
+
+
+def _ends_response(at: int, text: str, start: int, kinds: list[str], starts: array[int], ends: array[int]) -> bool:
+    """Whether the name in token `at`, before a ``when`` that begins at `start`, is the rest of what stands before it:
+    an event behind ``then``, say, or a unit behind a number. One that begins the line of ``when`` is a label even so.
+    """
+    if at == 0:
+        return False
+    before = kinds[at - 1]
+    unit = before in ("number", "word", "}", ")", "]") and text[starts[at] : ends[at]] in UNITS
+    if before not in _UNFINISHED and not unit:
+        return False
+    return "\n" not in text[ends[at - 1] : starts[at]] or "\n" in text[ends[at] : start]
 
 
 def _kind(token: str, first: str) -> str:
@@ -108,6 +145,8 @@ def _mark_relations(text: str, kinds: list[str], starts: array[int], ends: array
         elif inside:
             if kind == "label":
                 kinds[token] = kind = "word"
+            elif kind == UNNAMED:
+                kinds[token] = kind = text[starts[token] : ends[token]]
             of_measures = kinds[token - 1] == "relation" and text[starts[token - 1] : ends[token - 1]] == "measure"
             if kind in ("when", "measure") or (
                 kind == "word" and not of_measures and text[starts[token] : ends[token]] in EVENT_RELATIONS | EFFECTS
