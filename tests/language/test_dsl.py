@@ -136,7 +136,7 @@ def test_a_problem_anywhere_in_a_rule_with_braces_is_one_problem(place):
 @pytest.mark.parametrize(
     ("clause", "count"),
     [
-        ("then B within ({x} + 2) minutes otherwise C else {not B unless {n} then C} unless m", 1),
+        ("then B within ({x} + ?) minutes otherwise C else {not B unless {n} then C} unless m", 1),
         ("then not {B unless {n} then C} unless m", 1),
         ("then B within 2 munites unless m then {not B unless n then C} unless ? then A", 2),
         ("and {m then B unless ? then {C unless n} unless ! then A", 3),
