@@ -19,7 +19,8 @@ from sleec_verify.timed import conflicts
 from sleec_verify.timed.brought import Brought
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.conflicts import FEW_PLANS, _partial, _Search, conflict
-from sleec_verify.timed.policy import Policies, can_come_late
+from sleec_verify.timed.plans import Plan
+from sleec_verify.timed.policy import Policies, Policy, can_come_late
 from sleec_verify.timed.program import Program, events_of
 from tests.timed_agreement import SIZES, answered
 from tests.timed_strategies import timed_ruleset
@@ -391,3 +392,53 @@ LATE = [
 @pytest.mark.parametrize(("expected", "rules", "relations"), LATE)
 def test_after_all_else(expected, rules, relations):
     assert can_come_late(Program(parse(written(rules, relations))), "A") is expected
+
+
+# Histories that a policy does not suit --------------------------------------------------------------------
+
+A_SOON = Policy(soon=frozenset("A"))
+UNSUITED = {
+    "there is no time left": (
+        ("r when B then A within 1 minute", "now when C then not A"),
+        A_SOON,
+        range(60, 61),
+    ),
+    "it is forbidden, and there is time left": (
+        ("r when B then not A within 1 minute", "now when C then A within 10 seconds"),
+        A_SOON,
+        range(1, 51),
+    ),
+    "it is forbidden in the next second": (
+        ("r when B then not A within [2, 2] seconds", "now when C then A within [1, 1] seconds"),
+        Policy(soon=frozenset("A"), next=frozenset("A")),
+        range(1, 2),
+    ),
+    "it is forbidden without end": (
+        ("r when B then not A eventually", "now when C then A eventually"),
+        Policy(late=frozenset("A")),
+        range(1, 100),
+    ),
+    "it comes late, and has to be done by then": (
+        ("r when B then not A within 1 minute", "now when C then A within 10 seconds"),
+        Policy(late=frozenset("A")),
+        range(1, 51),
+    ),
+    "what has to come before has not come": (
+        ("r when B then not D within 1 minute", "now when C then A within 10 seconds", "before D A"),
+        A_SOON,
+        range(1, 52),
+    ),
+}
+
+
+@pytest.mark.parametrize(("rules", "policy", "times"), UNSUITED.values(), ids=UNSUITED.keys())
+def test_a_history_that_a_policy_does_not_suit_is_found_all_the_same(rules, policy, times):
+    relations = "".join(f"happenBefore{rule[6:]}" for rule in rules if rule.startswith("before"))
+    program = Program(parse(written("\n".join(r for r in rules if not r.startswith("before")), relations)))
+    rule = program.ruleset.by_label["now"]
+    search = _Search(program, rule, Cone(program, rule), 1)
+    search.plans.defeat(Plan(frozenset(), policy=policy))
+    history = search.find()
+    assert history is not None
+    past, now = history
+    assert "B" in now.events or ("B" in past.events and now.time - past.time in times)
