@@ -74,7 +74,8 @@ class History:
 class _Search:
     """The search for a history with a number of instants before now, at any times; or with instants at some of the
     last `seconds` as well; or, `in_part`, for as many instants at most that are part of a history, where all that can
-    have come about at the others may have."""
+    have come about at the others may have. `from_now`, only plans that are reckoned from now count, and no more of them
+    than there are instants before now: then there is no other history either."""
 
     def __init__(
         self,
