@@ -300,9 +300,7 @@ def laws(ruleset: Ruleset) -> list[Any]:
 
 
 def seconds(length: Length, instant: Instant) -> Any:
-    amount = length.amount
-    value = number(amount.value) if isinstance(amount, Number) else instant.measure(amount.name)
-    return value * SECONDS[length.unit]
+    return side(length.amount, instant) * SECONDS[length.unit]
 
 
 def number(value: Any) -> Any:
@@ -327,7 +325,7 @@ def side(term: Term, instant: Instant) -> Any:
     if isinstance(term, MeasureRef):
         return instant.measure(term.name)
     if isinstance(term, Calculated):
-        summands = (factor * z3.Product(*map(instant.measure, names)) for factor, names in term.terms)
+        summands = (z3.Product(factor, *map(instant.measure, names)) for factor, names in term.terms)
         return z3.Sum(*summands)
     return z3.IntVal(term.rank) if isinstance(term, ScaleValue) else number(term.value)
 

@@ -18,6 +18,11 @@ MEASURES = "MEASURE heat: number\nMEASURE cold: number\n"
 TRUE, FALSE = "(heat > 3 OR heat <= 3)", "(cold > 3 AND cold < 2)"
 
 
+def advice(finding: Finding) -> str:
+    assert finding.help is not None
+    return finding.help
+
+
 def findings(ruleset: Ruleset) -> tuple[Finding, ...]:
     (result,) = run_checks(ruleset, ["constant-condition"])
     return result.findings
@@ -68,13 +73,14 @@ def test_what_can_be_left_out_of_a_condition_changes_nothing(condition, in_guard
     ruleset = parse(MEASURES + text)
     (rule,) = ruleset.rules
     whole = rule.guard if in_guard else rule.hedges[0].condition
+    assert whole is not None
     for finding in findings(ruleset):
         left = without(whole, what_can_go(finding))
         if in_guard:
-            assert (left is None) == ("leave out the whole guard" in finding.help)
+            assert (left is None) == ("leave out the whole guard" in advice(finding))
             changed = replace(rule, guard=left)
         elif left is None:
-            assert finding.help.startswith("mend it: as it stands, the hedge always decides")
+            assert advice(finding).startswith("mend it: as it stands, the hedge always decides")
             continue
         else:
             changed = replace(rule, hedges=(replace(rule.hedges[0], condition=left),))
@@ -97,7 +103,7 @@ def test_the_whole_that_can_go_is_shown(condition, leave_out, said):
     text = f"{MEASURES}WHEN t AND ({condition}) THEN a"
     span = what_can_go(finding)
     assert text[span.start : span.end].strip("()") == leave_out.strip("()")
-    assert finding.help == f"mend it, or {said}"
+    assert advice(finding) == f"mend it, or {said}"
 
 
 def test_in_the_dsl_the_words_are_those_of_the_dsl():
@@ -105,14 +111,14 @@ def test_in_the_dsl_the_words_are_those_of_the_dsl():
         "def_start event Called event Answer measure heat: numeric measure c: boolean measure d: boolean def_end\n"
         "rule_start R1 when Called and ({c} and ({d} or ({heat} = {heat}))) then Answer rule_end"
     )
-    assert finding.help == "mend it, or leave out the whole or, which it makes true"
+    assert advice(finding) == "mend it, or leave out the whole or, which it makes true"
 
 
 @pytest.mark.parametrize("condition", [TRUE, f"c OR {TRUE}", f"NOT (c AND {FALSE})"])
 def test_a_guard_that_is_always_true_can_go(condition):
     old = parse(f"{MEASURES}WHEN t AND ({condition}) THEN a UNLESS d IN WHICH CASE b")
     (finding,) = findings(old)
-    assert finding.help.startswith("mend it, or leave out the whole guard")
+    assert advice(finding).startswith("mend it, or leave out the whole guard")
     assert compare(old, with_rule(old, replace(old.rules[0], guard=None))).relation == "equivalent"
 
 
@@ -126,17 +132,17 @@ def test_a_hedge_that_always_holds(reading, condition, place, length):
     hedges = [f"UNLESS {condition if n == place else f'c{n}'} IN WHICH CASE o{n}" for n in range(length)]
     old = parse(f"{MEASURES}READING {reading}\nWHEN t THEN a {' '.join(hedges)}")
     (finding,) = findings(old)
-    assert (finding.help.count("always decides") == 1) == (
+    assert (advice(finding).count("always decides") == 1) == (
         place + 1 == length and (place == 0 or reading == "priority")
     )
     (rule,) = old.rules
-    if "put its response in place of the default," in finding.help:
-        assert "the default never decides" in finding.help or "neither the default nor" in finding.help
-        assert ("leave out the hedge and those before it" in finding.help) == (place > 0)
+    if "put its response in place of the default," in advice(finding):
+        assert "the default never decides" in advice(finding) or "neither the default nor" in advice(finding)
+        assert ("leave out the hedge and those before it" in advice(finding)) == (place > 0)
         response = rule.hedges[place].obligations
         changed = replace(rule, default=replace(rule.default, obligations=response), hedges=rule.hedges[place + 1 :])
     else:
-        assert "the hedge before it never decides" in finding.help
+        assert "the hedge before it never decides" in advice(finding)
         before = replace(rule.hedges[place - 1], obligations=rule.hedges[place].obligations)
         changed = replace(rule, hedges=(*rule.hedges[: place - 1], before, *rule.hedges[place + 1 :]))
     assert compare(old, with_rule(old, changed)).relation == "equivalent"
@@ -147,7 +153,7 @@ def test_a_hedge_that_always_holds(reading, condition, place, length):
 
 def test_a_hedge_without_a_response_is_not_told_to_move_it():
     finding = only(f"{MEASURES}WHEN t THEN a UNLESS {TRUE}")
-    assert finding.help == "mend it: as it stands, the hedge always decides, so the default never decides"
+    assert advice(finding) == "mend it: as it stands, the hedge always decides, so the default never decides"
 
 
 def test_in_a_chain_inside_a_response():
@@ -155,8 +161,8 @@ def test_in_a_chain_inside_a_response():
     old = parse(text)
     (finding,) = findings(old)
     first = "what its chain begins with"
-    assert f"so {first} never decides" in finding.help
-    assert f"in place of {first}" in finding.help
+    assert f"so {first} never decides" in advice(finding)
+    assert f"in place of {first}" in advice(finding)
     (rule,) = old.rules
     holder = rule.hedges[0]
     changed = Clause(holder.condition, holder.hedges[0].obligations)
@@ -184,4 +190,4 @@ def test_beside_the_rules(beside, said):
         "def_start event Called event Answer event Wait measure heat: numeric measure risk: scale(low, high) def_end\n"
         f"rule_start R1 when Called then Answer R2 when Called then Wait rule_end\n{beside}"
     )
-    assert said in finding.help
+    assert said in advice(finding)

@@ -58,7 +58,7 @@ class Played:
         """What the responses that are not met yet call for, whether or not it can be done."""
         after = self.instants[-1].time + 1
         for ways in due:
-            left = []
+            left: list[object] = []
             for way in ways:
                 over = [one.last is not None and one.last < after for one in way]
                 happened = [self.occurred(one) for one in way]
