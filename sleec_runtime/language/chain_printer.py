@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from sleec_runtime.language.formula_printer import print_formula, print_term
 from sleec_runtime.language.line_printer import behind, comment_lines, trimmed
 from sleec_runtime.language.responses import is_choice
-from sleec_runtime.model import Calculated, Clause, Comments, MeasureRef, Number, Obligation
+from sleec_runtime.model import Clause, Comments, Number, Obligation
 
 # As `typing` has it; the values of that module are not needed to print them.
 TYPE_CHECKING = False
@@ -121,15 +121,11 @@ def window_text(window: Window) -> str:
     if window.start is None:
         return f"WITHIN {length_text(window.end)}"
     same = window.start.unit == window.end.unit
-    start = _amount(window.start.amount) if same else length_text(window.start)
+    start = print_term(window.start.amount) if same else length_text(window.start)
     return f"WITHIN {start} TO {length_text(window.end)}"
 
 
 def length_text(length: Length) -> str:
     """A length of time, with the unit in the singular where the number is one."""
     unit = length.unit[:-1] if length.amount == Number(1) else length.unit
-    return f"{_amount(length.amount)} {unit}"
-
-
-def _amount(amount: Number | MeasureRef | Calculated) -> str:
-    return print_term(amount)
+    return f"{print_term(length.amount)} {unit}"

@@ -123,21 +123,15 @@ def _places(ruleset: Ruleset) -> Iterator[_Place]:
 
 
 def _beside_rules(ruleset: Ruleset) -> Iterator[_Place]:
-    from sleec_runtime.model_time import Claim, Effect, Lasting, MeasureRelation
+    from sleec_runtime.model_time import RELATIONS, Claim
+    from sleec_verify.timed.program import formulas_of_law
 
     for statement in ruleset.statements:
         if isinstance(statement, Claim):
             yield from _in_claim(statement, ruleset.reading)
-        elif isinstance(statement, (MeasureRelation, Effect, Lasting)):
-            formulas: tuple[Formula | None, ...]
-            if isinstance(statement, MeasureRelation):
-                formulas = (statement.left, statement.right)
-            elif isinstance(statement, Effect):
-                formulas = (statement.formula,)
-            else:
-                formulas = (statement.condition, statement.formula, statement.end_condition)
+        elif isinstance(statement, RELATIONS):
             advice = "mend it, or look whether the relation is needed"
-            yield from (_Place(formula, (), advice, advice) for formula in formulas if formula is not None)
+            yield from (_Place(formula, (), advice, advice) for formula in formulas_of_law(statement))
 
 
 def _in_claim(claim: Claim, reading: Reading) -> Iterator[_Place]:

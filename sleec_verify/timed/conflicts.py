@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 from sleec_runtime.model import Rule
@@ -123,7 +124,6 @@ class _Search:
             self.add([-given, here.event(name)])
         self.add([self.given[rule.trigger]])
         self.plans = Plans(self.outer, cone, self.past, self.now, self.given)
-        self.policies = Policies(program, cone.rules, cone.events, program.impossible())
         self._before = {
             law.left
             for law in program.laws
@@ -135,6 +135,10 @@ class _Search:
             if clause.obligations:
                 self.add([-literal, self._hopeful(self.outer.due(self.now, clause.obligations))])
         self.plans.defeat(Plan(frozenset()))
+
+    @cached_property
+    def _policies(self) -> Policies:
+        return Policies(self.program, self.cone.rules, self.cone.events, self.program.impossible())
 
     def _hopeful(self, demand: Demand) -> int:
         """A literal that implies that the events that are given do not break a demand of now."""
@@ -226,7 +230,7 @@ class _Search:
             grew = not fresh <= forced
             forced |= fresh
         added = (inner.happening(now) - forced) & set(self.given)
-        policy = self.policies.suiting(inner, now, unseen)
+        policy = self._policies.suiting(inner, now, unseen)
         if policy is not None:
             yield Plan(frozenset(added), policy=policy)
         times, waits = inner.schedule()

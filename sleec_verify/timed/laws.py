@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from sleec_runtime.model import Assume, Exclusive
+from sleec_runtime.model import Assume, Exclusive, Never
 from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
 from sleec_verify.timed.program import Law, law_name
 from sleec_verify.timed.responses import Occurs, seconds
 
 if TYPE_CHECKING:
+    from sleec_verify.timed.instant import Instant
     from sleec_verify.timed.unfolding import Unfolding
 
 
@@ -31,39 +32,15 @@ def law_at(unfolding: Unfolding, law: Law) -> Callable[[int], None]:
     def event(at: int, name: str) -> int:
         return unfolding.instants[at].event(name)
 
-    def of_events(at: int, relation: EventRelation) -> None:
-        left, right = event(at, relation.left), event(at, relation.right)
-        if relation.relation == "mutualExclusive":
-            require(-left, -right)
-        elif comes_first is not None:
-            before = Occurs(relation.left, None, -1)
-            came = unfolding.by_first(
-                comes_first, lambda other: unfolding.occurrence(at, other, before), at > unfolding.now
-            )
-            require(-right, came)
-        else:
-            require(-left, right)
-            if relation.relation == "equal":
-                require(-right, left)
-
-    def of_measures(at: int, relation: MeasureRelation) -> None:
-        unused, left = -unfolding.instants[at].used, unfolding.condition(at, relation.left)
-        right = unfolding.condition(at, relation.right)
-        if relation.relation == "invariant":
-            require(unused, left)
-        elif relation.relation in ("imply", "iff"):
-            require(unused, -left, right)
-            if relation.relation == "iff":
-                require(unused, left, -right)
-        else:
-            require(unused, -left, -right)
-
-    def of_effect(at: int, effect: Effect) -> None:
-        occurs, holds = event(at, effect.event), unfolding.condition(at, effect.formula)
-        if effect.relation == "causation":
-            require(-unfolding.instants[at].used, -holds, occurs)
-        else:
-            require(-occurs, holds if effect.relation == "includes" else -holds)
+    def of_before(at: int, relation: EventRelation) -> None:
+        assert comes_first is not None
+        event(at, relation.left)
+        right = event(at, relation.right)
+        before = Occurs(relation.left, None, -1)
+        came = unfolding.by_first(
+            comes_first, lambda other: unfolding.occurrence(at, other, before), at > unfolding.now
+        )
+        require(-right, came)
 
     def of_lasting(at: int, lasting: Lasting) -> None:
         begins = unfolding.formula.fresh()
@@ -101,21 +78,51 @@ def law_at(unfolding: Unfolding, law: Law) -> Callable[[int], None]:
         unfolding.everywhere(holds_at)
 
     def make(at: int) -> None:
-        if isinstance(law, EventRelation):
-            of_events(at, law)
-        elif isinstance(law, MeasureRelation):
-            of_measures(at, law)
-        elif isinstance(law, Effect):
-            of_effect(at, law)
-        elif isinstance(law, Lasting):
+        if isinstance(law, Lasting):
             of_lasting(at, law)
-        elif isinstance(law, Exclusive):
-            names = list(dict.fromkeys(law.names))
-            for place, name in enumerate(names):
-                for other in names[place + 1 :]:
-                    require(-event(at, name), -event(at, other))
+        elif isinstance(law, EventRelation) and law.relation == "happenBefore":
+            of_before(at, law)
         else:
-            holds = unfolding.condition(at, law.formula)
-            require(-unfolding.instants[at].used, holds if isinstance(law, Assume) else -holds)
+            for clause in clauses_at(unfolding.instants[at], law):
+                require(*clause)
 
     return make
+
+
+def clauses_at(instant: Instant, law: Law) -> Iterator[list[int]]:
+    """What a law demands of an instant by itself; nothing of what it says of other instants."""
+    unused = -instant.used
+    if isinstance(law, EventRelation):
+        left, right = instant.event(law.left), instant.event(law.right)
+        if law.relation == "mutualExclusive":
+            yield [-left, -right]
+        elif law.relation != "happenBefore":
+            yield [-left, right]
+            if law.relation == "equal":
+                yield [-right, left]
+    elif isinstance(law, MeasureRelation):
+        left = instant.literal(law.left)
+        if law.right is None:
+            yield [unused, left]
+            return
+        right = instant.literal(law.right)
+        if law.relation in ("imply", "iff"):
+            yield [unused, -left, right]
+            if law.relation == "iff":
+                yield [unused, left, -right]
+        else:
+            yield [unused, -left, -right]
+    elif isinstance(law, Effect):
+        occurs, holds = instant.event(law.event), instant.literal(law.formula)
+        if law.relation == "causation":
+            yield [unused, -holds, occurs]
+        else:
+            yield [-occurs, holds if law.relation == "includes" else -holds]
+    elif isinstance(law, Exclusive):
+        names = list(dict.fromkeys(law.names))
+        for place, name in enumerate(names):
+            for other in names[place + 1 :]:
+                yield [-instant.event(name), -instant.event(other)]
+    elif isinstance(law, (Assume, Never)):
+        holds = instant.literal(law.formula)
+        yield [unused, holds if isinstance(law, Assume) else -holds]

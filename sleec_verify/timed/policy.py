@@ -17,14 +17,15 @@ Where responses do not come back to their own trigger, the trace ends, as it has
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Set
-from graphlib import CycleError, TopologicalSorter
+from functools import cached_property
 from typing import NamedTuple
 
-from sleec_runtime.model import Assume, Exclusive, Never, Rule
-from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
+from sleec_runtime.model import Assume, Never, Rule
+from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_verify.solver import MiniSat, Undecided
 from sleec_verify.timed.instant import Formula, Instant
-from sleec_verify.timed.program import Law, Program, events_of, responses_of
+from sleec_verify.timed.laws import clauses_at
+from sleec_verify.timed.program import Law, Program, events_of, leads_back, responses_of
 from sleec_verify.timed.responses import Demand, Every, Occurs, occurrences, ways_of
 from sleec_verify.timed.unfolding import Unfolding, Unseen
 
@@ -69,13 +70,13 @@ class Policies:
         self._next = {event: self._only_next(event) for event in names}
         for instant in self._instants:
             self._close(instant)
-        self._suits_all = self._suiting_all()
 
     def suiting(self, inner: Unfolding, now: int, unseen: Mapping[Unseen, bool]) -> Policy | None:
         """A closed policy by which all is met that the instants up to `now` of a trace leave to be done; None if there
         is none. One that suits every history, if there is such a one."""
+        suits_all = self._suits_all
         left = self._left(inner, now, unseen)
-        for assumed in ([self._suits_all, left], [left]):
+        for assumed in ([suits_all, left], [left]):
             found = self._solve(assumed)
             if found is not None and self._ends(found.events):
                 return found
@@ -120,17 +121,13 @@ class Policies:
         """Whether what the events of a policy call for never comes back to them."""
         if self._program.is_acyclic:
             return True
-        graph: TopologicalSorter[str] = TopologicalSorter()
-        for rule in self._rules.values():
-            if rule.trigger in policy:
-                for what in self._program.windows(rule):
-                    if not what.negated and what.event in policy:
-                        graph.add(rule.trigger, what.event)
-        try:
-            graph.prepare()
-        except CycleError:
-            return False
-        return True
+        return not leads_back(
+            (rule.trigger, what.event)
+            for rule in self._rules.values()
+            if rule.trigger in policy
+            for what in self._program.windows(rule)
+            if not what.negated and what.event in policy
+        )
 
     # What a policy has to keep of itself ----------------------------------------------------------------------
 
@@ -144,7 +141,7 @@ class Policies:
                     due = self._program.responses.of(clause.obligations, lambda c: instant.chain(c, reading))
                     clauses.append([-guard, self._met(instant, due)])
         for law in self._laws:
-            clauses += _kept(instant, law, self._true)
+            clauses += _kept(instant, law)
 
     def _only_next(self, event: str) -> int:
         """A literal that implies that a policy does an event in the next second, if at all, and not later."""
@@ -235,7 +232,8 @@ class Policies:
             every=True,
         )
 
-    def _suiting_all(self) -> int:
+    @cached_property
+    def _suits_all(self) -> int:
         """A literal that implies that a policy suits every history."""
         found = [self._unprepared(frozenset())]
         for rule in self._rules.values():
@@ -289,45 +287,12 @@ def can_come_late(program: Program, event: str) -> bool:
     return Policies(program, rules, events).has_late(event)
 
 
-def _kept(instant: Instant, law: Law, true: int) -> Iterator[list[int]]:
+def _kept(instant: Instant, law: Law) -> Iterator[list[int]]:
     """Clauses that imply that a law holds at an instant to come, whichever of its events occur there; but for what has
-    to have happened before."""
-    if isinstance(law, EventRelation):
-        left, right = instant.event(law.left), instant.event(law.right)
-        if law.relation == "mutualExclusive":
-            yield [-left, -right]
-        elif law.relation != "happenBefore":
-            yield [-left, right]
-            if law.relation == "equal":
-                yield [-right, left]
-    elif isinstance(law, MeasureRelation):
-        left = instant.literal(law.left)
-        right = true if law.right is None else instant.literal(law.right)
-        if law.relation == "invariant":
-            yield [left]
-        elif law.relation in ("imply", "iff"):
-            yield [-left, right]
-            if law.relation == "iff":
-                yield [left, -right]
-        else:
-            yield [-left, -right]
-    elif isinstance(law, Effect):
-        occurs, holds = instant.event(law.event), instant.literal(law.formula)
-        if law.relation == "causation":
-            # It then occurs at every such instant.
-            yield [-holds, occurs]
-        else:
-            yield [-occurs, holds if law.relation == "includes" else -holds]
-    elif isinstance(law, Lasting):
+    to have happened before. What a law causes then occurs at every such instant."""
+    if isinstance(law, Lasting):
         yield [instant.literal(law.formula)]
-    elif isinstance(law, Exclusive):
-        names = list(dict.fromkeys(law.names))
-        yield from (
-            [-instant.event(one), -instant.event(other)] for n, one in enumerate(names) for other in names[n + 1 :]
-        )
-    else:
-        assert isinstance(law, (Assume, Never))
+    if isinstance(law, (Assume, Never)):
         # Not all events of the policy need occur at once.
         yield from ([-instant.event(event)] for event in events_of(law))
-        holds = instant.literal(law.formula)
-        yield [holds if isinstance(law, Assume) else -holds]
+    yield from clauses_at(instant, law)

@@ -103,6 +103,20 @@ def _found(same: dict[str, str], event: str) -> str:
     return event
 
 
+def leads_back(calls: Iterable[tuple[str, str]]) -> bool:
+    """Whether anything that calls for something else is called for by that in the end."""
+    from graphlib import CycleError, TopologicalSorter
+
+    graph: TopologicalSorter[str] = TopologicalSorter()
+    for event, called in calls:
+        graph.add(event, called)
+    try:
+        graph.prepare()
+    except CycleError:
+        return True
+    return False
+
+
 def _size(clause: Clause) -> int:
     return sum(1 for _ in in_text_order(clause))
 
@@ -261,8 +275,6 @@ class Program:
     def is_acyclic(self) -> bool:
         """Whether nothing that an event calls for, by rules or laws, ever calls for that event again: then there are
         only so many instants that a trace can be made to have."""
-        from graphlib import CycleError, TopologicalSorter
-
         laws = self.laws
         if any(isinstance(law, (Assume, Never)) and any(events_of(law)) for law in laws):
             return False
@@ -279,14 +291,7 @@ class Program:
                     one, other = _found(same, law.left), _found(same, law.right)
                     if one != other:
                         same[one] = other
-        graph: TopologicalSorter[str] = TopologicalSorter()
-        for event, called in calls:
-            graph.add(_found(same, event), _found(same, called))
-        try:
-            graph.prepare()
-        except CycleError:
-            return False
-        return True
+        return not leads_back((_found(same, event), _found(same, called)) for event, called in calls)
 
     def is_inert(self, event: str) -> bool:
         """Whether an event has no consequences: it triggers no rule, and no law speaks of it."""
