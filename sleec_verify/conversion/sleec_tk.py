@@ -1,4 +1,4 @@
-"""What SLEEC-TK's dialect has no words for, though the DSL has."""
+"""What SLEEC-TK's dialect has no words for, though the DSL has, and what it means by others."""
 
 from __future__ import annotations
 
@@ -20,6 +20,17 @@ def refuse_unsayable(ruleset: Ruleset, statements: Iterable[Statement]) -> None:
             for clause in statement.clauses():
                 for message, span in _unsayable(clause):
                     refuse(ruleset, message, span, _HINT)
+
+
+def has_untimed(statements: Iterable[Statement]) -> bool:
+    """Whether a rule has a response without a window, which SLEEC-TK reads in another way."""
+    return any(
+        literal.timing is None or literal.timing.window is None
+        for rule in statements
+        if isinstance(rule, Rule)
+        for clause in rule.clauses()
+        for literal in literals(clause)
+    )
 
 
 _HINT = "write --to legos"

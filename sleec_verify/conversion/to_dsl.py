@@ -47,9 +47,11 @@ def in_dsl(ruleset: Ruleset, dialect: Dialect) -> tuple[Ruleset, list[str]]:
     english = ruleset.syntax == "english"
     statements = list(_from_english(ruleset, notes) if english else ruleset.statements)
     if dialect == "sleec-tk":
-        from sleec_verify.conversion.sleec_tk import refuse_unsayable
+        from sleec_verify.conversion.sleec_tk import has_untimed, refuse_unsayable
 
         refuse_unsayable(ruleset, statements)
+        if ruleset.dialect != "sleec-tk" and has_untimed(statements):
+            notes.append("a response without a window is due at once here, and for SLEEC-TK at some time from then on")
     else:
         statements = [with_formulas(s, _in_pairs) for s in statements]
     converted = replace(

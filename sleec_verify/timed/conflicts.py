@@ -10,7 +10,7 @@ is a plan that the next history must defeat as well; if not, it is the conflict.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -20,6 +20,7 @@ from sleec_runtime.model_time import EventRelation
 from sleec_verify.solver import Undecided
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.instant import Fixed
+from sleec_verify.timed.needs import Unseen
 from sleec_verify.timed.past import Past, past
 from sleec_verify.timed.plans import Later, Plan, Plans, at_once
 from sleec_verify.timed.policy import Policies
@@ -27,7 +28,7 @@ from sleec_verify.timed.program import Program
 from sleec_verify.timed.questions import decided, needed
 from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.timeline import Timeline, excerpt
-from sleec_verify.timed.unfolding import MOST_CLAUSES, PATIENCE, Unfolding, Unseen
+from sleec_verify.timed.unfolding import MOST_CLAUSES, PATIENCE, Unfolding
 
 MOST_PAST = 8
 """Instants before now that are tried. Each more takes half as long again."""
@@ -52,9 +53,10 @@ MOST_LATER = 24
 
 MOST_PLANS = 200
 
-FEW_PLANS = (2, 4, 7)
-"""Numbers of plans, and of instants before now, with which all histories are tried at once, all plans being reckoned
-from now: for each of these plans, there is one instant at most before now that it does not suit."""
+FEW_PLANS = ((2, False), (3, True), (7, True), (7, False))
+"""Numbers of instants before now with which all histories are tried at once, all plans being reckoned from now: as many
+are enough to show that a history defeats these plans (`Policies.faults`). With each, whether policies that wait, which
+take two or more, are preferred."""
 
 FEW_PLANS_CLAUSES = 10_000
 """Clauses with which such a try adds no more instants."""
@@ -76,7 +78,8 @@ class _Search:
     """The search for a history with a number of instants before now, at any times; or with instants at some of the
     last `seconds` as well; or, `in_part`, for as many instants at most that are part of a history, where all that can
     have come about at the others may have. `from_now`, only plans that are reckoned from now count, and no more of them
-    than there are instants before now: then there is no other history either."""
+    than these instants are enough for: then there is no other history either. If `patient`, policies that wait come
+    first."""
 
     def __init__(
         self,
@@ -87,12 +90,14 @@ class _Search:
         in_part: bool = False,
         seconds: int = 0,
         from_now: bool = False,
+        patient: bool = False,
     ) -> None:
         self.program = program
         self.cone = cone
         self.rule = rule
-        self._most_plans = instants if from_now else MOST_PLANS
+        self._instants = instants
         self._from_now = from_now
+        self._patient = patient
         # Seconds that are known are little work each.
         patience = PATIENCE if seconds else 1
         self._times = {instants + second: _LONG_SINCE + second for second in range(seconds + 1)} if seconds else {}
@@ -131,9 +136,14 @@ class _Search:
         }
         clauses = self.plans.deciding(rule)
         self.add([literal for _, literal in clauses])
-        for clause, literal in clauses:
+        for (clause, literal), demands in zip(clauses, program.demands_of_clauses(rule)):
             if clause.obligations:
                 self.add([-literal, self._hopeful(self.outer.due(self.now, clause.obligations))])
+            # What goes on without the rule's demand of now breaks it, and not only what could be done besides.
+            at_stake = tuple(
+                one for one, demand in zip(clause.obligations, demands) if not program.brought.is_free(demand)
+            )
+            self.add([-literal, self.outer.demand(self.now, self.outer.due(self.now, at_stake, kept=False))])
         self.plans.defeat(Plan(frozenset()))
 
     @cached_property
@@ -157,6 +167,7 @@ class _Search:
     def find(self) -> tuple[Fixed, ...] | None:
         """A history that cannot be continued, or None if every one can."""
         plans = {Plan(frozenset())}
+        faults = 1
         # What the history leaves to be done later is taken on trust, as most histories can be continued and show how.
         while self.outer.trusting():
             clauses = self.plans.loops()
@@ -173,7 +184,9 @@ class _Search:
                 self.outer.grow()
                 continue
             plan = next((plan for plan in self._ways(inner, len(beginning) - 1, unseen) if plan not in plans), None)
-            if plan is None or len(plans) >= self._most_plans:
+            if self._from_now and plan is not None:
+                faults += 1 if plan.policy is None else self._policies.faults(plan.policy)
+            if plan is None or len(plans) >= MOST_PLANS or (self._from_now and faults > self._instants):
                 raise Undecided(f"no answer after {len(plans)} ways to go on")
             plans.add(plan)
             self.plans.defeat(plan)
@@ -217,22 +230,12 @@ class _Search:
 
     def _ways(self, inner: Unfolding, now: int, unseen: Mapping[Unseen, bool]) -> Iterator[Plan]:
         """How the history just tried can be continued, by as little of it as can be: by a policy, if one suits it."""
-        forced = {event for event, literal in self.given.items() if self.outer.true(literal)}
-        due = [
-            (one.rule.trigger, event)
-            for one in inner.decided
-            if one.at == now and one.rule.label in self.cone.rules and inner.true(one.guard)
-            for event in at_once(one.due)
-        ]
-        grew = True
-        while grew:
-            fresh = {event for trigger, event in due if trigger in forced}
-            grew = not fresh <= forced
-            forced |= fresh
-        added = (inner.happening(now) - forced) & set(self.given)
-        policy = self._policies.suiting(inner, now, unseen)
+        if self._patient:
+            self._do_less(inner, now)
+        policy = self._policies.suiting(inner, now, unseen, self._patient)
         if policy is not None:
-            yield Plan(frozenset(added), policy=policy)
+            by_policy = self._policies.last_chances(policy, inner, now, unseen)
+            yield Plan(self._added(inner, now, by_policy), policy=policy)
         times, waits = inner.schedule()
         later = []
         for number in inner.used():
@@ -248,26 +251,54 @@ class _Search:
                     wait -= self._times[self.now] - self._times[after]
                     after = self.now
                 later.append(Later(after, wait, inner.happening(number), values))
-        yield Plan(frozenset(added), tuple(later))
+        yield Plan(self._added(inner, now), tuple(later))
+
+    def _do_less(self, inner: Unfolding, now: int) -> None:
+        """Leave a trace in which less is done now of what could be done later as well, so that fewer plans differ."""
+        not_done: list[int] = []
+        for event in sorted(self._added(inner, now)):
+            event_now = inner.instants[now].event(event)
+            if inner.true(event_now) and inner.ask(*not_done, -event_now):
+                not_done.append(-event_now)
+            else:
+                inner.ask(*not_done)
+
+    def _added(self, inner: Unfolding, now: int, by_policy: Set[str] = frozenset()) -> frozenset[str]:
+        """The events of now in a trace that are neither given, nor done by a policy, nor due at once by these."""
+        forced = {event for event, literal in self.given.items() if self.outer.true(literal)} | by_policy
+        due = [
+            (one.rule.trigger, event)
+            for one in inner.decided
+            if one.at == now and one.rule.label in self.cone.rules and inner.true(one.guard)
+            for event in at_once(one.due)
+        ]
+        grew = True
+        while grew:
+            fresh = {event for trigger, event in due if trigger in forced}
+            grew = not fresh <= forced
+            forced |= fresh
+        return frozenset((inner.happening(now) - forced) & self.given.keys())
 
 
-class _Partial(NamedTuple):
-    """A search for parts of histories, to show that all histories can be continued."""
+class _Tried(NamedTuple):
+    """What a search looks through; see `_Search`."""
 
     instants: int
+    in_part: bool = False
     seconds: int = 0
     from_now: bool = False
+    patient: bool = False
 
 
-def _partial(needed: Past, by_seconds: bool) -> tuple[list[_Partial], list[_Partial]]:
+def _partial(needed: Past, by_seconds: bool) -> tuple[list[_Tried], list[_Tried]]:
     """The searches for parts of histories that are worth a try, and those that are if nothing else helps."""
-    *few, several = (_Partial(plans, from_now=True) for plans in FEW_PLANS)
+    one, two, *more = (_Tried(instants, True, from_now=True, patient=patient) for instants, patient in FEW_PLANS)
     # To leave out the instants that nothing pending now needs rules out no history.
-    pending = [_Partial(needed.pending)] if needed.pending <= MOST_PENDING else []
+    pending = [_Tried(needed.pending, True)] if needed.pending <= MOST_PENDING else []
     if by_seconds and needed.endless <= MOST_PENDING:
-        pending.append(_Partial(needed.endless, needed.reach))
+        pending.append(_Tried(needed.endless, True, needed.reach))
     pending.sort(key=lambda tried: tried.instants * SECONDS_FOR_ONE + tried.seconds)
-    return [*few, *pending[:1]], [several, *pending[1:]]
+    return [one, two, *pending[:1]], [*more, *pending[1:]]
 
 
 def conflict(program: Program, rule: Rule) -> History | None:
@@ -281,12 +312,10 @@ def conflict(program: Program, rule: Rule) -> History | None:
     needed = past(program, cone.rules.values())
     work = 0
 
-    def search(
-        instants: int, in_part: bool = False, seconds: int = 0, from_now: bool = False
-    ) -> tuple[Fixed, ...] | None:
+    def search(tried: _Tried) -> tuple[Fixed, ...] | None:
         def ask() -> tuple[Fixed, ...] | None:
             nonlocal work
-            one = _Search(program, rule, cone, instants, in_part, seconds, from_now)
+            one = _Search(program, rule, cone, *tried)
             try:
                 return one.find()
             finally:
@@ -297,11 +326,10 @@ def conflict(program: Program, rule: Rule) -> History | None:
     by_seconds = 0 < needed.reach <= MOST_SECONDS
     early, rest = _partial(needed, by_seconds)
 
-    def all_go_on(tries: list[_Partial]) -> bool:
+    def all_go_on(tries: list[_Tried]) -> bool:
         while tries:
-            instants, seconds, from_now = tries.pop(0)
             try:
-                if search(instants, True, seconds, from_now) is None:
+                if search(tries.pop(0)) is None:
                     return True
             except Undecided:
                 pass
@@ -312,7 +340,7 @@ def conflict(program: Program, rule: Rule) -> History | None:
         for instants in range(tried + 1):
             if instants == FEW and all_go_on(early):
                 return None
-            found = search(instants)
+            found = search(_Tried(instants))
             if found is not None:
                 return found
             if work > MOST_WORK and needed.most > MOST_PAST:
@@ -327,7 +355,7 @@ def conflict(program: Program, rule: Rule) -> History | None:
         # Times that are further from each other than any rule can tell may as well be near.
         enough = needed.most * (needed.reach + 1)
         for seconds in (needed.reach, min(enough, MOST_SECONDS)):
-            found = search(0, seconds=seconds)
+            found = search(_Tried(0, seconds=seconds))
             if found is not None:
                 return found
         if needed.known and enough <= MOST_SECONDS:

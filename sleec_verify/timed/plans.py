@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from sleec_runtime.model import And, Assume, Atom, Clause, Exclusive, Never, Not, Or, Rule, Value
+from sleec_runtime.model import And, Assume, Atom, Clause, Exclusive, Never, Not, Or, Reading, Rule, Value
 from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.instant import Fixed, Instant
 from sleec_verify.timed.policy import Policy
 from sleec_verify.timed.program import Program, events_of, law_name
-from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
+from sleec_verify.timed.responses import Demand, Every, Occurs, certain, occurrences, seconds
 from sleec_verify.timed.unfolding import Unfolding
 
 
@@ -49,6 +49,16 @@ class _Point:
         self.wait = wait
         self.event = event
         self.used = used
+        self._deciding: dict[str, list[tuple[Clause, int]]] = {}
+
+    def deciding(self, rule: Rule, reading: Reading, true: int) -> list[tuple[Clause, int]]:
+        """The clauses of a rule with the literals that they decide here; none where nothing can trigger it."""
+        found = self._deciding.get(rule.label)
+        if found is None:
+            triggered = self.event(rule.trigger)
+            guards = [] if triggered == -true else self.instant.guards(rule, reading, triggered)
+            found = self._deciding[rule.label] = list(zip(rule.clauses(), guards))
+        return found
 
 
 class Plans:
@@ -77,7 +87,7 @@ class Plans:
 
     def defeat(self, plan: Plan) -> None:
         """Only histories with which `plan` does not work."""
-        happens = self._closed(plan)
+        policy = plan.policy or Policy()
         points = [
             _Point(
                 self.outer.instants[number],
@@ -88,23 +98,27 @@ class Plans:
             )
             for number in self.past
         ]
+        happens = self._closed(plan, self._last_chances(points, policy))
         now = _Point(self.outer.instants[self.now], self.now, 0, lambda name: happens.get(name, -self.true), self.true)
         points.append(now)
         for later in plan.later:
             fixed = Fixed(0, later.events, dict(later.conditions))
             instant = Instant(self.outer.formula, self.program.ruleset.measures, self.true, fixed)
             points.append(_Point(instant, later.after, later.wait, instant.event, self.true))
-        policy = plan.policy or Policy()
         failures = [*self._out_of_order(points), *self._broken(points, policy), *self._laws_broken(points, policy)]
+        failures += self._too_late(points, policy)
         for point in points:
             point.instant.settle()
         self.add(failures)
 
-    def _closed(self, plan: Plan) -> dict[str, int]:
-        """What happens now under a plan: what is given or added, and all that is due at once by it."""
+    def _closed(self, plan: Plan, last_chances: Iterator[tuple[str, int]]) -> dict[str, int]:
+        """What happens now under a plan: what is given or added, or has to be done now at the latest, and all that is
+        due at once by it."""
         formula = self.outer.formula
         happens = {event: formula.fresh() for event in self.given}
         supports: dict[str, list[tuple[str | None, int]]] = {event: [] for event in happens}
+        for event, is_last in last_chances:
+            supports[event].append((None, is_last))
         for rule in self.cone.rules.values():
             for clause, decides in self.deciding(rule):
                 for event in at_once(self.outer.due(self.now, clause.obligations)):
@@ -130,6 +144,23 @@ class Plans:
                 self.add([-literal, self.given[event], *reasons])
         self._loops.append(lambda: self._unfounded(plan, happens, supports))
         return happens
+
+    def _last_chances(self, past: Sequence[_Point], policy: Policy) -> Iterator[tuple[str, int]]:
+        """The events to which a policy gives times of their own, and the literals "now is the last time at which it can
+        be done as an instant before now calls for"."""
+        times = self.outer.times
+        for event in sorted(policy.awaited & self.given.keys()):
+            for number, guard, call in self._of_history(past, event, negated=False, leaves=certain):
+                if call.end is not None:
+                    at = self.past[number]
+                    all_of = past[number].instant.all_of
+                    done = [
+                        all_of([point.event(event), *times.bounds(at, point.after, call.start, call.end)])
+                        for point in past
+                    ]
+                    done.append(self.outer.came_about(at, event, call.start, call.end))
+                    is_last = times.bounds(at, self.now, call.end, call.end)
+                    yield event, all_of([guard, *is_last, *(-literal for literal in done)])
 
     def _unfounded(
         self, plan: Plan, happens: dict[str, int], supports: dict[str, list[tuple[str | None, int]]]
@@ -173,10 +204,7 @@ class Plans:
         reading = self.program.ruleset.reading
         for number, point in enumerate(points):
             for rule in self.cone.rules.values():
-                triggered = point.event(rule.trigger)
-                if triggered == -self.true:
-                    continue
-                for clause, guard in zip(rule.clauses(), point.instant.guards(rule, reading, triggered)):
+                for clause, guard in point.deciding(rule, reading, self.true):
                     if clause.obligations:
                         chain = lambda c, i=point.instant: i.chain(c, reading)  # noqa: E731
                         broken = self.program.responses.of(clause.obligations, chain, kept=False)
@@ -202,11 +230,7 @@ class Plans:
         there: list[list[int]] = []
         done = what.event in policy.soon or (what.event in policy.late and what.end is None)
         if done and not what.is_empty:
-            # It occurs as long as there is time left after now.
-            begins = what.start - 1 if what.event in policy.next and what.start is not None else None
-            left = self._gap(points[at], points[len(self.past)], begins, None if what.end is None else what.end - 1)
-            if -self.true not in left:
-                there.append(left)
+            there += (ways for ways in self._by_policy(points, at, what, policy) if -self.true not in ways)
         for point in points:
             event = point.event(what.event)
             bounds = self._gap(points[at], point, what.start, what.end)
@@ -222,6 +246,77 @@ class Plans:
         for literals in there:
             self.add([-never, *(-literal for literal in literals)])
         return never
+
+    def _by_policy(self, points: Sequence[_Point], at: int, what: Occurs, policy: Policy) -> Iterator[list[int]]:
+        """Literals that say together that an event is done in a window, for each way in which a policy may do it."""
+        here, now = points[at], points[len(self.past)]
+        end = None if what.end is None else what.end - 1
+        if what.negated:
+            # It is called for, and done as long as there is time left after now, and after what it waits for.
+            waits = what.event in policy.waiting and what.end is not None
+            yield [*self._gap(here, now, None, end), *([-self._forbidden(points, at, what)] if waits else [])]
+        elif what.event in policy.first:
+            for number, guard, call in self._of_history(points, what.event, negated=False):
+                caller, opens = points[number], call.start or 0
+                start = None if what.start is None else what.start - opens
+                in_time = [] if call.end is None else self._gap(caller, now, None, call.end - 1)
+                pending = self._occurs(points, number, call._replace(negated=True), Policy())
+                yield [
+                    guard,
+                    pending,
+                    *self._gap(here, caller, start, None if what.end is None else what.end - opens),
+                    *self._gap(now, caller, 1 - opens, None),
+                ]
+                begins = None if what.start is None else what.start - 1
+                yield [
+                    guard,
+                    pending,
+                    *in_time,
+                    *self._gap(here, now, begins, end),
+                    *self._gap(caller, now, opens, None),
+                ]
+        elif what.event not in policy.waiting or what.end is None:
+            begins = what.start - 1 if what.event in policy.next and what.start is not None else None
+            yield self._gap(here, now, begins, end)
+
+    def _forbidden(self, points: Sequence[_Point], at: int, what: Occurs) -> int:
+        """A literal that implies that the history may forbid an event up to the end of a window, or longer."""
+        assert what.end is not None
+        ways = [
+            [guard, *self._gap(points[at], points[number], what.end - other.end, None)]
+            for number, guard, other in self._of_history(points, what.event, negated=True)
+            if other.end is not None
+        ]
+        ways = [way for way in ways if -self.true not in way]
+        return self.outer.formula.any_of([self.outer.formula.every(way) for way in ways]) if ways else -self.true
+
+    def _of_history(
+        self,
+        points: Sequence[_Point],
+        event: str,
+        negated: bool,
+        leaves: Callable[[Demand], Iterator[Occurs]] = occurrences,
+    ) -> Iterator[tuple[int, int, Occurs]]:
+        """What may be demanded of an event by instants up to now: their numbers, and the literals of the guards."""
+        reading = self.program.ruleset.reading
+        for rule in self.cone.rules.values():
+            if all((what.event, what.negated) != (event, negated) for what in self.program.windows(rule)):
+                continue
+            for number, point in enumerate(points[: len(self.past) + 1]):
+                deciding = point.deciding(rule, reading, self.true)
+                for (_, guard), demands in zip(deciding, self.program.demands_of_clauses(rule)):
+                    for what in (what for demand in demands for what in leaves(demand)):
+                        if (what.event, what.negated) == (event, negated):
+                            yield number, guard, what
+
+    def _too_late(self, points: Sequence[_Point], policy: Policy) -> Iterator[int]:
+        """Literals that imply that what is called for in the next second has to wait too long."""
+        now = len(self.past)
+        for rule in self.cone.rules.values():
+            if rule.trigger in policy.events:
+                for what in self.program.windows(rule):
+                    if what.event in policy.waiting and not what.negated and what.end is not None:
+                        yield self._forbidden(points, now, what._replace(end=what.end + 1))
 
     def _laws_broken(self, points: Sequence[_Point], policy: Policy) -> Iterator[int]:
         """For each law and instant of now or later, a literal that implies that it is broken there; those of the past
@@ -319,9 +414,4 @@ class _Shadow:
 
 def at_once(demand: Demand) -> Iterator[str]:
     """The events that a demand calls for at its own instant, come what may."""
-    if isinstance(demand, Occurs):
-        if not demand.negated and demand.start == demand.end == 0:
-            yield demand.event
-    elif isinstance(demand, Every):
-        for part in demand.parts:
-            yield from at_once(part)
+    return (what.event for what in certain(demand) if not what.negated and what.start == what.end == 0)

@@ -2,8 +2,9 @@
 
 A policy does some events *soon*: as soon after now as a response calls for them, a second after now at the earliest.
 Others it does *late*, if anything calls for them without end: at an instant of their own, once all that forbids them
-for some time only is over. All further ones are not done after now. The measures are the same at all instants at which
-soon ones are done, and at all late instants. So:
+for some time only is over. All further ones are not done after now. Of the soon ones, some are done at exactly the
+first second that a response of the history allows, and some wait until all that the history forbids for some time is
+over. The measures are the same at all instants at which soon ones are done, and at all late instants. So:
 
 - what calls for an event that is done soon is met, if there is time left after now; and what calls for one that is done
   late, if there is no end to it;
@@ -25,22 +26,32 @@ from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_verify.solver import MiniSat, Undecided
 from sleec_verify.timed.instant import Formula, Instant
 from sleec_verify.timed.laws import clauses_at
+from sleec_verify.timed.needs import Unseen
 from sleec_verify.timed.program import Law, Program, events_of, leads_back, responses_of
-from sleec_verify.timed.responses import Demand, Every, Occurs, occurrences, ways_of
-from sleec_verify.timed.unfolding import Unfolding, Unseen
+from sleec_verify.timed.responses import Demand, Every, Occurs, certain, occurrences, ways_of
+from sleec_verify.timed.unfolding import Decided, Unfolding
 
 
 class Policy(NamedTuple):
     """The events that are done soon after now, and late. Of those done soon, the ones that are done in the `next`
-    second only, as no response calls for them later."""
+    second only, as no response calls for them later; at the `first` second only that a response of the history allows,
+    as nothing else calls for them; and once all is over that forbids them for some time (`waiting`)."""
 
     soon: frozenset[str] = frozenset()
     late: frozenset[str] = frozenset()
     next: frozenset[str] = frozenset()
+    first: frozenset[str] = frozenset()
+    waiting: frozenset[str] = frozenset()
 
     @property
     def events(self) -> frozenset[str]:
         return self.soon | self.late
+
+    @property
+    def awaited(self) -> frozenset[str]:
+        """The events that are done at times of their own. If now is the last time at which one can be done that an
+        instant before now calls for, and nothing in its place, it is done now."""
+        return self.first | self.waiting
 
 
 class Policies:
@@ -67,20 +78,80 @@ class Policies:
             # At a late instant, it may also be done because others are.
             self._formula.clauses += ([-self._soon[event], done], [-late.event(event), done])
             self._formula.clauses.append([-done, self._soon[event], late.event(event)])
-        self._next = {event: self._only_next(event) for event in names}
+        self._next: dict[str, int] = {}
+        self._first: dict[str, int] = {}
+        self._waiting: dict[str, int] = {}
+        for event in names:
+            self._times_of(event)
         for instant in self._instants:
             self._close(instant)
 
-    def suiting(self, inner: Unfolding, now: int, unseen: Mapping[Unseen, bool]) -> Policy | None:
+    def suiting(
+        self, inner: Unfolding, now: int, unseen: Mapping[Unseen, bool], patient: bool = False
+    ) -> Policy | None:
         """A closed policy by which all is met that the instants up to `now` of a trace leave to be done; None if there
-        is none. One that suits every history, if there is such a one."""
-        suits_all = self._suits_all
-        left = self._left(inner, now, unseen)
-        for assumed in ([suits_all, left], [left]):
+        is none. One that suits every history, if there is such a one; else one that waits for as little as it can, or
+        for as much, if it is to be `patient`."""
+        left, plain = self._left(inner, now, unseen), self._plain
+        for assumed in ([self._suits_all, plain, left], [plain, left], [left]):
             found = self._solve(assumed)
             if found is not None and self._ends(found.events):
-                return found
+                waits = patient and self._suits_all not in assumed
+                return self._waiting_more(found, left) if waits else found
         return None
+
+    def faults(self, policy: Policy) -> int:
+        """How many instants before now are enough to show that a policy does not suit a history: the one that triggered
+        a response, and where times depend on the history, one that stands in its way for each event that may be due by
+        it."""
+        may_come = self._program.brought.may_come
+
+        def may_be_due(event: str) -> bool:
+            return any(may_come(awaited, event) for awaited in policy.awaited)
+
+        def most(demand: Demand) -> int:
+            if isinstance(demand, int):
+                return 0
+            if isinstance(demand, Occurs):
+                return int(may_be_due(demand.event))
+            parts = [0, *map(most, demand.parts)]
+            return max(parts) if isinstance(demand, Every) else sum(parts)
+
+        demanded = (most(demand) for rule in self._rules.values() for demand in self._program.demands(rule))
+        # Where a law speaks of several events, each may be due now by an instant of its own.
+        together = (sum(map(may_be_due, events_of(law))) for law in self._laws)
+        return max(1 + max(demanded, default=0), *together, 1)
+
+    def last_chances(self, policy: Policy, inner: Unfolding, now: int, unseen: Mapping[Unseen, bool]) -> frozenset[str]:
+        """The events that a policy does now, as it is the last time at which that can be done."""
+        times, _ = inner.schedule()
+        before = {number: inner.happening(number) for number in inner.used() if number < now}
+        return frozenset(
+            what.event
+            for one in self._decided(inner, now)
+            for what in certain(one.due)
+            if one.at < now
+            and what.event in policy.awaited
+            and not what.negated
+            and what.end == times[now] - times[one.at]
+            and not _occurred(one.at, what, before, times, unseen)
+        )
+
+    def _decided(self, inner: Unfolding, now: int) -> list[Decided]:
+        """What the rules demand of the instants up to `now` of a trace."""
+        return [
+            one for one in inner.decided if one.at <= now and one.rule.label in self._rules and inner.true(one.guard)
+        ]
+
+    def _waiting_more(self, policy: Policy, left: int) -> Policy:
+        """A policy that suits the same history, by which all is done that can wait, so that it suits many others."""
+        assumed = [left]
+        for event in sorted(self._soon.keys() - policy.next):
+            found = self._solve([*assumed, self._waiting[event]])
+            if found is not None and self._ends(found.events):
+                assumed.append(self._waiting[event])
+                policy = found
+        return policy
 
     def has_late(self, event: str) -> bool:
         """Whether there is one that does an event late, and nothing that any rule may forbid without end."""
@@ -111,11 +182,13 @@ class Policies:
             lemmas = [instant.measures.refused(self._solver.holds, False) for instant in self._instants]
             refused = [lemma for lemma in lemmas if lemma is not None]
             if not refused:
-                soon = frozenset(event for event, literal in self._soon.items() if self._solver.holds(literal))
-                done = frozenset(event for event, literal in self._done.items() if self._solver.holds(literal))
-                only = frozenset(event for event, literal in self._next.items() if self._solver.holds(literal))
-                return Policy(soon, done - soon, only)
+                soon, done = self._true_of(self._soon), self._true_of(self._done)
+                kinds = (self._true_of(kind) for kind in (self._next, self._first, self._waiting))
+                return Policy(soon, done - soon, *kinds)
             clauses += refused
+
+    def _true_of(self, literals: Mapping[str, int]) -> frozenset[str]:
+        return frozenset(event for event, literal in literals.items() if self._solver.holds(literal))
 
     def _ends(self, policy: frozenset[str]) -> bool:
         """Whether what the events of a policy call for never comes back to them."""
@@ -143,22 +216,30 @@ class Policies:
         for law in self._laws:
             clauses += _kept(instant, law)
 
-    def _only_next(self, event: str) -> int:
-        """A literal that implies that a policy does an event in the next second, if at all, and not later."""
-        bringing = set()
+    def _times_of(self, event: str) -> None:
+        """Literals that imply that a policy does an event, if at all, in the next second; at the first second that the
+        history allows; after all that the history forbids for some time."""
+        opening = 0
+        bringing: set[str] = set()
+        tied: set[str] = set()
         for rule in self._rules.values():
             for what in self._program.windows(rule):
                 if what.event == event and not what.negated:
-                    if what.start is not None and what.start > 1:
-                        return -self._true
+                    opening = max(opening, what.start or 0)
                     bringing.add(rule.trigger)
+        caused = False
         for law in self._laws:
             if isinstance(law, Effect) and law.relation == "causation" and law.event == event:
-                return -self._true
+                caused = True
             if isinstance(law, EventRelation) and law.relation in ("witness", "equal"):
-                bringing.update({law.left, law.right} - {event} if event in (law.left, law.right) else ())
-        late = self._instants[1].event(event)
-        return self._formula.every([self._soon[event], -late, *(-self._done[other] for other in sorted(bringing))])
+                tied.update({law.left, law.right} - {event} if event in (law.left, law.right) else ())
+        every, late = self._formula.every, self._instants[1].event(event)
+        known = [self._soon[event], -late, *(-self._done[other] for other in sorted(tied))]
+        not_brought = [-self._done[other] for other in sorted(bringing - tied)]
+        never = -self._true
+        self._next[event] = never if caused or opening > 1 else every([*known, *not_brought])
+        self._first[event] = never if caused or opening <= 1 else every([*known, *not_brought])
+        self._waiting[event] = never if caused else every([*known, -self._first[event]])
 
     def _met(self, instant: Instant, demand: Demand) -> int:
         """A literal that implies that a policy meets a demand of an instant to come."""
@@ -192,28 +273,53 @@ class Policies:
         times, _ = inner.schedule()
         happening = {number: inner.happening(number) for number in inner.used() if number <= now}
         found = [self._unprepared({event for events in happening.values() for event in events})]
+        decided = self._decided(inner, now)
+
+        def occurred(at: int, what: Occurs) -> bool:
+            return _occurred(at, what, happening, times, unseen)
+
+        # In seconds after now.
+        first: dict[str, set[int]] = {}
+        over: dict[str, int] = {}
+        for at, what in ((one.at, what) for one in decided for what in occurrences(one.due)):
+            since = times[now] - times[at]
+            if what.negated and what.end is not None:
+                over[what.event] = max(over.get(what.event, 0), what.end - since)
+            elif not what.negated and not occurred(at, what) and _has_time(what, since):
+                first.setdefault(what.event, set()).add(max(1, (what.start or 0) - since))
 
         def left(at: int, demand: Demand) -> int:
             if isinstance(demand, int):
                 return self._true if inner.true(demand) else -self._true
             if isinstance(demand, Occurs):
-                occurred = unseen.get(Unseen(at, demand.event, demand.start, demand.end), False) or any(
-                    demand.event in events and demand.covers(times[number] - times[at])
-                    for number, events in happening.items()
-                )
-                if occurred:
+                if occurred(at, demand):
                     return -self._true if demand.negated else self._true
-                return self._from_now_on(demand, times[now] - times[at])
+                since = times[now] - times[at]
+                kept = self._from_now_on(demand, since)
+                event, end = demand.event, demand.end
+                if not demand.negated:
+                    in_time = end is None or over.get(event, 0) < end - since
+                    return kept if in_time else self._joined([kept, -self._waiting[event]], every=True)
+                ways = [kept] if end is None else [kept, self._waiting[event]]
+                if not any(demand.covers(since + seconds) for seconds in first.get(event, ())):
+                    ways.append(self._first[event])
+                return self._joined(ways, every=False)
             return self._joined([left(at, part) for part in demand.parts], isinstance(demand, Every))
 
-        for one in inner.decided:
-            if one.at <= now and one.rule.label in self._rules and inner.true(one.guard):
-                found.append(left(one.at, one.due))
+        for rule in self._rules.values():
+            for what in self._program.windows(rule):
+                if not what.negated and what.end is not None and over.get(what.event, 0) > what.end:
+                    # It may come to be called for in the next second.
+                    too_long = [-self._waiting[what.event], -self._done[rule.trigger]]
+                    found.append(self._joined(too_long, every=False))
+
+        for one in decided:
+            found.append(left(one.at, one.due))
         return self._joined(found, every=True)
 
     def _from_now_on(self, what: Occurs, since: int) -> int:
         """What a policy makes of a response, triggered so many seconds ago, that has not occurred up to now."""
-        has_time = what.end is None or what.end > max(since, (what.start or 0) - 1)
+        has_time = _has_time(what, since)
         if what.negated:
             if not has_time:
                 return self._true
@@ -231,6 +337,12 @@ class Policies:
             ],
             every=True,
         )
+
+    @cached_property
+    def _plain(self) -> int:
+        """A literal that implies that a policy waits for nothing."""
+        kinds = (*self._first.values(), *self._waiting.values())
+        return self._joined([-literal for literal in kinds], every=True)
 
     @cached_property
     def _suits_all(self) -> int:
@@ -265,6 +377,24 @@ class Policies:
                 return -self._true
             return self._from_now_on(demand, since)
         return self._joined([self._surely(part, since) for part in demand.parts], isinstance(demand, Every))
+
+
+def _occurred(
+    at: int,
+    what: Occurs,
+    happening: Mapping[int, Set[str]],
+    times: Mapping[int, int],
+    unseen: Mapping[Unseen, bool],
+) -> bool:
+    """Whether an event occurred in a window around an instant, at those that are `happening` or `unseen`."""
+    return unseen.get(Unseen(at, what.event, what.start, what.end), False) or any(
+        what.event in events and what.covers(times[number] - times[at]) for number, events in happening.items()
+    )
+
+
+def _has_time(what: Occurs, since: int) -> bool:
+    """Whether there is time left after now in a window around so many seconds ago."""
+    return what.end is None or what.end > max(since, (what.start or 0) - 1)
 
 
 def can_come_late(program: Program, event: str) -> bool:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterable, Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeVar, Union
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, Union
 
 from sleec_runtime.model import (
     Agent,
@@ -21,11 +22,12 @@ from sleec_runtime.model import (
     formulas_of,
     in_text_order,
     leaves,
+    literals,
     names_of,
 )
 from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, Lasting, MeasureRelation, Relation
 from sleec_verify.solver import Recorder, Undecided
-from sleec_verify.timed.responses import Demand, Occurs, Responses, occurrences
+from sleec_verify.timed.responses import Demand, Occurs, Responses, certain, occurrences
 from sleec_verify.timed.scope import Untimed
 
 if TYPE_CHECKING:
@@ -117,6 +119,17 @@ def leads_back(calls: Iterable[tuple[str, str]]) -> bool:
     return False
 
 
+MOST_FOLLOWERS = 200
+"""What comes of an event is not looked at further than this."""
+
+
+class Follower(NamedTuple):
+    """What occurs after an event, as rules of these labels call for it one after the other."""
+
+    what: Occurs
+    labels: tuple[str, ...]
+
+
 def _size(clause: Clause) -> int:
     return sum(1 for _ in in_text_order(clause))
 
@@ -131,8 +144,9 @@ class Program:
         self.untimed = untimed
         self.rules = ruleset.rules
         self.responses = Responses(untimed)
-        self._demands: dict[str, list[Demand]] = {}
+        self._demands: dict[str, list[list[Demand]]] = {}
         self._windows: dict[str, list[Occurs]] = {}
+        self._followers: dict[str, list[Follower]] = {}
         self._endless: dict[frozenset[str], frozenset[str]] = {}
 
     def impossible(self, without: frozenset[str] = frozenset()) -> frozenset[str]:
@@ -236,18 +250,21 @@ class Program:
             for name in names_of(formula)
         )
 
-    def demands(self, rule: Rule) -> list[Demand]:
-        """What each obligation of a rule demands, itself or what is due in its place.
+    def demands_of_clauses(self, rule: Rule) -> list[list[Demand]]:
+        """What each obligation of each clause of a rule demands, itself or what is due in its place.
 
         Raises Undecided for a window whose length a measure says."""
         found = self._demands.get(rule.label)
         if found is None:
             found = self._demands[rule.label] = [
-                self.responses.of((obligation,), lambda c: [1] * _size(c))
+                [self.responses.of((obligation,), lambda c: [1] * _size(c)) for obligation in clause.obligations]
                 for clause in rule.clauses()
-                for obligation in clause.obligations
             ]
         return found
+
+    def demands(self, rule: Rule) -> list[Demand]:
+        """As `demands_of_clauses`, of all clauses together."""
+        return [demand for demands in self.demands_of_clauses(rule) for demand in demands]
 
     def windows(self, rule: Rule) -> list[Occurs]:
         """Every occurrence that a rule may come to call for or forbid. Raises Undecided for a window whose length a
@@ -256,6 +273,41 @@ class Program:
         if found is None:
             found = self._windows[rule.label] = [one for demand in self.demands(rule) for one in occurrences(demand)]
         return found
+
+    def bound_to_follow(self, event: str) -> list[Follower]:
+        """What comes of an event whatever the conditions, by the rules that it triggers and by theirs."""
+        found = self._followers.get(event)
+        if found is None:
+            found = self._followers[event] = []
+            ahead = deque([Follower(Occurs(event, 0, 0), ())])
+            while ahead and len(found) < MOST_FOLLOWERS:
+                one = ahead.popleft()
+                for rule in self.by_trigger.get(one.what.event, ()):
+                    if rule.label not in one.labels:
+                        called = self._surely_called(rule)
+                        fresh = [Follower(what.following(one.what), (*one.labels, rule.label)) for what in called]
+                        found += fresh
+                        ahead += fresh
+        return found
+
+    def _surely_called(self, rule: Rule) -> Iterator[Occurs]:
+        """What a rule calls for whichever of its clauses decides, each event in a window that has room for all."""
+        if rule.guard is not None:
+            return
+        try:
+            clauses = self.demands_of_clauses(rule)
+        except Undecided:
+            return
+        called = [
+            {what.event: what for demand in demands for what in certain(demand) if not what.negated}
+            for demands in clauses
+        ]
+        for event in sorted(set.intersection(*map(set, called))):
+            windows = [in_clause[event] for in_clause in called]
+            ends = [what.end for what in windows if what.end is not None]
+            yield Occurs(
+                event, min(what.start or 0 for what in windows), max(ends) if len(ends) == len(windows) else None
+            )
 
     def _at_most(self, rule: Rule) -> list[Occurs]:
         """As `windows`, with all times from the trigger on where a measure says how long."""
@@ -329,13 +381,4 @@ class Program:
 def responses_of(rule: Rule) -> Iterator[Obligation]:
     """Every response that a rule may come to, those in place of others included, in the order of the text."""
     for clause in rule.clauses():
-        yield from _literals(clause)
-
-
-def _literals(clause: Clause) -> Iterator[Obligation]:
-    for obligation in clause.obligations:
-        yield obligation
-        if obligation.timing is not None:
-            for alternative in obligation.timing.alternatives():
-                for member in in_text_order(alternative):
-                    yield from _literals(member)
+        yield from literals(clause)

@@ -11,6 +11,7 @@ from sleec_runtime.model import Clause, Obligation, Rational, in_text_order
 from sleec_runtime.model_time import Length, Window
 from sleec_verify.solver import Undecided
 from sleec_verify.timed.scope import Untimed
+from sleec_verify.timed.windows import allows
 
 
 class Occurs(NamedTuple):
@@ -37,9 +38,14 @@ class Occurs(NamedTuple):
         """Whether there is no time at all in its window."""
         return self.start is not None and self.end is not None and self.start > self.end
 
+    def following(self, first: Occurs) -> Occurs:
+        """The same, triggered by an occurrence in another window, in seconds after the trigger of that."""
+        start = None if first.start is None or self.start is None else first.start + self.start
+        return self._replace(start=start, end=None if first.end is None or self.end is None else first.end + self.end)
+
     def covers(self, after: int) -> bool:
         """Whether the time so many seconds after the trigger is in the window."""
-        return (self.start is None or self.start <= after) and (self.end is None or after <= self.end)
+        return allows((self.start, self.end), after)
 
 
 class Every(NamedTuple):
@@ -123,6 +129,15 @@ def occurrences(demand: Demand) -> Iterator[Occurs]:
     elif not isinstance(demand, int):
         for part in demand.parts:
             yield from occurrences(part)
+
+
+def certain(demand: Demand) -> Iterator[Occurs]:
+    """The occurrences that a demand speaks of and nothing can come in place of, whatever hedges inside decide."""
+    if isinstance(demand, Occurs):
+        yield demand
+    elif isinstance(demand, Every):
+        for part in demand.parts:
+            yield from certain(part)
 
 
 def ways_of(demand: Demand) -> list[tuple[Occurs, ...]] | None:

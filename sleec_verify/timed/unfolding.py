@@ -13,8 +13,7 @@ not come back to their own trigger, this ends; where they do, it may not, and is
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence, Set
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from typing import NamedTuple
 
 from sleec_runtime.model import (
@@ -29,9 +28,11 @@ from sleec_runtime.model import (
 from sleec_verify.solver import MiniSat, Undecided
 from sleec_verify.timed.instant import Fixed, Formula, Instant
 from sleec_verify.timed.laws import law_at
-from sleec_verify.timed.program import Program
+from sleec_verify.timed.needs import Need, Placed, Unseen
+from sleec_verify.timed.program import Follower, Program
 from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.times import Times
+from sleec_verify.timed.windows import allows, inside
 
 MOST = 12
 """Instants that may be added before the search for a trace is given up. Published rulesets need three."""
@@ -41,18 +42,6 @@ MOST_CLAUSES = 20_000
 
 PATIENCE = 5
 """How many times as many instants and clauses it may take where it comes to an end by itself."""
-
-
-@dataclass
-class _Need:
-    """That `witness` holds at some instant: of those that there are, or (`rest`) of those still to come."""
-
-    witness: Callable[[int], int]
-    rest: int
-    later: str | None = None
-    """The event that it calls for, at the same time or later."""
-    parts: list[_Need] = field(default_factory=list)
-    """What one instant at which this comes about first is enough for."""
 
 
 class Decided(NamedTuple):
@@ -66,17 +55,7 @@ class Decided(NamedTuple):
     due: Demand
 
 
-class Unseen(NamedTuple):
-    """That an event (or what ends a law) came about in a window around instant `at`, at an instant before now that is
-    not one of those that are known."""
-
-    at: int
-    what: str
-    start: int | None = None
-    end: int | None = None
-
-
-_Trust = Callable[[_Need], bool]
+_Trust = Callable[[Need], bool]
 """Which needs are taken on trust to be met at instants still to come."""
 
 
@@ -118,8 +97,9 @@ class Unfolding:
         self._in_part = in_part
         self._unseen_known = unseen
         self.unseen: dict[Unseen, int] = {}
-        self._needs: list[_Need] = []
-        self._firsts: list[_Need] = []
+        self._needs: list[Need] = []
+        self._nevers: dict[str, list[Placed]] = {}
+        self._firsts: list[Need] = []
         self._everywhere: list[Callable[[int], None]] = []
         self._in_force: dict[str, int] = {}
         self.now = len(beginning) - 1
@@ -167,30 +147,30 @@ class Unfolding:
                 self._close(first, part)
         return number
 
-    def exists(self, witness: Callable[[int], int], later: str | None = None) -> int:
+    def exists(self, witness: Callable[[int], int]) -> int:
         """A literal that implies that `witness` (an instant to a literal that implies that it is used) holds at some
         instant."""
         literal = self.formula.fresh()
-        need = _Need(witness, literal, later)
-        self._needs.append(need)
-        for number in range(len(self.instants)):
-            self._offer(need, number)
+        self._look_for(Need(witness, literal))
         return literal
 
-    def first(self, witness: Callable[[int], int]) -> _Need:
-        """The first instant at which `witness` holds, if there is any, as one thing to look for."""
-        need = _Need(witness, self.formula.fresh())
+    def _look_for(self, need: Need) -> None:
         self._needs.append(need)
-        self._firsts.append(need)
         for number in range(len(self.instants)):
             self._offer(need, number)
+
+    def first(self, witness: Callable[[int], int]) -> Need:
+        """The first instant at which `witness` holds, if there is any, as one thing to look for."""
+        need = Need(witness, self.formula.fresh())
+        self._firsts.append(need)
+        self._look_for(need)
         return need
 
-    def by_first(self, first: _Need, witness: Callable[[int], int], to_come: bool = True) -> int:
+    def by_first(self, first: Need, witness: Callable[[int], int], to_come: bool = True) -> int:
         """As `exists`, where `witness` demands more than that of `first`, and the first instant of that is as
         good as any. Unless it may be one that is `to_come`, it is one of those that there are."""
         literal = self.formula.fresh()
-        part = _Need(witness, literal)
+        part = Need(witness, literal)
         for number in range(len(self.instants)):
             self._offer(part, number)
         if to_come:
@@ -200,11 +180,11 @@ class Unfolding:
             self.add([-part.rest])
         return literal
 
-    def _close(self, first: _Need, part: _Need) -> None:
+    def _close(self, first: Need, part: Need) -> None:
         """What is still to come for a part is the first instant, until that has come."""
         self.add([-part.rest, first.rest] if first in self._needs else [-part.rest])
 
-    def _offer(self, need: _Need, number: int) -> None:
+    def _offer(self, need: Need, number: int) -> None:
         here = need.witness(number)
         if here == -self.formula.true:
             return
@@ -226,9 +206,12 @@ class Unfolding:
         unseen = self.came_about(at, what.event, what.start, what.end)
         if not what.negated:
             later = what.event if what.start is not None and what.start >= 0 else None
-            literal = self.exists(lambda other: self.occurrence(at, other, what), later)
+            literal = self.formula.fresh()
+            witness = lambda other: self.occurrence(at, other, what)  # noqa: E731
+            self._look_for(Need(witness, literal, later, Placed(at, what, literal)))
             return literal if unseen == -self.formula.true else self.formula.any_of([literal, unseen])
         never = self.formula.fresh()
+        self._nevers.setdefault(what.event, []).append(Placed(at, what, never))
         self.add([-never, -unseen])
 
         def not_there(other: int) -> None:
@@ -252,9 +235,9 @@ class Unfolding:
             for other, its in self.unseen.items():
                 if (other.at, other.what) == (at, what):
                     # What comes about in a part of a window does so in all of it.
-                    if _within(start, end, other.start, other.end):
+                    if allows(inside(key, other), 0):
                         self.add([-literal, its])
-                    if _within(other.start, other.end, start, end):
+                    if allows(inside(other, key), 0):
                         self.add([-its, literal])
             self.unseen[key] = literal
             # There has been time for it, after this instant and before now.
@@ -355,7 +338,7 @@ class Unfolding:
         for need in trusted:
             self._grow(need)
 
-    def _grow(self, need: _Need) -> None:
+    def _grow(self, need: Need) -> None:
         if self._grown >= self._most or len(self.formula.clauses) > self._most_clauses:
             raise Undecided(f"no answer with up to {len(self.instants)} instants")
         self._grown += 1
@@ -384,7 +367,7 @@ class Unfolding:
                 if recorder is not None:
                     recorder.refuted(self.formula.clauses, core)
                 return False
-            if not self._expand() and not self._refine():
+            if not self._expand() and not self._refine() and not self._rule_out():
                 if recorder is not None:
                     recorder.satisfied(self.formula.clauses, assumed, self._solver.holds)
                 return True
@@ -431,6 +414,41 @@ class Unfolding:
             self.add(lemma)
         return bool(refused)
 
+    def _rule_out(self) -> bool:
+        """Tell the solver that nothing of what it takes on trust comes about when it must not; whether that is news."""
+        trusted = [
+            need.placed
+            for need in self._needs
+            if need.placed is not None and self.true(need.rest) and self.true(need.placed.literal)
+        ]
+        # Rules that the question leaves out, or that the solver is free to.
+        not_in_force = {*self._without, *(label for label, _ in self.spared)}
+        not_in_force.update(label for label, literal in self._in_force.items() if not self.true(literal))
+        times: Mapping[int, int] | None = None
+        size = len(self.formula.clauses)
+        for call in trusted:
+            for what, labels in self._comes_of(call.what):
+                if not not_in_force.isdisjoint(labels):
+                    continue
+                for never in self._nevers.get(what.event, ()):
+                    bounds = inside(what, never.what)
+                    if bounds is None or not self.true(never.literal):
+                        continue
+                    if times is None:
+                        times, _ = self.schedule()
+                    if times.keys() >= {call.at, never.at} and allows(bounds, times[call.at] - times[never.at]):
+                        there = self.times.bounds(never.at, call.at, *bounds)
+                        because = [call.literal, never.literal, *map(self.in_force, labels), *there]
+                        self.add([-literal for literal in because])
+        return len(self.formula.clauses) > size
+
+    def _comes_of(self, what: Occurs) -> Iterator[Follower]:
+        """What is called for, and all that is bound to follow it where the rules are in force."""
+        yield Follower(what, ())
+        if self._rules is self.program.by_trigger:
+            for follower in self.program.bound_to_follow(what.event):
+                yield follower._replace(what=follower.what.following(what))
+
     def used(self) -> list[int]:
         """The instants that the trace of the last `ask` has."""
         return [number for number, instant in enumerate(self.instants) if self.true(instant.used)]
@@ -457,9 +475,3 @@ class Unfolding:
     def schedule(self) -> tuple[dict[int, int], dict[int, tuple[int, int]]]:
         """The earliest times of the trace of the last `ask`, and what each instant waits for."""
         return self.times.schedule(self.true, self.used())
-
-
-def _within(start: int | None, end: int | None, other_start: int | None, other_end: int | None) -> bool:
-    """Whether a window is part of another one."""
-    begins = other_start is None or (start is not None and start >= other_start)
-    return begins and (other_end is None or (end is not None and end <= other_end))

@@ -196,6 +196,28 @@ def test_one_domain_can_be_converted():
     assert len([s for s in found.ruleset.statements if isinstance(s, Rule)]) == len(ruleset.rules)
 
 
+@pytest.mark.parametrize(
+    ("response", "to", "noted"),
+    [
+        ("B", "dsl", True),
+        ("B WITHIN 5 minutes", "dsl", False),
+        ("B WITHIN 5 minutes OTHERWISE C", "dsl", True),
+        ("B", "legos", False),
+    ],
+)
+def test_what_sleec_tk_takes_its_time_for_is_noted(response, to, noted):
+    converted = convert(parse(f"WHEN A THEN {response}"), to)
+    assert [note for note in converted.notes if "SLEEC-TK" in note] == list(converted.notes)
+    assert bool(converted.notes) == noted
+
+
+def test_what_sleec_tk_wrote_is_what_it_means():
+    ruleset = parse("""def_start event A event B measure m: boolean def_end
+    rule_start r when A then B unless not m rule_end""")
+    assert ruleset.dialect == "sleec-tk"
+    assert convert(ruleset, "dsl").notes == []
+
+
 def test_the_command_prints_notes_apart():
     result = CliRunner().invoke(command, [str(RULESETS / "hospital.sleec"), "--to", "legos", "--domain", "hospital"])
     assert result.exit_code == 0

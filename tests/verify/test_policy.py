@@ -41,8 +41,17 @@ class Played:
         self.instants = list(history)
         # For each response that something has triggered, what it takes, in each of the ways to keep it.
         self.due = [ways for instant in history for ways in self.triggered(instant)]
-        while self.soon_one() or self.late_one():
-            assert len(self.instants) < 200, "what a policy does comes to an end"
+        forbidden = [leaf for ways in self.due for way in ways for leaf in way if leaf.negated]
+        self.over = {one.event: 0 for one in forbidden}
+        for one in forbidden:
+            self.over[one.event] = max(self.over[one.event], one.last or 0)
+        while self.goes_on and (self.soon_one() or self.late_one()):
+            pass
+
+    @property
+    def goes_on(self):
+        """Whether what it does may still come to an end; with measures that do not suit it, it may not."""
+        return len(self.instants) < 200
 
     def triggered(self, instant):
         for rule in self.ruleset.rules:
@@ -71,7 +80,11 @@ class Played:
 
     def soon_one(self):
         after = self.instants[-1].time + 1
-        called = [(max(after, one.first), one) for one in self.calls(self.due) if one.event in self.policy.soon]
+        called = [
+            (max(after, one.first, 1 + self.over.get(one.event, 0) if one.event in self.policy.waiting else 0), one)
+            for one in self.calls(self.due)
+            if one.event in self.policy.soon
+        ]
         called = [(time, one) for time, one in called if one.covers(time)]
         if not called:
             return False
@@ -100,7 +113,8 @@ class Played:
             due = list(self.triggered(here))
             for ways in due:
                 for one in (one for way in ways for one in way):
-                    at_once = one.last == time or (self.eager and not is_late)
+                    waits = one.event in self.policy.waiting and time <= self.over.get(one.event, 0)
+                    at_once = one.last == time or (self.eager and not is_late and not waits)
                     if not one.negated and one.event in allowed and one.covers(time) and at_once:
                         events |= {one.event}
             events |= {event for law in self.laws for event in self.demanded(law, here)}
@@ -137,7 +151,7 @@ def play(search, inner, now, plan):
         for soon, late in product(every, every if plan.policy.late else every[:1]):
             played = Played(ruleset, laws, program.untimed, history, plan.policy, soon, late, eager)
             found = broken(ruleset, Trace(tuple(played.instants)), program.untimed)
-            if not found:
+            if not found and played.goes_on:
                 break
             tried.append((played.instants[len(history) :], found))
         else:
@@ -179,8 +193,9 @@ def played(monkeypatch):
         program = Program(parse(text), untimed)
         for rule in program.rules if program.is_acyclic else ():
             cone = Cone(program, rule)
-            for instants in range(3):
-                answered(lambda n=instants: _Search(program, rule, cone, n).find())  # noqa: B023
+            for instants, patient in ((0, False), (1, False), (1, True), (2, False)):
+                search = _Search(program, rule, cone, instants, patient=patient)
+                answered(search.find)
         return found
 
     return run
@@ -203,6 +218,7 @@ def test_what_a_policy_does_keeps_all(first, played):
     for seed in range(first, first + 30):
         found = played_texts(played, seed)
     assert any(policy.soon for policy in found)
+    assert any(policy.waiting for policy in found)
 
 
 @pytest.mark.parametrize("unit", ["seconds", "minutes"])
@@ -241,8 +257,9 @@ def few_plans_decide(ruleset, monkeypatch):
     decided = again = 0
     for rule in program.rules if program.is_acyclic else ():
         cone = Cone(program, rule)
-        for plans in FEW_PLANS:
-            search = answered(lambda: (_Search(program, rule, cone, plans, True, 0, True).find(),))  # noqa: B023
+        for instants, patient in FEW_PLANS:
+            few = _Search(program, rule, cone, instants, True, 0, True, patient)
+            search = answered(lambda: (few.find(),))  # noqa: B023
             if search == (None,):
                 decided += 1
                 with monkeypatch.context() as patch:
@@ -356,6 +373,60 @@ def test_some_do_not(text, played):
     played(text)
 
 
+FEW_DO = {
+    "what waits until it is not forbidden": """r when B then A within 10 minutes
+        s when C then not A within 2 minutes""",
+    "what is brought, and waits": """r when B then A within 1 minutes
+        s when A then D within [1, 2] hours
+        t when C then not D within 30 minutes""",
+    "what comes at a time of its own": """r when B then A within [3, 3] minutes
+        s when B then not A within [1, 1] minutes""",
+    "what waits for more than one thing": """r when B then A within 10 minutes otherwise D within 5 minutes
+        s when C then not A within 2 minutes
+        t when E then not D within 3 minutes""",
+}
+
+
+@pytest.mark.parametrize("rules", FEW_DO.values(), ids=FEW_DO.keys())
+def test_few_plans_do_for(rules):
+    program = Program(parse(written(rules)))
+    rule = program.ruleset.by_label["r"]
+    searches = (_Search(program, rule, Cone(program, rule), few, True, 0, True, patient) for few, patient in FEW_PLANS)
+    assert (None,) in [answered(lambda: (search.find(),)) for search in searches]  # noqa: B023
+
+
+def test_what_comes_with_something_else_does_not_wait(played):
+    rules = """r when B then A within 10 minutes
+        s when C then not A within 2 minutes
+        t when E then D within 5 minutes"""
+    policies = played(written(rules, "equal A D"))
+    assert any("A" in policy.soon for policy in policies)
+    assert not any("A" in policy.waiting for policy in policies if "D" in policy.events)
+
+
+@pytest.mark.parametrize(
+    ("awaited", "faults"),
+    [("", 1), ("A", 2), ("D", 3), ("AD", 3), ("E", 2), ("F", 1)],
+)
+def test_what_shows_that_a_policy_does_not_suit(awaited, faults):
+    """That which calls for something, and what stands in the way of each thing that would do."""
+    program = Program(
+        parse(
+            written("""r when B then A within 1 minutes otherwise D within 1 minutes
+            s when D then A
+            t when C then not E within 1 minutes unless {m} then {not E unless {n} then not E within 2 minutes}""")
+        )
+    )
+    policies = Policies(program, program.ruleset.by_label, set("ABCDEF"))
+    assert policies.faults(Policy(waiting=frozenset(awaited))) == faults
+
+
+def test_each_event_of_a_law_may_be_due_by_an_instant_of_its_own():
+    rules = "".join(f"WHEN {trigger} THEN {event} WITHIN 1 minute\n" for trigger, event in ("BA", "CD", "FE"))
+    program = Program(parse(f"{rules}NEVER A AND D AND E"))
+    assert Policies(program, program.ruleset.by_label, set("ABCDEF")).faults(Policy(waiting=frozenset("ADE"))) == 3
+
+
 # After all else -------------------------------------------------------------------------------------------
 
 CALLED = "k when B then C"
@@ -423,6 +494,49 @@ UNSUITED = {
         Policy(late=frozenset("A")),
         range(1, 51),
     ),
+    "it waits, and has to be done by then": (
+        ("r when B then not A within 1 minute", "now when C then A within 10 seconds"),
+        Policy(soon=frozenset("A"), waiting=frozenset("A")),
+        range(1, 51),
+    ),
+    "it waits, and so does what it is done in place of": (
+        (
+            "r when B then not A within 1 minute",
+            "r2 when B then not D within 1 minute",
+            "now when C then A within 10 seconds otherwise D within 10 seconds",
+        ),
+        Policy(soon=frozenset("AD"), waiting=frozenset("AD")),
+        range(1, 41),
+    ),
+    "it waits, and what is done in the next second calls for it": (
+        (
+            "r when B then not A within 1 minute",
+            "s when D then A within 10 seconds",
+            "now when C then D within 5 seconds",
+        ),
+        Policy(soon=frozenset("AD"), waiting=frozenset("A")),
+        range(1, 46),
+    ),
+    "the second in which it is called for is forbidden": (
+        ("r when B then not A within [1, 1] minutes", "now when C then A within [30, 30] seconds"),
+        Policy(soon=frozenset("A"), first=frozenset("A")),
+        range(30, 31),
+    ),
+    "the second in which it was called for is forbidden": (
+        ("r when B then A within [1, 1] minutes", "now when C then not A within [30, 30] seconds"),
+        Policy(soon=frozenset("A"), first=frozenset("A")),
+        range(30, 31),
+    ),
+    "the next second, in which it was called for, is forbidden": (
+        ("r when B then A within [20, 31] seconds", "now when C then not A within [0, 30] seconds"),
+        Policy(soon=frozenset("A"), first=frozenset("A")),
+        range(1, 32),
+    ),
+    "the next second, which was the one in which it was called for, is forbidden": (
+        ("r when B then A within [1, 1] minutes", "now when C then not A within [1, 1] seconds"),
+        Policy(soon=frozenset("A"), first=frozenset("A")),
+        range(59, 60),
+    ),
     "what has to come before has not come": (
         ("r when B then not D within 1 minute", "now when C then A within 10 seconds", "before D A"),
         A_SOON,
@@ -436,9 +550,14 @@ def test_a_history_that_a_policy_does_not_suit_is_found_all_the_same(rules, poli
     relations = "".join(f"happenBefore{rule[6:]}" for rule in rules if rule.startswith("before"))
     program = Program(parse(written("\n".join(r for r in rules if not r.startswith("before")), relations)))
     rule = program.ruleset.by_label["now"]
-    search = _Search(program, rule, Cone(program, rule), 1)
-    search.plans.defeat(Plan(frozenset(), policy=policy))
-    history = search.find()
-    assert history is not None
-    past, now = history
-    assert "B" in now.events or ("B" in past.events and now.time - past.time in times)
+    for since in {times[0], times[-1]}:
+        search = _Search(program, rule, Cone(program, rule), 1)
+        search.plans.defeat(Plan(frozenset(), policy=policy))
+        (past,) = search.past
+        # The one instant before now is so long ago, and what matters happens there.
+        bounds = search.outer.times.bounds(past, search.now, since, since)
+        for literal in (*bounds, search.outer.instants[past].event("B"), -search.outer.instants[search.now].event("B")):
+            search.add([literal])
+        history = search.find()
+        assert history is not None
+        assert history[1].time - history[0].time == since

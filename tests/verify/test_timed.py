@@ -258,3 +258,20 @@ def test_many_rules_that_call_for_one_event_are_decided(rules, window):
     assert found["conflict"].verdict == Proved()
     assert found["vacuous-conflict"].verdict == Proved()
     assert found["redundant-rule"].verdict != Proved()
+
+
+def test_what_others_demand_as_well_is_no_conflict_of_its_own():
+    """What goes on without a rule's demand of now breaks it, which no other rule lets be; what can be done besides is
+    no matter. Without that, each second at which something was pending is looked at."""
+    found = run_checks(
+        parse(
+            """WHEN Alarm THEN NOT Leave WITHIN 5 minutes
+            WHEN Low THEN Alarm WITHIN 10 seconds UNLESS near IN WHICH CASE NOT Alarm WITHIN 10 seconds
+            WHEN Low THEN Leave WITHIN 5 minutes UNLESS near AND hot IN WHICH CASE Alarm WITHIN 10 seconds
+            RULE same WHEN Low THEN Leave WITHIN 5 minutes UNLESS fallen IN WHICH CASE Help WITHIN 5 seconds"""
+        ),
+        untimed="eventually",
+    )
+    (conflicts,) = (result for result in found if result.name == "conflict")
+    assert len(conflicts.findings) == 3
+    assert "same" not in {finding.rules[0] for finding in conflicts.findings}

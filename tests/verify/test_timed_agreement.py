@@ -15,11 +15,6 @@ ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.slow
-def test_some_random_rulesets_are_answered_as_z3_answers_them():
-    compare_all(300, 320)
-
-
-@pytest.mark.slow
 @pytest.mark.timeout(300)
 def test_structured_english_is_answered_as_z3_answers_it():
     """Both readings, several obligations in a response, which may contradict one another, numbers, constraints."""
@@ -60,7 +55,7 @@ def test_random_rulesets_are_answered_as_z3_answers_them():
 
 @pytest.mark.long
 @pytest.mark.timeout(3600)
-@pytest.mark.parametrize("first", range(320, 5_020, 100))
+@pytest.mark.parametrize("first", range(300, 5_020, 100))
 def test_many_random_rulesets_are_answered_as_z3_answers_them(first):
     compare_all(first, min(first + 100, 5_020), large=True)
 

@@ -1,0 +1,41 @@
+"""What the instants of a trace have to come to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from sleec_verify.timed.responses import Occurs
+
+
+class Placed(NamedTuple):
+    """That `literal` is true only if an event occurs, or does not, in a window around instant `at`."""
+
+    at: int
+    what: Occurs
+    literal: int
+
+
+@dataclass
+class Need:
+    """That `witness` holds at some instant: of those that there are, or (`rest`) of those still to come."""
+
+    witness: Callable[[int], int]
+    rest: int
+    later: str | None = None
+    """The event that it calls for, at the same time or later."""
+    placed: Placed | None = None
+    """What it demands, if that is that an event occurs."""
+    parts: list[Need] = field(default_factory=list)
+    """What one instant at which this comes about first is enough for."""
+
+
+class Unseen(NamedTuple):
+    """That an event (or what ends a law) came about in a window around instant `at`, at an instant before now that is
+    not one of those that are known."""
+
+    at: int
+    what: str
+    start: int | None = None
+    end: int | None = None
