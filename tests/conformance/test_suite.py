@@ -44,9 +44,9 @@ def running_at(domain: str) -> Sleec:
 
 
 def test_the_eight_rules_exhaustively_in_a_second() -> None:
-    started = time.perf_counter()
+    started = time.process_time()
     check_conformance(make_sleec, parts=["each-rule"])
-    assert time.perf_counter() - started < 2
+    assert time.process_time() - started < 2
 
 
 def test_the_ward_passes_as_well() -> None:

@@ -44,7 +44,7 @@ PIECES = [
 
 
 def parses_or_complains(text: str) -> None:
-    start = time.perf_counter()
+    start = time.process_time()
     ruleset: Ruleset | None = None
     problems: tuple[Problem, ...] = ()
     try:
@@ -59,7 +59,7 @@ def parses_or_complains(text: str) -> None:
     for problem in problems:
         assert 0 <= problem.span.start <= problem.span.end <= length
         assert len(problem.message) < 500
-    assert time.perf_counter() - start < 5
+    assert time.process_time() - start < 5
 
 
 @given(st.text(max_size=200))
