@@ -2,6 +2,8 @@
 
 The chart has a column for each moment and a row for each event: ``*`` where it occurs, ``-`` while it is due, ``x``
 while it is forbidden, ``!`` while it is forbidden and is due, or occurs. ``>``: and so on, past the last moment.
+
+Where the same happens second by second, only the first and the last of these moments are told.
 """
 
 from __future__ import annotations
@@ -29,15 +31,39 @@ def duration(seconds: int) -> str:
     return " ".join(parts) or "0 seconds"
 
 
-def in_words(timeline: Timeline) -> Iterator[str]:
-    """A line for each moment, and one below it for each thing that is due by it."""
+FEW_ALIKE = 3
+"""Moments alike, second by second, that are told one by one."""
+
+
+def _alike(timeline: Timeline) -> list[list[Moment]]:
+    """The moments, together where the same happens second by second; the one that is now stands alone."""
+
+    def same(moment: Moment, after: int) -> Moment:
+        due = tuple(
+            replace(one, start=one.start + after, end=None if one.end is None else one.end + after)
+            for one in moment.due
+        )
+        return replace(moment, time=moment.time + after, due=due)
+
+    found: list[list[Moment]] = []
     for place, moment in enumerate(timeline.moments):
-        last = place == timeline.now
-        when = "at one moment" if len(timeline.moments) == 1 else _when(moment, first=place == 0)
+        if found and place != timeline.now and same(found[-1][0], len(found[-1])) == moment:
+            found[-1].append(moment)
+        else:
+            found.append([moment])
+    return [part for run in found for part in ([run] if len(run) > FEW_ALIKE else [[one] for one in run])]
+
+
+def in_words(timeline: Timeline) -> Iterator[str]:
+    """A line for each moment, or for several that are alike, and one below it for each thing that is due by it."""
+    for moment, *others in _alike(timeline):
+        when = "at one moment" if len(timeline.moments) == 1 else _when(moment, first=moment is timeline.moments[0])
+        if others:
+            when += f", and each second up to {duration(others[-1].time)}"
         yield f"{when}, {_happens(moment)}"
         for due in moment.due:
             yield f"  {due.rule} {_calls(due)}"
-        if last:
+        if timeline.now is not None and moment is timeline.moments[timeline.now]:
             yield "and then there is no way to keep every rule"
 
 
@@ -61,14 +87,14 @@ def _happens(moment: Moment) -> str:
 
 def chart_of(timeline: Timeline) -> list[str]:
     """The moments as columns, the events that occur or are due as rows."""
-    times = [moment.time for moment in timeline.moments]
-    heads = [_short(time) for time in times]
+    columns = [moment for run in _alike(timeline) for moment in (run if len(run) == 1 else (run[0], run[-1]))]
+    heads = [_short(moment.time) for moment in columns]
     if timeline.now is not None:
-        heads[timeline.now] += " now"
+        heads[columns.index(timeline.moments[timeline.now])] += " now"
     demands = [due for moment in timeline.moments for due in moment.due]
     names = list(dict.fromkeys([e for m in timeline.moments for e in m.events] + [due.event for due in demands]))
     label = max(len(name) for name in names)
-    marks = {name: _marks(name, timeline.moments, demands) for name in names}
+    marks = {name: _marks(name, timeline.moments, columns, demands) for name in names}
     # A column has the mark of its moment and one at least for each stretch after it; "> " may end the last.
     stretches = max(len(after) for row in marks.values() for _, after in row)
     width = max(8, stretches + 3, *(len(head) + 2 for head in heads))
@@ -81,9 +107,11 @@ def chart_of(timeline: Timeline) -> list[str]:
     return rows
 
 
-def _marks(name: str, moments: Sequence[Moment], demands: Sequence[Due]) -> list[tuple[str, str]]:
-    """For each moment the mark of an event there, and those of the time up to the next moment, one for each stretch
-    in which nothing changes. What comes after all demands is not among those of the last moment."""
+def _marks(
+    name: str, moments: Sequence[Moment], columns: Sequence[Moment], demands: Sequence[Due]
+) -> list[tuple[str, str]]:
+    """For each column the mark of an event at its moment, and those of the time up to the next column, one for each
+    stretch in which nothing changes. What comes after all demands is not among those of the last column."""
     times = [moment.time for moment in moments if name in moment.events]
     mine = [_while_open(due, times) for due in demands if due.event == name]
 
@@ -96,10 +124,11 @@ def _marks(name: str, moments: Sequence[Moment], demands: Sequence[Due]) -> list
         return "x" if True in kinds else "-" if kinds else " "
 
     changes = {due.start for due in mine} | {due.end + 1 for due in mine if due.end is not None}
+    changes.update(moment.time for moment in moments)
     found = []
-    for place, moment in enumerate(moments):
+    for place, moment in enumerate(columns):
         first = moment.time + 1
-        behind = moments[place + 1].time if place + 1 < len(moments) else None
+        behind = columns[place + 1].time if place + 1 < len(columns) else None
         begins = sorted(time for time in {first, *changes} if time >= first and (behind is None or time < behind))
         after = "".join(kind for kind, _ in groupby(map(mark, begins)))
         found.append((mark(moment.time), after.rstrip() if behind is None else after))

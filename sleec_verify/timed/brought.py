@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cached_property
+from math import inf
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume, Never
@@ -23,6 +24,7 @@ class Brought:
         self._due: dict[str, set[Occurs]] = {}
         self._harmless: dict[str, bool] = {}
         self._late: dict[str, bool] = {}
+        self._needed: dict[str, float] = {}
 
     def instants(self, trigger: str, missing: Collection[str] = ()) -> int | None:
         """How many instants the deadlines take that an event brings with it, and those of what they call for; None
@@ -146,6 +148,58 @@ class Brought:
         at_hand = (what for what in way if not what.negated and (not what.is_later or not self._program.laws))
         pending = [what for what in way if what.end != 0]
         return any(self.is_harmless(what.event) for what in at_hand) and (not pending or self.can_be_done(pending))
+
+    def is_free_now(self, demand: Demand) -> bool:
+        """Whether a demand of now can be met whatever else is the case: as `is_free`, or by a way to go on without it
+        in which nothing is done that nothing needs."""
+        ways = ways_of(demand)
+        return ways is not None and all(self._is_free(way) or any(map(self._is_apart, way)) for way in ways)
+
+    def _is_apart(self, what: Occurs) -> bool:
+        """Whether it begins only after all that can need the event, if it forbids that; else, whether it ends only
+        after all that can forbid it, and the event has no consequences."""
+        if what.negated:
+            return what.start is not None and what.start > self._needed_until(what.event)
+        return (
+            not what.is_empty
+            and self._program.is_inert(what.event)
+            and self._program.is_open_ended
+            and (inf if what.end is None else what.end) > self._forbidden_until(what.event)
+        )
+
+    def _forbidden_until(self, event: str) -> float:
+        """The last second after now at which such a way to go on may forbid an event; before now, if none does."""
+        latest = -1.0
+        for rule in self._program.forbidding.get(event, ()):
+            for what in self._program.windows_at_most(rule):
+                if what.event == event and what.negated:
+                    end = inf if what.end is None else what.end
+                    latest = max(latest, self._needed_until(rule.trigger) + end)
+        return latest
+
+    def _needed_until(self, event: str) -> float:
+        """The last second after now at which a way to go on may need an event, for itself or for what it goes with, if
+        nothing is done that nothing needs; infinity if there is no end to it, or it comes back to itself."""
+        known = self._needed.get(event)
+        if known is None:
+            self._needed[event] = inf
+            known = self._needed[event] = self._look_for_need(event)
+        return known
+
+    def _look_for_need(self, event: str) -> float:
+        from sleec_verify.timed.program import may_call
+
+        program, latest = self._program, 0.0
+        for rule in program.obliging.get(event, ()):
+            called = [what for what in program.windows_at_most(rule) if what.event == event and not what.negated]
+            ends = max(inf if what.end is None else what.end for what in called)
+            latest = max(latest, self._needed_until(rule.trigger) + ends)
+        for law in program.laws_of_event.get(event, ()):
+            if event in may_call(law):
+                if not isinstance(law, EventRelation):
+                    return inf
+                latest = max(latest, self._needed_until(law.right if event == law.left else law.left))
+        return latest
 
     def _can_wait(self, way: Sequence[Occurs]) -> bool:
         """Whether something of it has no end, and can be done after all else."""

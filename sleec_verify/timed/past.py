@@ -29,8 +29,8 @@ from collections.abc import Iterable, Sequence
 from math import comb
 from typing import NamedTuple
 
-from sleec_runtime.model import Exclusive, Rule
-from sleec_runtime.model_time import EventRelation, Lasting, MeasureRelation
+from sleec_runtime.model import Rule
+from sleec_runtime.model_time import EventRelation, Lasting
 from sleec_verify.timed.program import Program
 from sleec_verify.timed.responses import Demand, Occurs, occurrences, seconds, ways_of
 
@@ -63,12 +63,6 @@ class _Counting:
         self._pending = 0
         self._endless = 0
         self._more = 0
-        # A time to come may be looked for only where it can be as now is, but for the events.
-        self._open_ended = all(
-            isinstance(law, (MeasureRelation, Exclusive))
-            or (isinstance(law, EventRelation) and law.relation != "happenBefore")
-            for law in program.laws
-        )
 
     def of(self, rules: Iterable[Rule]) -> Past:
         rules = list(rules)
@@ -190,7 +184,7 @@ class _Counting:
     def _is_settled(self, what: Occurs) -> bool:
         """Whether it can be met or cannot, whatever is done."""
         return (
-            self._open_ended
+            self._program.is_open_ended
             and self._program.is_inert(what.event)
             and all(
                 self._is_never_called(rule.trigger)

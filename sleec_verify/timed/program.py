@@ -216,7 +216,10 @@ class Program:
         """The events that rules or laws may come to call for at a time after what calls for them."""
         found: set[str] = set()
         ahead = [
-            what.event for rule in self.rules for what in self._at_most(rule) if what.end != 0 and not what.negated
+            what.event
+            for rule in self.rules
+            for what in self.windows_at_most(rule)
+            if what.end != 0 and not what.negated
         ]
         ahead += [event for law in self.laws if not isinstance(law, EventRelation) for event in may_call(law)]
         while ahead:
@@ -309,7 +312,7 @@ class Program:
                 event, min(what.start or 0 for what in windows), max(ends) if len(ends) == len(windows) else None
             )
 
-    def _at_most(self, rule: Rule) -> list[Occurs]:
+    def windows_at_most(self, rule: Rule) -> list[Occurs]:
         """As `windows`, with all times from the trigger on where a measure says how long."""
         try:
             return self.windows(rule)
@@ -345,13 +348,22 @@ class Program:
                         same[one] = other
         return not leads_back((_found(same, event), _found(same, called)) for event, called in calls)
 
+    @cached_property
+    def is_open_ended(self) -> bool:
+        """Whether any time to come can be as now is, but for the events: no law tells one time from another."""
+        return all(
+            isinstance(law, (MeasureRelation, Exclusive))
+            or (isinstance(law, EventRelation) and law.relation != "happenBefore")
+            for law in self.laws
+        )
+
     def is_inert(self, event: str) -> bool:
         """Whether an event has no consequences: it triggers no rule, and no law speaks of it."""
         return event not in self.by_trigger and event not in self.bound
 
     def is_timed(self, rule: Rule) -> bool:
         """Whether a rule demands anything of other instants than that of its trigger."""
-        return any(o.start != 0 or o.end != 0 for o in self._at_most(rule))
+        return any(o.start != 0 or o.end != 0 for o in self.windows_at_most(rule))
 
     @cached_property
     def has_delays(self) -> bool:

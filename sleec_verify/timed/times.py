@@ -7,7 +7,7 @@ nothing.
 
 from __future__ import annotations
 
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
@@ -19,6 +19,13 @@ class _Edge(NamedTuple):
     target: int
     length: int
     literal: int
+
+
+class _Pair(NamedTuple):
+    """The literals "the time of the one minus that of the other is at most this", in the order of their lengths."""
+
+    lengths: list[int]
+    literals: list[int]
 
 
 _ZERO = -1
@@ -39,8 +46,7 @@ class Times:
         self._add = add
         self._true = true
         self._known = dict(known or {})
-        self._lengths: dict[tuple[int, int], list[int]] = {}
-        self._literals: dict[tuple[int, int, int], int] = {}
+        self._pairs: dict[tuple[int, int], _Pair] = {}
         self._asked_of: dict[int, int] = {}
 
     def at_most(self, a: int, b: int, length: int) -> int:
@@ -59,17 +65,18 @@ class Times:
         return self._literal(a, b, length, asked_of)
 
     def _literal(self, a: int, b: int, length: int, asked_of: int) -> int:
-        literal = self._literals.get((a, b, length))
-        if literal is None:
-            literal = self._literals[a, b, length] = self._fresh()
-            self._asked_of[literal] = asked_of
-            lengths = self._lengths.setdefault((a, b), [])
-            place = bisect_left(lengths, length)
-            if place > 0:
-                self._add([-self._literals[a, b, lengths[place - 1]], literal])
-            if place < len(lengths):
-                self._add([-literal, self._literals[a, b, lengths[place]]])
-            lengths.insert(place, length)
+        lengths, literals = self._pairs.setdefault((a, b), _Pair([], []))
+        place = bisect_left(lengths, length)
+        if place < len(lengths) and lengths[place] == length:
+            return literals[place]
+        literal = self._fresh()
+        self._asked_of[literal] = asked_of
+        if place > 0:
+            self._add([-literals[place - 1], literal])
+        if place < len(lengths):
+            self._add([-literal, literals[place]])
+        lengths.insert(place, length)
+        literals.insert(place, literal)
         return literal
 
     def before(self, a: int, b: int) -> int:
@@ -82,27 +89,45 @@ class Times:
         return found if start is None else [*found, -self.at_most(a, b, start - 1)]
 
     def _edges(self, holds: Callable[[int], bool], used: Sequence[int]) -> Iterator[_Edge]:
+        """What a model says of each pair, at its tightest: the model keeps the order of the literals of one pair."""
         there = {_ZERO, *used}
-        for (a, b, length), literal in self._literals.items():
+        for (a, b), (lengths, literals) in self._pairs.items():
             if a in there and b in there:
-                if holds(literal):
-                    yield _Edge(a, b, length, literal)
-                else:
-                    yield _Edge(b, a, -length - 1, -literal)
+                first = bisect_left(literals, True, key=holds)
+                if first < len(lengths):
+                    yield _Edge(a, b, lengths[first], literals[first])
+                if first > 0:
+                    yield _Edge(b, a, -lengths[first - 1] - 1, -literals[first - 1])
+
+    def _weakened(self, cycle: Sequence[_Edge]) -> list[int]:
+        """The literals of a cycle that adds up to less than nothing, or of others that follow from them and do so as
+        well: the less is said of each pair, the more models are refused with it."""
+        spare = -1 - sum(edge.length for edge in cycle)
+        found = []
+        for source, target, length, literal in cycle:
+            if literal > 0:
+                lengths, literals = self._pairs[source, target]
+                weaker = bisect_right(lengths, length + spare) - 1
+                spare -= lengths[weaker] - length
+                found.append(literals[weaker])
+            else:
+                lengths, literals = self._pairs[target, source]
+                weaker = bisect_left(lengths, -length - 1 - spare)
+                spare -= -lengths[weaker] - 1 - length
+                found.append(-literals[weaker])
+        return found
 
     def refused(self, holds: Callable[[int], bool], used: Sequence[int]) -> list[list[int]]:
         """Clauses that a model breaks and that hold of all times; none if the model leaves times for `used`.
 
         Nearly all contradictions are between three instants: all of these are told at once, so that few models are
-        asked for. O(n³) for n instants, and O(n · literals) where no three contradict one another.
+        asked for. O(n³) for n instants.
         """
         tightest: dict[int, dict[int, _Edge]] = {node: {} for node in (_ZERO, *used)}
         for edge in self._edges(holds, used):
-            known = tightest[edge.source].get(edge.target)
-            if known is None or edge.length < known.length:
-                tightest[edge.source][edge.target] = edge
+            tightest[edge.source][edge.target] = edge
         cycles = list(_triangles(tightest)) or _negative_cycle(tightest)
-        return [[-edge.literal for edge in cycle] for cycle in cycles]
+        return [[-literal for literal in self._weakened(cycle)] for cycle in cycles]
 
     def schedule(
         self, holds: Callable[[int], bool], used: Sequence[int]

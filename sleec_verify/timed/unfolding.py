@@ -93,6 +93,8 @@ class Unfolding:
         self._most = most * patience
         self._most_clauses = most_clauses * patience
         self._grown = 0
+        self._refused = 0
+        self._there_for: dict[int, int] = {}
         self._impossible = impossible
         self._in_part = in_part
         self._unseen_known = unseen
@@ -328,22 +330,38 @@ class Unfolding:
                 return False
             self.grow()
 
-    def grow(self) -> None:
-        """Add an instant for each thing that the model found last trusts to come about at some other instant. If these
-        are too many, one for each event that is called for: one occurrence may well do for all who call for it."""
+    def grow(self, by: Set[int] | None = None) -> None:
+        """Add an instant for each thing that the model found last trusts to come about at some other instant; only for
+        what the instants `by` call for, and what that calls for in turn, if that is anything. If these are too many,
+        one for each event that is called for: one occurrence may well do for all who call for it."""
         trusted = [need for need in self._needs if self.true(need.rest)]
+        if by is not None:
+            trusted = [n for n in trusted if n.placed is not None and self._root(n.placed.at) in by] or trusted
         if self._grown + len(trusted) > self._most:
             events = {need.later: need for need in reversed(trusted) if need.later is not None}
             trusted = [need for need in trusted if need.later is None or events[need.later] is need]
         for need in trusted:
             self._grow(need)
 
+    def _root(self, at: int) -> int:
+        """The instant that an instant is there for in the end."""
+        while at in self._there_for:
+            at = self._there_for[at]
+        return at
+
+    @property
+    def size(self) -> int:
+        """How many clauses it has, but for those that tell what measures and times cannot be."""
+        return len(self.formula.clauses) - self._refused
+
     def _grow(self, need: Need) -> None:
-        if self._grown >= self._most or len(self.formula.clauses) > self._most_clauses:
+        if self._grown >= self._most or self.size > self._most_clauses:
             raise Undecided(f"no answer with up to {len(self.instants)} instants")
         self._grown += 1
         self._needs.remove(need)
         number = self.instant()
+        if need.placed is not None:
+            self._there_for[number] = need.placed.at
         # What the new instant stands for is met there, or was met at one of the others.
         self.add([-need.rest, need.witness(number)])
 
@@ -412,6 +430,7 @@ class Unfolding:
         refused += self.times.refused(self.true, self.used())
         for lemma in refused:
             self.add(lemma)
+        self._refused += len(refused)
         return bool(refused)
 
     def _rule_out(self) -> bool:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from sleec_runtime.language import parse
-from sleec_verify.timed.conflicts import _after, conflict
+from sleec_verify.timed.conflicts import conflict
+from sleec_verify.timed.histories import after
 from sleec_verify.timed.instant import Fixed
 from sleec_verify.timed.program import Program
 from sleec_verify.timed.questions import breaking, coming_about, triggering
@@ -31,11 +32,11 @@ def chain(length, each, seconds):
 def test_a_chain_is_stuck_exactly_where_its_last_link_is_forbidden(length, each):
     """Each link may come at any of six seconds, so that there are many ways to try, of which none does."""
     history = (Fixed(0, frozenset({"X"}), {}), Fixed(30, frozenset({"E0"}), {}, complete=False))
-    stuck = _after(chain(length, each, 30 + 5 * length), history)
+    stuck = after(chain(length, each, 30 + 5 * length), history)
     assert not stuck.ask()
     assert len(stuck.instants) == 2
     if length < 5:
-        assert _after(chain(length, each, 30 + 5 * length - 1), history).ask()
+        assert after(chain(length, each, 30 + 5 * length - 1), history).ask()
 
 
 @pytest.mark.parametrize("each", EACH.values(), ids=EACH.keys())
@@ -81,6 +82,6 @@ def test_a_window_is_inside_another_one_where_all_its_seconds_are(window, other)
     start, end = window
     # A second further away than any bound stands for all that are.
     seconds = range(-20 if start is None else start, (20 if end is None else end) + 1)
-    for after in range(-10, 11):
-        all_are = all(Occurs("E", *other).covers(after + second) for second in seconds)
-        assert allows(inside(Occurs("E", *window), Occurs("E", *other)), after) == all_are
+    for later in range(-10, 11):
+        all_are = all(Occurs("E", *other).covers(later + second) for second in seconds)
+        assert allows(inside(Occurs("E", *window), Occurs("E", *other)), later) == all_are

@@ -63,7 +63,8 @@ def test_what_comes_before_the_last_seconds_is_tried_with_them(monkeypatch):
 
 
 def test_more_than_are_tried_is_unknown():
-    text = "RULE slow WHEN Knock THEN NOT Open WITHIN [2, 2] minutes\nRULE fast WHEN Ring THEN Open WITHIN 2 minutes"
+    # A second less, and no unit is left that has several.
+    text = "RULE slow WHEN Knock THEN NOT Open WITHIN [2, 2] minutes\nRULE fast WHEN Ring THEN Open WITHIN 119 seconds"
     program, rule, bound = asked(text, "fast")
     assert bound.reach > MOST_SECONDS
     with pytest.raises(Undecided, match="no conflict with up to 8 instants before now"):

@@ -18,7 +18,8 @@ from sleec_runtime.trace import Instant, Trace, _Replay, broken
 from sleec_verify.timed import conflicts
 from sleec_verify.timed.brought import Brought
 from sleec_verify.timed.conflict_cone import Cone
-from sleec_verify.timed.conflicts import FEW_PLANS, _partial, _Search, conflict
+from sleec_verify.timed.conflicts import FEW_PLANS, _partial, conflict
+from sleec_verify.timed.histories import Search
 from sleec_verify.timed.plans import Plan
 from sleec_verify.timed.policy import Policies, Policy, can_come_late
 from sleec_verify.timed.program import Program, events_of
@@ -176,7 +177,7 @@ def played(monkeypatch):
     """Searches for conflicts of all rules of a text, with few instants before now, of which each way to go on by a
     policy is played. Returns these policies."""
     found = []
-    ways = _Search._ways
+    ways = Search._ways
 
     def all_played(search, inner, now, unseen):
         for plan in ways(search, inner, now, unseen):
@@ -187,14 +188,14 @@ def played(monkeypatch):
                 found.append(plan.policy)
             yield plan
 
-    monkeypatch.setattr(_Search, "_ways", all_played)
+    monkeypatch.setattr(Search, "_ways", all_played)
 
     def run(text, untimed="at"):
         program = Program(parse(text), untimed)
         for rule in program.rules if program.is_acyclic else ():
             cone = Cone(program, rule)
             for instants, patient in ((0, False), (1, False), (1, True), (2, False)):
-                search = _Search(program, rule, cone, instants, patient=patient)
+                search = Search(program, rule, cone, instants, patient=patient)
                 answered(search.find)
         return found
 
@@ -258,7 +259,7 @@ def few_plans_decide(ruleset, monkeypatch):
     for rule in program.rules if program.is_acyclic else ():
         cone = Cone(program, rule)
         for instants, patient in FEW_PLANS:
-            few = _Search(program, rule, cone, instants, True, 0, True, patient)
+            few = Search(program, rule, cone, instants, True, 0, True, patient)
             search = answered(lambda: (few.find(),))  # noqa: B023
             if search == (None,):
                 decided += 1
@@ -391,7 +392,7 @@ FEW_DO = {
 def test_few_plans_do_for(rules):
     program = Program(parse(written(rules)))
     rule = program.ruleset.by_label["r"]
-    searches = (_Search(program, rule, Cone(program, rule), few, True, 0, True, patient) for few, patient in FEW_PLANS)
+    searches = (Search(program, rule, Cone(program, rule), few, True, 0, True, patient) for few, patient in FEW_PLANS)
     assert (None,) in [answered(lambda: (search.find(),)) for search in searches]  # noqa: B023
 
 
@@ -551,7 +552,7 @@ def test_a_history_that_a_policy_does_not_suit_is_found_all_the_same(rules, poli
     program = Program(parse(written("\n".join(r for r in rules if not r.startswith("before")), relations)))
     rule = program.ruleset.by_label["now"]
     for since in {times[0], times[-1]}:
-        search = _Search(program, rule, Cone(program, rule), 1)
+        search = Search(program, rule, Cone(program, rule), 1)
         search.plans.defeat(Plan(frozenset(), policy=policy))
         (past,) = search.past
         # The one instant before now is so long ago, and what matters happens there.

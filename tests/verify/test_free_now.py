@@ -1,0 +1,106 @@
+"""Demands of now that are met whatever else is the case: what need not be done is left out where it is forbidden, and
+what nothing forbids any more is done then."""
+
+from __future__ import annotations
+
+import pytest
+
+from sleec_runtime.language import parse
+from sleec_verify.timed.brought import Brought
+from sleec_verify.timed.conflicts import conflict
+from sleec_verify.timed.program import Program
+from tests.timed_agreement import SIZES, answered
+from tests.timed_strategies import timed_ruleset
+
+RULES = """RULE one WHEN Ring THEN Open WITHIN 1 minute
+RULE two WHEN Open THEN Light WITHIN 2 minutes
+RULE asked WHEN Knock THEN """
+
+
+def is_free(asked, rules=RULES):
+    program = Program(parse(rules + asked))
+    (demand,) = program.demands(program.ruleset.by_label["asked"])
+    return program.brought.is_free_now(demand)
+
+
+@pytest.mark.parametrize(
+    ("asked", "free"),
+    [
+        ("NOT Open WITHIN [61, 99] seconds", True),
+        ("NOT Open WITHIN [60, 99] seconds", False),
+        # Light may follow the last that is opened.
+        ("NOT Light WITHIN [181, 200] seconds", True),
+        ("NOT Light WITHIN [180, 200] seconds", False),
+        ("NOT Ring WITHIN [1, 9] seconds", True),
+        ("NOT Ring WITHIN [0, 9] seconds", False),
+        ("NOT Light WITHIN 1 minute OTHERWISE NOT Open WITHIN 1 minute", False),
+        ("NOT Light WITHIN 1 minute OTHERWISE NOT Light WITHIN [121, 180] seconds", True),
+    ],
+)
+def test_what_nothing_needs_by_then_can_be_left_out(asked, free):
+    assert is_free(asked) == free
+
+
+@pytest.mark.parametrize(
+    ("relation", "free"),
+    [
+        ("RELATION Ring PRECEDES Dim", False),
+        ("RELATION Dim PRECEDES Ring", True),
+        ("NEVER Dim AND Ring", False),
+        ("EXCLUSIVE Dim, Ring", True),
+    ],
+)
+def test_what_a_law_calls_for_may_be_needed(relation, free):
+    rules = RULES.replace("RULE asked", f"{relation}\nRULE dim WHEN Open THEN Dim WITHIN 1 minute\nRULE asked")
+    assert is_free("NOT Ring WITHIN [5, 9] seconds", rules) == free
+
+
+@pytest.mark.parametrize(
+    ("asked", "free"),
+    [
+        ("Light WITHIN 8 seconds", True),
+        ("Light WITHIN 7 seconds", False),
+        ("Light WITHIN [3, 8] seconds", True),
+        ("Light EVENTUALLY", True),
+        # What is opened calls for light.
+        ("Open WITHIN 8 seconds", False),
+    ],
+)
+def test_what_nothing_forbids_any_more_can_be_done(asked, free):
+    dark = """RULE dark WHEN Knock THEN NOT Light WITHIN [2, 4] seconds
+RULE late WHEN Dim THEN NOT Light WITHIN 7 seconds
+RULE two WHEN Open THEN Light WITHIN 2 minutes
+RULE asked WHEN Hear THEN """
+    assert is_free(asked, dark) == free
+    assert not is_free("Light EVENTUALLY", dark.replace("WITHIN 7 seconds", "EVENTUALLY"))
+
+
+def differing(seed, minutes, monkeypatch):
+    """How many rules have no conflict by this alone."""
+    text = timed_ruleset(seed, **SIZES[seed % 3]).source.text
+    program = Program(parse(text.replace(" seconds", " minutes") if minutes else text))
+    count = 0
+    # What leads back to itself takes long.
+    for rule in program.rules if program.is_acyclic else ():
+        found = answered(lambda: (conflict(program, rule),))  # noqa: B023
+        with monkeypatch.context() as patch:
+            patch.setattr(Brought, "is_free_now", Brought.is_free)
+            other = answered(lambda: (conflict(program, rule),))  # noqa: B023
+        if found is None or other is None:
+            continue
+        assert (found[0] is None) == (other[0] is None), (seed, rule.label)
+        brought, demands = program.brought, program.demands(rule)
+        count += all(map(brought.is_free_now, demands)) and not all(map(brought.is_free, demands))
+    return count
+
+
+def test_a_rule_of_which_all_is_free_has_no_conflict(monkeypatch):
+    found = [differing(seed, seed % 2 == 1, monkeypatch) for seed in (*range(2800, 3000), 4079)]
+    assert sum(found) > 5
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("first", range(5000, 8000, 100))
+def test_many_rules_of_which_all_is_free_have_no_conflict(first, monkeypatch):
+    for seed in range(first, first + 100):
+        differing(seed, seed % 2 == 1, monkeypatch)
