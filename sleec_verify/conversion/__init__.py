@@ -5,14 +5,16 @@ What the other language cannot say is refused, never dropped.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from sleec_runtime.errors import LanguageError, Unsayable
 from sleec_runtime.language import parse, print_ruleset
-from sleec_runtime.model import Assume, Dialect, Exclusive, Never, Reading, Rule, Ruleset
+from sleec_runtime.model import Assume, Dialect, Exclusive, Never, Reading, Rule, Ruleset, literals
 from sleec_verify.conversion.readings import reread
+from sleec_verify.report.words import listed
+from sleec_verify.timed.scope import speaks_of_traces
 
 Target = Literal["english", "dsl", "legos"]
 TARGETS: tuple[Target, ...] = ("english", "dsl", "legos")
@@ -66,4 +68,25 @@ def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Con
         raise Unsayable(f"this cannot be said in the other language: {first.message}", first.hint) from None
     if replace(again, dialect=converted.dialect) != converted:
         raise AssertionError("the converted text would not say the same, which is a bug in sleec-verify")
-    return Converted(text, again, notes)
+    return Converted(text, again, [*notes, *_of_chains(ruleset, again)])
+
+
+def _of_chains(before: Ruleset, after: Ruleset) -> Iterator[str]:
+    """Where only one of the two texts is about what happens one after the other, what that means for chains of rules:
+    the situations oblige the same, and the checks look at more or less than these."""
+    traces = speaks_of_traces(after)
+    if traces == speaks_of_traces(before):
+        return
+    triggers = {rule.trigger for rule in after.rules}
+    responses = (response for rule in after.rules for clause in rule.clauses() for response in literals(clause))
+    both = [n for n in dict.fromkeys(one.name for one in responses if not one.negated) if n in triggers]
+    if not both:
+        return
+    names = listed(both if len(both) <= 3 else [*both[:2], f"{len(both) - 2} others"])
+    if traces:
+        yield f"doing {names} triggers rules in the DSL; in structured English without times, it does not"
+    else:
+        yield (
+            f"doing {names} triggers nothing in structured English without times, as it does in the DSL: give a "
+            "response a time, if only WITHIN 0 seconds, for the checks to follow what is done"
+        )

@@ -149,7 +149,8 @@ def test_what_is_only_read_because_others_read_it_is_put_right():
         assert note.startswith("line 9: one is a scale, and ")
     twice = convert(dsl("then B R1 when B then A R1_2 when B then A"), "english")
     assert [rule.label for rule in twice.ruleset.rules] == ["R1", "R1_2_", "R1_2"]
-    assert twice.notes == ["line 9: R1#2 is called R1_2_ here"]
+    assert twice.notes[0] == "line 9: R1#2 is called R1_2_ here"
+    assert [note for note in twice.notes[1:] if "doing B and A triggers nothing" not in note] == []
 
 
 def test_whose_an_event_is_stays():
@@ -209,6 +210,31 @@ def test_what_sleec_tk_takes_its_time_for_is_noted(response, to, noted):
     converted = convert(parse(f"WHEN A THEN {response}"), to)
     assert [note for note in converted.notes if "SLEEC-TK" in note] == list(converted.notes)
     assert bool(converted.notes) == noted
+
+
+CHAIN = "RULE one WHEN A THEN B\nRULE two WHEN B THEN C\nRULE three WHEN A THEN NOT C"
+
+
+def test_a_chain_that_only_one_of_the_languages_follows_is_noted():
+    legos = convert(parse(CHAIN), "legos")
+    assert [note for note in legos.notes if "triggers" in note] == [
+        "doing B triggers rules in the DSL; in structured English without times, it does not"
+    ]
+    (note,) = convert(legos.ruleset, "english").notes
+    assert note.startswith("doing B triggers nothing in structured English without times")
+
+
+def test_many_links_are_counted():
+    text = "\n".join(f"WHEN E{n} THEN E{n + 1}" for n in range(6))
+    (note,) = convert(parse(text), "legos").notes
+    assert note.startswith("doing E1, E2 and 3 others triggers rules")
+
+
+@pytest.mark.parametrize("text", [CHAIN.replace("B\n", "B WITHIN 0 seconds\n"), CHAIN.replace("WHEN B", "WHEN D")])
+def test_a_chain_that_both_follow_or_none_is_not_noted(text):
+    for to in ("legos", "english"):
+        assert not any("triggers" in note for note in convert(convert(parse(text), "legos").ruleset, to).notes)
+    assert not any("triggers" in note for note in convert(parse(text), "legos").notes)
 
 
 def test_what_sleec_tk_wrote_is_what_it_means():
