@@ -146,8 +146,8 @@ class Search:
             if inner is None:
                 if after(self.program, beginning, self.rule, unseen).ask():
                     return beginning
-                # It was lost before the rule came to it.
-                self.outer.grow(self._lost(beginning, unseen))
+                # It was lost before the rule came to it. To look for the instants that matter takes as many questions.
+                self.outer.grow(self._lost(beginning, unseen) if self._from_now else None)
                 continue
             plan = next((plan for plan in self._ways(inner, len(beginning) - 1, unseen) if plan not in plans), None)
             if self._from_now and plan is not None:

@@ -49,6 +49,11 @@ class Times:
         self._pairs: dict[tuple[int, int], _Pair] = {}
         self._asked_of: dict[int, int] = {}
 
+    @property
+    def pairs(self) -> int:
+        """How many pairs of instants there are that any literal is about."""
+        return len(self._pairs)
+
     def at_most(self, a: int, b: int, length: int) -> int:
         """The literal "the time of `b` minus that of `a` is at most `length`"."""
         asked_of = a if a in self._known else b

@@ -40,8 +40,11 @@ MOST = 12
 MOST_CLAUSES = 20_000
 """Clauses with which no more instants are added: from there, each takes seconds."""
 
+MOST_COMPARED = 300_000
+"""Pairs of instants whose times may be compared in all, model by model: a few seconds."""
+
 PATIENCE = 5
-"""How many times as many instants and clauses it may take where it comes to an end by itself."""
+"""How many times as much of all this it may take where it comes to an end by itself."""
 
 
 class Decided(NamedTuple):
@@ -94,6 +97,8 @@ class Unfolding:
         self._most_clauses = most_clauses * patience
         self._grown = 0
         self._refused = 0
+        self._compared = 0
+        self._most_compared = MOST_COMPARED * patience
         self._there_for: dict[int, int] = {}
         self._impossible = impossible
         self._in_part = in_part
@@ -356,7 +361,7 @@ class Unfolding:
 
     def _grow(self, need: Need) -> None:
         if self._grown >= self._most or self.size > self._most_clauses:
-            raise Undecided(f"no answer with up to {len(self.instants)} instants")
+            raise self._given_up()
         self._grown += 1
         self._needs.remove(need)
         number = self.instant()
@@ -364,6 +369,9 @@ class Unfolding:
             self._there_for[number] = need.placed.at
         # What the new instant stands for is met there, or was met at one of the others.
         self.add([-need.rest, need.witness(number)])
+
+    def _given_up(self) -> Undecided:
+        return Undecided(f"no answer with up to {len(self.instants)} instants")
 
     def _assumed(self, required: Sequence[int], let_in: Sequence[str] | None, trusts: _Trust) -> list[int]:
         counting = self._in_force if let_in is None else [name for name in let_in if name in self._in_force]
@@ -428,6 +436,9 @@ class Unfolding:
                 if lemma is not None:
                     refused.append(lemma)
         refused += self.times.refused(self.true, self.used())
+        self._compared += self.times.pairs
+        if self._compared > self._most_compared:
+            raise self._given_up()
         for lemma in refused:
             self.add(lemma)
         self._refused += len(refused)

@@ -13,6 +13,10 @@ from sleec_verify.cone import Cones
 from sleec_verify.entailment import entail
 from sleec_verify.finding import Proved, Refuted, Unknown
 from sleec_verify.solver import MiniSat, Undecided
+from sleec_verify.timed import unfolding
+from sleec_verify.timed.program import Program
+from sleec_verify.timed.questions import triggering
+from sleec_verify.timed.unfolding import Unfolding
 
 # As many minimal inconsistent sets as there are ways to choose one of each pair: 2 to the 14th.
 ENTANGLED = "\n".join(
@@ -110,3 +114,14 @@ def test_contradictory_assumptions_are_reported_and_leave_no_situation():
 def test_an_unknown_check_is_a_key_error():
     with pytest.raises(KeyError):
         run_checks(parse("WHEN t THEN o"), ["no-such-check"])
+
+
+@pytest.mark.parametrize("limit", ["MOST", "MOST_CLAUSES", "MOST_COMPARED"])
+def test_a_trace_that_takes_too_much_is_unknown_with_what_it_came_to(monkeypatch, limit):
+    text = "RULE a WHEN A THEN B WITHIN 9 seconds\nRULE b WHEN B THEN C WITHIN [2, 5] seconds\nRULE c WHEN C THEN NOT B"
+    program = Program(parse(text))
+    assert triggering(program, program.rules[0]).trace is not None
+    monkeypatch.setattr(unfolding, limit, 0)
+    monkeypatch.setattr(Unfolding.__init__, "__kwdefaults__", {**Unfolding.__init__.__kwdefaults__, limit.lower(): 0})
+    with pytest.raises(Undecided, match="no answer with up to [1-9] instant"):
+        triggering(program, program.rules[0])
