@@ -6,7 +6,19 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from sleec_verify.timed.responses import Occurs
+from sleec_runtime.model import Clause, Rule
+from sleec_verify.timed.responses import Demand, Occurs
+
+
+class Decided(NamedTuple):
+    """That a clause of a rule decides at an instant where `guard` is true, and demands what is `due`."""
+
+    at: int
+    rule: Rule
+    number: int
+    clause: Clause
+    guard: int
+    due: Demand
 
 
 class Placed(NamedTuple):

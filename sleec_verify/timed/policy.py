@@ -26,10 +26,10 @@ from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_verify.solver import MiniSat, Undecided
 from sleec_verify.timed.instant import Formula, Instant
 from sleec_verify.timed.laws import clauses_at
-from sleec_verify.timed.needs import Unseen
+from sleec_verify.timed.needs import Decided, Unseen
 from sleec_verify.timed.program import Law, Program, events_of, leads_back, responses_of
 from sleec_verify.timed.responses import Demand, Every, Occurs, certain, occurrences, ways_of
-from sleec_verify.timed.unfolding import Decided, Unfolding
+from sleec_verify.timed.unfolding import Unfolding
 
 
 class Policy(NamedTuple):

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 from sleec_runtime.model import Rule, Value, formulas_of, in_text_order, names_of
 from sleec_runtime.model_time import described
+from sleec_verify.timed.needs import Decided
 from sleec_verify.timed.responses import occurrences
-from sleec_verify.timed.unfolding import Decided, Unfolding
+from sleec_verify.timed.unfolding import Unfolding
 
 
 @dataclass(frozen=True)

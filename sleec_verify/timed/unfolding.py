@@ -14,7 +14,6 @@ not come back to their own trigger, this ends; where they do, it may not, and is
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
-from typing import NamedTuple
 
 from sleec_runtime.model import (
     Clause,
@@ -28,7 +27,7 @@ from sleec_runtime.model import (
 from sleec_verify.solver import MiniSat, Undecided
 from sleec_verify.timed.instant import Fixed, Formula, Instant
 from sleec_verify.timed.laws import law_at
-from sleec_verify.timed.needs import Need, Placed, Unseen
+from sleec_verify.timed.needs import Decided, Need, Placed, Unseen
 from sleec_verify.timed.program import Follower, Program
 from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.times import Times
@@ -45,17 +44,6 @@ MOST_COMPARED = 300_000
 
 PATIENCE = 5
 """How many times as much of all this it may take where it comes to an end by itself."""
-
-
-class Decided(NamedTuple):
-    """That a clause of a rule decides at an instant where `guard` is true, and demands what is `due`."""
-
-    at: int
-    rule: Rule
-    number: int
-    clause: Clause
-    guard: int
-    due: Demand
 
 
 _Trust = Callable[[Need], bool]
