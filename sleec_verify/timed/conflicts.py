@@ -7,6 +7,7 @@ where all windows are short; and among those of the same rules with shorter wind
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 from sleec_runtime.model import Rule
@@ -102,19 +103,18 @@ class _Searches:
 
     def find(self) -> tuple[Fixed, ...] | None:
         try:
-            return self._less(self._any_times())
+            return self._any_times()
         except Undecided as reason:
             # Where responses come back to their own trigger, each further try may take as long as the first.
             if not self._program.is_acyclic:
                 raise
             if self._all_go_on(self._rest):
                 return None
-            found = self._drawn_out()
-            if found is not None:
-                return found
+            if self._drawn_out is not None:
+                return self._drawn_out
             if not self._by_seconds:
                 raise
-            return self._less(self._each_second(reason))
+            return self._each_second(reason)
 
     def _search(self, tried: _Tried) -> tuple[Fixed, ...] | None:
         def ask() -> tuple[Fixed, ...] | None:
@@ -142,9 +142,11 @@ class _Searches:
         for instants in range(tried + 1):
             if instants == FEW and self._all_go_on(self._early):
                 return None
+            if instants > MOST_DRAWN_OUT and self._program.is_acyclic and self._drawn_out is not None:
+                return self._drawn_out
             found = self._search(_Tried(instants))
             if found is not None:
-                return found
+                return self._less(found)
             if self._work > MOST_WORK and most > MOST_PAST:
                 # That there is none would not follow from the further ones either.
                 tried = instants
@@ -161,11 +163,12 @@ class _Searches:
         for seconds in (self._needed.reach, min(enough, MOST_SECONDS)):
             found = self._search(_Tried(0, seconds=seconds))
             if found is not None:
-                return found
+                return self._less(found)
         if self._needed.known and enough <= MOST_SECONDS:
             return None
         raise otherwise
 
+    @cached_property
     def _drawn_out(self) -> tuple[Fixed, ...] | None:
         """A conflict drawn out from one of the same rules with shorter windows."""
         shorter = shortened(self._program.ruleset)
@@ -175,9 +178,9 @@ class _Searches:
         searches = _Searches(Program(ruleset, self._program.untimed), ruleset.by_label[self._rule.label])
         try:
             found = searches._of_few(MOST_DRAWN_OUT)
-            history = None if found is None else drawn_out(found, unit)
-            if history is not None and _is_conflict(self._program, self._rule, history):
-                return history
+            for history in drawn_out(found, unit) if found is not None else ():
+                if _is_conflict(self._program, self._rule, history):
+                    return history
         except Undecided:
             pass
         return None
@@ -185,10 +188,11 @@ class _Searches:
     def _of_few(self, most: int) -> tuple[Fixed, ...] | None:
         """A conflict with so many instants before now at most."""
         found = (self._search(_Tried(instants)) for instants in range(1, most + 1))
-        return self._less(next((one for one in found if one is not None), None))
+        first = next((one for one in found if one is not None), None)
+        return None if first is None else self._less(first)
 
-    def _less(self, found: tuple[Fixed, ...] | None) -> tuple[Fixed, ...] | None:
-        return None if found is None else _smaller(self._program, self._rule, found)
+    def _less(self, found: tuple[Fixed, ...]) -> tuple[Fixed, ...]:
+        return _smaller(self._program, self._rule, found)
 
 
 def _is_conflict(program: Program, rule: Rule, history: tuple[Fixed, ...]) -> bool:

@@ -1,10 +1,10 @@
 """Conflicts in which every second matters, drawn out from those of the same rules with shorter windows.
 
-``WHEN C THEN NOT A WITHIN [3, 3] minutes`` forbids all of a minute if each of its seconds triggered it: the history has
-60 instants before now. Where all windows are as many units of time long, such as minutes, only two things about times
-matter: in which unit from now on one is, and which of two comes first within the unit. So what is true of the rules in
-units of two seconds, of which the second is all but the first, is a good guess for units of any length: what happens in
-the second one happens throughout. What is guessed is looked at afterwards, so nothing rests on this.
+``WHEN C THEN NOT A WITHIN [3, 3] minutes`` forbids all of a minute if each second of another one triggered it: such a
+history has 60 instants before now. Where all times are whole minutes, or whole numbers of another unit, only two things
+about an instant matter: in which unit from now on it is, and which of two comes first within a unit. So what is true of
+the same rules with units of two seconds is a good guess for longer ones, where the second of the two stands for all but
+the first: what happens there happens throughout. What is guessed is looked at afterwards, so nothing rests on this.
 """
 
 from __future__ import annotations
@@ -38,19 +38,22 @@ def shortened(ruleset: Ruleset) -> tuple[Ruleset, int] | None:
     return replace(ruleset, statements=_with_short_lengths(ruleset.statements, unit)), unit
 
 
-def drawn_out(history: tuple[Fixed, ...], unit: int) -> tuple[Fixed, ...] | None:
-    """What would have to happen if a unit had so many seconds; the last instant is now. None if that is too much."""
+def drawn_out(history: tuple[Fixed, ...], unit: int) -> Iterator[tuple[Fixed, ...]]:
+    """What would have to happen if a unit had so many seconds: as many instants as before, and one at each second, if
+    that is not too much. The last instant is now."""
     now = history[-1].time
-    found = []
-    for instant in history:
-        units, second = divmod(instant.time - now, SHORT)
+    placed = [(*divmod(instant.time - now, SHORT), instant) for instant in history]
+    for last in (2, unit):
         # Only the second in which now is stays as it is.
-        seconds = range(1, unit) if second else range(1)
-        found += [replace(instant, time=units * unit + one) for one in seconds]
-    if len(found) > LONGEST:
-        return None
-    begins = min(instant.time for instant in found)
-    return tuple(replace(one, time=one.time - begins) for one in sorted(found, key=lambda one: one.time))
+        if sum(last - 1 if second else 1 for _, second, _ in placed) > LONGEST:
+            return
+        found = [
+            replace(instant, time=units * unit + one)
+            for units, second, instant in placed
+            for one in (range(1, last) if second else range(1))
+        ]
+        found.sort(key=lambda instant: instant.time)
+        yield tuple(replace(instant, time=instant.time - found[0].time) for instant in found)
 
 
 def _lengths(part: object) -> Iterator[Length]:

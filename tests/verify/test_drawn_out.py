@@ -116,19 +116,25 @@ def test_a_unit_is_what_all_windows_have_a_number_of():
 def lasting(unit, *events):
     """What comes of a history with these events, each at a time: times and events."""
     history = tuple(Fixed(time, frozenset({event}), {}) for time, event in events)
-    return [(one.time, *one.events) for one in drawn_out(history, unit) or ()]
+    return [[(one.time, *one.events) for one in drawn] for drawn in drawn_out(history, unit)]
 
 
 def test_what_is_drawn_out_keeps_the_order_of_its_seconds():
-    assert lasting(5, (0, "A"), (1, "B"), (4, "C")) == [(0, "A"), *((time, "B") for time in range(1, 5)), (10, "C")]
-    assert lasting(5, (0, "A"), (1, "B")) == [*((time, "A") for time in range(4)), (4, "B")]
+    assert lasting(5, (0, "A"), (1, "B"), (4, "C")) == [
+        [(0, "A"), (1, "B"), (10, "C")],
+        [(0, "A"), *((time, "B") for time in range(1, 5)), (10, "C")],
+    ]
+    assert lasting(5, (0, "A"), (1, "B")) == [
+        [(0, "A"), (4, "B")],
+        [*((time, "A") for time in range(4)), (4, "B")],
+    ]
 
 
 def test_no_more_than_ten_minutes_are_drawn_out():
-    assert len(lasting(700, (0, "A"), (1, "B"))) == 700
-    assert lasting(701, (0, "A"), (1, "B"), (4, "C")) == []
-    hours = FILLED.replace("minutes", "hours").replace("minute", "hour")
-    program = Program(parse(hours))
+    assert [len(drawn) for drawn in lasting(700, (0, "A"), (1, "B"))] == [2, 700]
+    assert [len(drawn) for drawn in lasting(701, (0, "A"), (1, "B"), (4, "C"))] == [3]
+    years = FILLED.replace("[2, 2] minutes", "[2000, 2000] days").replace("1 minute", "1000 days")
+    program = Program(parse(years))
     with pytest.raises(Undecided, match="more could matter"):
         conflict(program, program.ruleset.by_label["fast"])
 
