@@ -472,41 +472,6 @@ def test_ten_megabytes_of_rules_are_read_in_time_linear_in_their_size():
     assert grows_in_proportion(lambda: rules(small), lambda: rules(large), 10)
 
 
-GROUPS = """def_start
-    event A
-
-    // The others.
-    event B
-    event C
-def_end
-
-rule_start
-    R1 when A then B
-        unless m then C
-    // Below it.
-    R2 when A then C  // This, too.
-
-    // Another group.
-    R3 when B then C
-
-    R4 when C then A
-rule_end
-"""
-
-
-def test_an_empty_line_between_two_of_a_block_stays():
-    text = GROUPS.replace("event C", "event C\n    measure m: boolean")
-    assert print_ruleset(parse(text)) == text
-    # One is enough, with blanks or without; and none stands behind an opening, before an end, or between hedges.
-    apart = (
-        text.replace("\n\n", "\n \n\n\t\n").replace("rule_start\n", "rule_start\n\n").replace("rule_end", "\nrule_end")
-    )
-    apart = apart.replace("then B\n    ", "then B\n\n    ")
-    assert print_ruleset(parse(apart)) == text
-    together = "".join(line + "\n" for line in text.splitlines() if line)
-    assert print_ruleset(parse(together)) == together.replace("def_end\n", "def_end\n\n")
-
-
 # The case studies -----------------------------------------------------------------------------------------
 
 

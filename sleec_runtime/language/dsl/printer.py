@@ -1,7 +1,6 @@
 """From values back to text in the DSL, in one canonical form: what is printed parses to the same ruleset.
 
-A definition, rule, hedge, claim or relation a line; one empty line stays where the text that was read has any between
-two of them. LEGOS's dialect has measures in braces and every operation in
+A definition, rule, hedge, claim or relation a line. LEGOS's dialect has measures in braces and every operation in
 parentheses; SLEEC-TK's has as few parentheses as it can be read with.
 """
 
@@ -65,13 +64,9 @@ class _Printer:
     def ruleset(self, ruleset: Ruleset) -> Iterator[str]:
         """The lines of a whole text."""
         block: str | None = None
-        before: Statement | None = None
         for statement in ruleset.statements:
             own = _block(statement)
             above: Sequence[str] = trimmed(statement.comments.above)
-            if before is not None and own == block and _are_apart(before, statement, ruleset.source.text):
-                yield ""
-            before = statement
             if own != block:
                 heading, above = split_heading(statement.comments.above, True)
                 if block is not None:
@@ -272,11 +267,6 @@ def _label(label: str) -> str:
 
 def _said(obligations: tuple[Obligation, ...]) -> str:
     return f"there are {len(obligations)}: {', '.join(map(str, obligations))}" if obligations else "there is none"
-
-
-def _are_apart(one: Statement, other: Statement, text: str) -> bool:
-    """Whether an empty line follows a statement in the text that it was read from, before the next one."""
-    return bool(re.match(r"[^\n]*\n[^\S\n]*\n", text[one.span.end : other.span.start]))
 
 
 def _block(statement: Statement) -> str:
