@@ -11,7 +11,7 @@ from typing import Literal
 
 from sleec_runtime.errors import LanguageError, Unsayable
 from sleec_runtime.language import parse, print_ruleset
-from sleec_runtime.model import Assume, Dialect, Exclusive, Never, Reading, Rule, Ruleset, literals
+from sleec_runtime.model import Assume, Dialect, Exclusive, Never, Reading, Rule, Ruleset
 from sleec_verify.conversion.readings import reread
 from sleec_verify.report.words import listed
 from sleec_verify.timed.scope import speaks_of_traces
@@ -77,8 +77,10 @@ def _of_chains(before: Ruleset, after: Ruleset) -> Iterator[str]:
     traces = speaks_of_traces(after)
     if traces == speaks_of_traces(before):
         return
+    from sleec_verify.timed.program import responses_of
+
     triggers = {rule.trigger for rule in after.rules}
-    responses = (response for rule in after.rules for clause in rule.clauses() for response in literals(clause))
+    responses = (response for rule in after.rules for response in responses_of(rule))
     both = [n for n in dict.fromkeys(one.name for one in responses if not one.negated) if n in triggers]
     if not both:
         return

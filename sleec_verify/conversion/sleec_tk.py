@@ -8,6 +8,7 @@ from sleec_runtime.model import Clause, Obligation, Rule, Ruleset, Span, Stateme
 from sleec_runtime.model_time import RELATIONS, Claim
 from sleec_verify.calculations import refuse_unsayable_calculations
 from sleec_verify.conversion.to_dsl import refuse
+from sleec_verify.timed.program import responses_of
 
 
 def refuse_unsayable(ruleset: Ruleset, statements: Iterable[Statement]) -> None:
@@ -28,8 +29,7 @@ def has_untimed(statements: Iterable[Statement]) -> bool:
         literal.timing is None or literal.timing.window is None
         for rule in statements
         if isinstance(rule, Rule)
-        for clause in rule.clauses()
-        for literal in literals(clause)
+        for literal in responses_of(rule)
     )
 
 

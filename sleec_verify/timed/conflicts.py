@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
 
 from sleec_runtime.model import Rule
 from sleec_verify.solver import Undecided
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.drawn_out import drawn_out, shortened
-from sleec_verify.timed.histories import Search, after
+from sleec_verify.timed.histories import Search, Tried, after
 from sleec_verify.timed.instant import Fixed
 from sleec_verify.timed.past import Past, past
 from sleec_verify.timed.program import Program
@@ -57,23 +56,13 @@ class History:
     timeline: Timeline
 
 
-class _Tried(NamedTuple):
-    """What a search looks through; see `Search`."""
-
-    instants: int
-    in_part: bool = False
-    seconds: int = 0
-    from_now: bool = False
-    patient: bool = False
-
-
-def _partial(needed: Past, by_seconds: bool) -> tuple[list[_Tried], list[_Tried]]:
+def _partial(needed: Past, by_seconds: bool) -> tuple[list[Tried], list[Tried]]:
     """The searches for parts of histories that are worth a try, and those that are if nothing else helps."""
-    one, two, *more = (_Tried(instants, True, from_now=True, patient=patient) for instants, patient in FEW_PLANS)
+    one, two, *more = (Tried(instants, True, from_now=True, patient=patient) for instants, patient in FEW_PLANS)
     # To leave out the instants that nothing pending now needs rules out no history.
-    pending = [_Tried(needed.pending, True)] if needed.pending <= MOST_PENDING else []
+    pending = [Tried(needed.pending, True)] if needed.pending <= MOST_PENDING else []
     if by_seconds and needed.endless <= MOST_PENDING:
-        pending.append(_Tried(needed.endless, True, needed.reach))
+        pending.append(Tried(needed.endless, True, needed.reach))
     pending.sort(key=lambda tried: tried.instants * SECONDS_FOR_ONE + tried.seconds)
     return [one, two, *pending[:1]], [*more, *pending[1:]]
 
@@ -116,9 +105,9 @@ class _Searches:
                 raise
             return self._each_second(reason)
 
-    def _search(self, tried: _Tried) -> tuple[Fixed, ...] | None:
+    def _search(self, tried: Tried) -> tuple[Fixed, ...] | None:
         def ask() -> tuple[Fixed, ...] | None:
-            one = Search(self._program, self._rule, self._cone, *tried)
+            one = Search(self._program, self._rule, self._cone, tried)
             try:
                 return one.find()
             finally:
@@ -126,7 +115,7 @@ class _Searches:
 
         return decided(self._program, ask, frozenset(), frozenset({self._rule.label}))
 
-    def _all_go_on(self, tries: list[_Tried]) -> bool:
+    def _all_go_on(self, tries: list[Tried]) -> bool:
         """Whether one of the tries shows that all histories can be continued; those that do not are used up."""
         while tries:
             try:
@@ -144,7 +133,7 @@ class _Searches:
                 return None
             if instants > MOST_DRAWN_OUT and self._program.is_acyclic and self._drawn_out is not None:
                 return self._drawn_out
-            found = self._search(_Tried(instants))
+            found = self._search(Tried(instants))
             if found is not None:
                 return self._less(found)
             if self._work > MOST_WORK and most > MOST_PAST:
@@ -161,7 +150,7 @@ class _Searches:
         # Times that are further from each other than any rule can tell may as well be near.
         enough = self._needed.most * (self._needed.reach + 1)
         for seconds in (self._needed.reach, min(enough, MOST_SECONDS)):
-            found = self._search(_Tried(0, seconds=seconds))
+            found = self._search(Tried(0, seconds=seconds))
             if found is not None:
                 return self._less(found)
         if self._needed.known and enough <= MOST_SECONDS:
@@ -187,7 +176,7 @@ class _Searches:
 
     def _of_few(self, most: int) -> tuple[Fixed, ...] | None:
         """A conflict with so many instants before now at most."""
-        found = (self._search(_Tried(instants)) for instants in range(1, most + 1))
+        found = (self._search(Tried(instants)) for instants in range(1, most + 1))
         first = next((one for one in found if one is not None), None)
         return None if first is None else self._less(first)
 

@@ -17,6 +17,7 @@ from typing import TypeVar
 from sleec_runtime.model import Number, Ruleset
 from sleec_runtime.model_time import Length
 from sleec_verify.timed.instant import Fixed
+from sleec_verify.timed.names import beside_rules
 
 SHORT = 2
 """Seconds of a unit, where it is short: the one in which now is, and all others."""
@@ -29,7 +30,7 @@ _Part = TypeVar("_Part")
 
 def shortened(ruleset: Ruleset) -> tuple[Ruleset, int] | None:
     """The rules with windows in units of `SHORT` seconds, and how many seconds a unit has; None if that is no more."""
-    lengths = [length.seconds for length in _lengths(ruleset.statements)]
+    lengths = [length.seconds for length in beside_rules(ruleset)[2]]
     if not lengths or None in lengths:
         return None
     unit = gcd(*(int(seconds) for seconds in lengths if seconds is not None))
@@ -54,17 +55,6 @@ def drawn_out(history: tuple[Fixed, ...], unit: int) -> Iterator[tuple[Fixed, ..
         ]
         found.sort(key=lambda instant: instant.time)
         yield tuple(replace(instant, time=instant.time - found[0].time) for instant in found)
-
-
-def _lengths(part: object) -> Iterator[Length]:
-    if isinstance(part, Length):
-        yield part
-    elif type(part) is tuple:
-        for one in part:
-            yield from _lengths(one)
-    elif is_dataclass(part):
-        for field in fields(part):
-            yield from _lengths(getattr(part, field.name))
 
 
 def _with_short_lengths(part: _Part, unit: int) -> _Part:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Set
 from functools import cached_property
+from typing import NamedTuple
 
 from sleec_runtime.model import Rule
 from sleec_runtime.model_time import EventRelation
@@ -30,9 +31,6 @@ MOST_LATER = 24
 
 MOST_PLANS = 200
 
-FEW_PLANS_CLAUSES = 20_000
-"""Clauses with which such a try adds no more instants."""
-
 MOST_CLAUSES_EACH = 400
 """As many clauses are for each instant of a long history."""
 
@@ -40,30 +38,30 @@ _LONG_SINCE = 10**9
 """Seconds before the first of those that are tried one by one, for what is before all of them."""
 
 
-class Search:
-    """The search for a history with a number of instants before now, at any times; or with instants at some of the
-    last `seconds` as well; or, `in_part`, for as many instants at most that are part of a history, where all that can
-    have come about at the others may have. `from_now`, only plans that are reckoned from now count, and no more of them
-    than these instants are enough for: then there is no other history either. If `patient`, policies that wait come
-    first."""
+class Tried(NamedTuple):
+    """What a search looks through: the histories with a number of instants before now, at any times; or with instants
+    at some of the last `seconds` as well; or, `in_part`, with as many instants at most that are part of a history,
+    where all that can have come about at the others may have.
 
-    def __init__(
-        self,
-        program: Program,
-        rule: Rule,
-        cone: Cone,
-        instants: int,
-        in_part: bool = False,
-        seconds: int = 0,
-        from_now: bool = False,
-        patient: bool = False,
-    ) -> None:
+    `from_now`, only plans that are reckoned from now count, and no more of them than these instants are enough for:
+    then there is no other history either. If `patient`, policies that wait come first."""
+
+    instants: int
+    in_part: bool = False
+    seconds: int = 0
+    from_now: bool = False
+    patient: bool = False
+
+
+class Search:
+    """The search for a history that `rule`, triggered now, leaves without a way to go on."""
+
+    def __init__(self, program: Program, rule: Rule, cone: Cone, tried: Tried) -> None:
+        instants, in_part, seconds, self._from_now, self._patient = tried
         self.program = program
         self.cone = cone
         self.rule = rule
         self._instants = instants
-        self._from_now = from_now
-        self._patient = patient
         # Seconds that are known are little work each.
         patience = PATIENCE if seconds else 1
         self._times = {instants + second: _LONG_SINCE + second for second in range(seconds + 1)} if seconds else {}
@@ -71,7 +69,7 @@ class Search:
             program,
             impossible=program.impossible(frozenset({rule.label})),
             most=MOST_LATER * patience,
-            most_clauses=FEW_PLANS_CLAUSES if from_now else MOST_CLAUSES * patience,
+            most_clauses=MOST_CLAUSES * patience,
             in_part=instants + seconds if in_part else 0,
             times=self._times,
         )
@@ -230,12 +228,12 @@ class Search:
                     at, more = waits[at]
                     wait += more
                 values = tuple(sorted(inner.values(number).items()))
-                after = self._numbers[at]
-                if after in self._times:
+                number_before = self._numbers[at]
+                if number_before in self._times:
                     # All that are known move together.
-                    wait -= self._times[self.now] - self._times[after]
-                    after = self.now
-                later.append(Later(after, wait, inner.happening(number), values))
+                    wait -= self._times[self.now] - self._times[number_before]
+                    number_before = self.now
+                later.append(Later(number_before, wait, inner.happening(number), values))
         yield Plan(self._added(inner, now), tuple(later))
 
     def _do_less(self, inner: Unfolding, now: int) -> None:

@@ -19,7 +19,7 @@ from sleec_verify.timed import conflicts
 from sleec_verify.timed.brought import Brought
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.conflicts import FEW_PLANS, _partial, conflict
-from sleec_verify.timed.histories import Search
+from sleec_verify.timed.histories import Search, Tried
 from sleec_verify.timed.plans import Plan
 from sleec_verify.timed.policy import Policies, Policy, can_come_late
 from sleec_verify.timed.program import Program, events_of
@@ -195,7 +195,7 @@ def played(monkeypatch):
         for rule in program.rules if program.is_acyclic else ():
             cone = Cone(program, rule)
             for instants, patient in ((0, False), (1, False), (1, True), (2, False)):
-                search = Search(program, rule, cone, instants, patient=patient)
+                search = Search(program, rule, cone, Tried(instants, patient=patient))
                 answered(search.find)
         return found
 
@@ -259,7 +259,7 @@ def few_plans_decide(ruleset, monkeypatch):
     for rule in program.rules if program.is_acyclic else ():
         cone = Cone(program, rule)
         for instants, patient in FEW_PLANS:
-            few = Search(program, rule, cone, instants, True, 0, True, patient)
+            few = Search(program, rule, cone, Tried(instants, True, 0, True, patient))
             search = answered(lambda: (few.find(),))  # noqa: B023
             if search == (None,):
                 decided += 1
@@ -392,7 +392,9 @@ FEW_DO = {
 def test_few_plans_do_for(rules):
     program = Program(parse(written(rules)))
     rule = program.ruleset.by_label["r"]
-    searches = (Search(program, rule, Cone(program, rule), few, True, 0, True, patient) for few, patient in FEW_PLANS)
+    searches = (
+        Search(program, rule, Cone(program, rule), Tried(few, True, 0, True, patient)) for few, patient in FEW_PLANS
+    )
     assert (None,) in [answered(lambda: (search.find(),)) for search in searches]  # noqa: B023
 
 
@@ -552,7 +554,7 @@ def test_a_history_that_a_policy_does_not_suit_is_found_all_the_same(rules, poli
     program = Program(parse(written("\n".join(r for r in rules if not r.startswith("before")), relations)))
     rule = program.ruleset.by_label["now"]
     for since in {times[0], times[-1]}:
-        search = Search(program, rule, Cone(program, rule), 1)
+        search = Search(program, rule, Cone(program, rule), Tried(1))
         search.plans.defeat(Plan(frozenset(), policy=policy))
         (past,) = search.past
         # The one instant before now is so long ago, and what matters happens there.
