@@ -19,12 +19,12 @@ from sleec_runtime.model_time import EventRelation
 from sleec_verify.solver import Undecided
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.instant import Fixed
-from sleec_verify.timed.needs import Unseen
 from sleec_verify.timed.plans import Later, Plan, Plans, at_once
 from sleec_verify.timed.policy import Policies
 from sleec_verify.timed.program import Program
 from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.unfolding import MOST, MOST_CLAUSES, PATIENCE, Unfolding
+from sleec_verify.timed.unseen import Unseen
 
 MOST_LATER = 24
 """Instants that may be added to a history, for what its instants before now call for."""
@@ -77,10 +77,10 @@ class Search:
         self.add = self.outer.add
         # Histories of fewer instants have been looked at before.
         needed = None if in_part or seconds else self.true
-        self.past = [self.outer.instant(needed) for _ in range(instants + seconds)]
+        self.outer.now = self.now = instants + seconds
+        self.past = [self.outer.instant(needed) for _ in range(self.now)]
         # Now, the rule need not be kept.
-        self.now = self.outer.instant(self.true)
-        self.outer.now = self.now
+        self.outer.instant(self.true)
         self.outer.spared.add((rule.label, self.now))
         for earlier, later in zip(self.past[:instants], [*self.past[1:], self.now]):
             # Which of them is which makes no difference.
@@ -207,7 +207,7 @@ class Search:
         place = {number: place for place, number in enumerate(self._numbers)}
         return {
             key._replace(at=place[key.at]): self.outer.true(literal)
-            for key, literal in self.outer.unseen.items()
+            for key, literal in self.outer.left_out.literals.items()
             if key.at in place
         }
 

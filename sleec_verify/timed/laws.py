@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from sleec_runtime.model import Assume, Exclusive, Never
 from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
 from sleec_verify.timed.program import Law, law_name
-from sleec_verify.timed.responses import Occurs, seconds
+from sleec_verify.timed.responses import Occurs, last_second
 
 if TYPE_CHECKING:
     from sleec_verify.timed.instant import Instant
@@ -67,11 +67,12 @@ def law_at(unfolding: Unfolding, law: Law) -> Callable[[int], None]:
 
         def holds_at(other: int) -> None:
             if lasting.duration is not None:
-                last = -(-seconds(lasting.duration) // 1) - 1
-                bounds = unfolding.times.bounds(at, other, 0, int(last))
+                bounds = unfolding.times.bounds(at, other, 0, last_second(lasting.duration))
             else:
-                stopped = unfolding.came_about(at, law_name(lasting))
-                bounds = [*unfolding.times.bounds(at, other, 0, None), -stopped_by(other), -stopped]
+                bounds = [*unfolding.times.bounds(at, other, 0, None), -stopped_by(other)]
+                if other != at:
+                    # What is left out happened at other instants.
+                    bounds.append(-unfolding.left_out.came_about(at, law_name(lasting)))
             away = [-bound for bound in bounds]
             require(-begins, -unfolding.instants[other].used, *away, unfolding.condition(other, lasting.formula))
 

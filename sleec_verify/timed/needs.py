@@ -42,12 +42,9 @@ class Need:
     parts: list[Need] = field(default_factory=list)
     """What one instant at which this comes about first is enough for."""
 
-
-class Unseen(NamedTuple):
-    """That an event (or what ends a law) came about in a window around instant `at`, at an instant before now that is
-    not one of those that are known."""
-
-    at: int
-    what: str
-    start: int | None = None
-    end: int | None = None
+    @property
+    def wait(self) -> int | None:
+        """The seconds after its instant at which it has to come about, if it leaves no choice."""
+        if self.placed is None or self.placed.what.start != self.placed.what.end:
+            return None
+        return self.placed.what.start

@@ -16,7 +16,7 @@ from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.instant import Fixed, Instant
 from sleec_verify.timed.policy import Policy
 from sleec_verify.timed.program import Program, events_of, law_name
-from sleec_verify.timed.responses import Demand, Every, Occurs, certain, occurrences, seconds
+from sleec_verify.timed.responses import Demand, Every, Occurs, certain, last_second, occurrences
 from sleec_verify.timed.unfolding import Unfolding
 
 
@@ -158,7 +158,7 @@ class Plans:
                         all_of([point.event(event), *times.bounds(at, point.after, call.start, call.end)])
                         for point in past
                     ]
-                    done.append(self.outer.came_about(at, event, call.start, call.end))
+                    done.append(self.outer.left_out.came_about(at, event, call.start, call.end))
                     is_last = times.bounds(at, self.now, call.end, call.end)
                     yield event, all_of([guard, *is_last, *(-literal for literal in done)])
 
@@ -237,7 +237,7 @@ class Plans:
             if event != -self.true and -self.true not in bounds:
                 there.append([event, *(bound for bound in bounds if bound != self.true)])
         if at < len(self.past):
-            unseen = self.outer.came_about(self.past[at], what.event, what.start, what.end)
+            unseen = self.outer.left_out.came_about(self.past[at], what.event, what.start, what.end)
             if unseen != -self.true:
                 there.append([unseen])
         if not what.negated:
@@ -275,6 +275,13 @@ class Plans:
                     *self._gap(here, now, begins, end),
                     *self._gap(caller, now, opens, None),
                 ]
+        elif what.event in policy.last:
+            for number, guard, call in self._of_history(points, what.event, negated=False):
+                caller, last = points[number], call.end
+                assert last is not None, "what has no end is not done at the last second"
+                start, stop = (None if bound is None else bound - last for bound in (what.start, what.end))
+                pending = self._occurs(points, number, call._replace(negated=True), Policy())
+                yield [guard, pending, *self._gap(here, caller, start, stop), *self._gap(now, caller, 1 - last, None)]
         elif what.event not in policy.waiting or what.end is None:
             begins = what.start - 1 if what.event in policy.next and what.start is not None else None
             yield self._gap(here, now, begins, end)
@@ -356,6 +363,8 @@ class Plans:
                         yield every(broken[law.relation])
                 elif isinstance(law, Lasting):
                     yield from self._lasting_broken(law, points, number, condition)
+                    if number <= since and law_name(law) in policy.over:
+                        yield self._lasts(law, points, number, condition)
                 elif isinstance(law, Exclusive):
                     if number >= since:
                         names = list(dict.fromkeys(law.names))
@@ -369,27 +378,50 @@ class Plans:
     def _lasting_broken(
         self, law: Lasting, points: Sequence[_Point], number: int, condition: Callable[[_Point, object], int]
     ) -> Iterator[int]:
-        begins = [points[number].event(law.event), condition(points[number], law.condition), points[number].used]
+        begins = self._begins(law, points[number], condition)
         for other in range(number, len(points)):
             point = points[other]
             broken = [*begins, point.used, -condition(point, law.formula)]
             if law.duration is not None:
-                last = int(-(-seconds(law.duration) // 1) - 1)
-                yield self.outer.formula.every([*broken, *self._gap(points[number], point, 0, last)])
+                in_time = self._gap(points[number], point, 0, last_second(law.duration))
+                yield self.outer.formula.every([*broken, *in_time])
                 continue
-            assert law.end is not None
             going = [*broken, *self._gap(points[number], point, 0, None)]
-            if number < len(self.past):
-                going.append(-self.outer.came_about(self.past[number], law_name(law)))
-            for middle in points:
-                stops = [middle.event(law.end), condition(middle, law.end_condition)]
-                between = [
-                    *self._gap(points[number], middle, 0, None),
-                    *self._gap(middle, point, 0, None),
-                ]
-                not_here = self.outer.formula.any_of([-literal for literal in (*stops, *between)])
-                going.append(not_here)
-            yield self.outer.formula.every(going)
+            ends = self._ends(law, points, number, condition)
+            going += (self._not_all([*end, *self._gap(points[end_at], point, 0, None)]) for end_at, end in ends)
+            yield self.outer.formula.every([*going, *self._not_unseen(law, number)])
+
+    def _lasts(
+        self, law: Lasting, points: Sequence[_Point], number: int, condition: Callable[[_Point, object], int]
+    ) -> int:
+        """A literal that implies that a law is in force after now, because of an instant up to now."""
+        now = len(self.past)
+        begins = self._begins(law, points[number], condition)
+        if law.duration is not None:
+            last = last_second(law.duration)
+            return self.outer.formula.every([*begins, *self._gap(points[number], points[now], None, last - 1)])
+        ends = self._ends(law, points[: now + 1], number, condition)
+        going = [*begins, *(self._not_all(end) for _, end in ends), *self._not_unseen(law, number)]
+        return self.outer.formula.every(going)
+
+    def _begins(self, law: Lasting, point: _Point, condition: Callable[[_Point, object], int]) -> list[int]:
+        return [point.event(law.event), condition(point, law.condition), point.used]
+
+    def _ends(
+        self, law: Lasting, points: Sequence[_Point], number: int, condition: Callable[[_Point, object], int]
+    ) -> Iterator[tuple[int, list[int]]]:
+        """Literals that say together that another of the points ends what a law demands from one of them on."""
+        assert law.end is not None
+        for place, point in enumerate(points):
+            stops = [point.event(law.end), condition(point, law.end_condition)]
+            yield place, [*stops, *self._gap(points[number], point, 0, None)]
+
+    def _not_all(self, literals: list[int]) -> int:
+        return self.outer.formula.any_of([-literal for literal in literals])
+
+    def _not_unseen(self, law: Lasting, number: int) -> list[int]:
+        """That nothing ended a law that is not one of the points."""
+        return [-self.outer.left_out.came_about(self.past[number], law_name(law))] if number < len(self.past) else []
 
 
 class _Shadow:

@@ -3,8 +3,9 @@
 A policy does some events *soon*: as soon after now as a response calls for them, a second after now at the earliest.
 Others it does *late*, if anything calls for them without end: at an instant of their own, once all that forbids them
 for some time only is over. All further ones are not done after now. Of the soon ones, some are done at exactly the
-first second that a response of the history allows, and some wait until all that the history forbids for some time is
-over. The measures are the same at all instants at which soon ones are done, and at all late instants. So:
+first second that a response of the history allows, some at the last, and some wait until all that the history forbids
+for some time is over. The measures are the same at all instants at which soon ones are done, and at all late instants.
+So:
 
 - what calls for an event that is done soon is met, if there is time left after now; and what calls for one that is done
   late, if there is no end to it;
@@ -26,22 +27,26 @@ from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_verify.solver import MiniSat, Undecided
 from sleec_verify.timed.instant import Formula, Instant
 from sleec_verify.timed.laws import clauses_at
-from sleec_verify.timed.needs import Decided, Unseen
-from sleec_verify.timed.program import Law, Program, events_of, leads_back, responses_of
-from sleec_verify.timed.responses import Demand, Every, Occurs, certain, occurrences, ways_of
+from sleec_verify.timed.needs import Decided
+from sleec_verify.timed.program import Law, Program, events_of, law_name, leads_back, responses_of
+from sleec_verify.timed.responses import Demand, Every, Occurs, certain, last_second, occurrences, ways_of
 from sleec_verify.timed.unfolding import Unfolding
+from sleec_verify.timed.unseen import Unseen
 
 
 class Policy(NamedTuple):
     """The events that are done soon after now, and late. Of those done soon, the ones that are done in the `next`
-    second only, as no response calls for them later; at the `first` second only that a response of the history allows,
-    as nothing else calls for them; and once all is over that forbids them for some time (`waiting`)."""
+    second only, as no response calls for them later; at the `first` or the `last` second only that a response of the
+    history allows, as nothing else calls for them; and once all is over that forbids them for some time (`waiting`).
+    The laws of these names are to be `over`: it suits no history in which one of them is in force after now."""
 
     soon: frozenset[str] = frozenset()
     late: frozenset[str] = frozenset()
     next: frozenset[str] = frozenset()
     first: frozenset[str] = frozenset()
+    last: frozenset[str] = frozenset()
     waiting: frozenset[str] = frozenset()
+    over: frozenset[str] = frozenset()
 
     @property
     def events(self) -> frozenset[str]:
@@ -51,7 +56,7 @@ class Policy(NamedTuple):
     def awaited(self) -> frozenset[str]:
         """The events that are done at times of their own. If now is the last time at which one can be done that an
         instant before now calls for, and nothing in its place, it is done now."""
-        return self.first | self.waiting
+        return self.first | self.last | self.waiting
 
 
 class Policies:
@@ -78,13 +83,17 @@ class Policies:
             # At a late instant, it may also be done because others are.
             self._formula.clauses += ([-self._soon[event], done], [-late.event(event), done])
             self._formula.clauses.append([-done, self._soon[event], late.event(event)])
+        self._over = {law_name(law): self._formula.fresh() for law in self._laws if isinstance(law, Lasting)}
+        # What decides at an instant to come that an event is called for.
+        self._brings: dict[str, list[int]] = {event: [] for event in names}
+        for instant in self._instants:
+            self._close(instant)
         self._next: dict[str, int] = {}
         self._first: dict[str, int] = {}
+        self._last: dict[str, int] = {}
         self._waiting: dict[str, int] = {}
         for event in names:
             self._times_of(event)
-        for instant in self._instants:
-            self._close(instant)
 
     def suiting(
         self, inner: Unfolding, now: int, unseen: Mapping[Unseen, bool], patient: bool = False
@@ -164,7 +173,9 @@ class Policies:
                 for what in self._program.windows(rule)
             )
         ]
-        found = self._solve([self._instants[1].event(event), self._unprepared(frozenset()), *for_ever])
+        found = self._solve(
+            [self._instants[1].event(event), self._unprepared(frozenset()), *for_ever, *self._none_over]
+        )
         return found is not None and self._ends(found.events)
 
     def _solve(self, assumed: list[int]) -> Policy | None:
@@ -183,8 +194,8 @@ class Policies:
             refused = [lemma for lemma in lemmas if lemma is not None]
             if not refused:
                 soon, done = self._true_of(self._soon), self._true_of(self._done)
-                kinds = (self._true_of(kind) for kind in (self._next, self._first, self._waiting))
-                return Policy(soon, done - soon, *kinds)
+                kinds = (self._next, self._first, self._last, self._waiting, self._over)
+                return Policy(soon, done - soon, *map(self._true_of, kinds))
             clauses += refused
 
     def _true_of(self, literals: Mapping[str, int]) -> frozenset[str]:
@@ -213,33 +224,41 @@ class Policies:
                 if clause.obligations:
                     due = self._program.responses.of(clause.obligations, lambda c: instant.chain(c, reading))
                     clauses.append([-guard, self._met(instant, due)])
+                    for event in {what.event for what in occurrences(due) if not what.negated}:
+                        self._brings[event].append(guard)
         for law in self._laws:
-            clauses += _kept(instant, law)
+            if isinstance(law, Lasting):
+                over = self._over[law_name(law)]
+                clauses += [instant.literal(law.formula), over], [-over, -self._done[law.event]]
+            else:
+                clauses += _kept(instant, law)
 
     def _times_of(self, event: str) -> None:
         """Literals that imply that a policy does an event, if at all, in the next second; at the first second that the
-        history allows; after all that the history forbids for some time."""
+        history allows, or the last; after all that the history forbids for some time."""
         opening = 0
-        bringing: set[str] = set()
+        endless = False
         tied: set[str] = set()
         for rule in self._rules.values():
             for what in self._program.windows(rule):
                 if what.event == event and not what.negated:
                     opening = max(opening, what.start or 0)
-                    bringing.add(rule.trigger)
-        caused = False
+                    endless = endless or what.end is None
+        causes: list[int] = []
         for law in self._laws:
             if isinstance(law, Effect) and law.relation == "causation" and law.event == event:
-                caused = True
+                causes += (instant.literal(law.formula) for instant in self._instants)
             if isinstance(law, EventRelation) and law.relation in ("witness", "equal"):
                 tied.update({law.left, law.right} - {event} if event in (law.left, law.right) else ())
         every, late = self._formula.every, self._instants[1].event(event)
-        known = [self._soon[event], -late, *(-self._done[other] for other in sorted(tied))]
-        not_brought = [-self._done[other] for other in sorted(bringing - tied)]
+        known = [self._soon[event], -late, *(-self._done[other] for other in sorted(tied)), *(-one for one in causes)]
+        not_brought = [-guard for guard in self._brings[event]]
         never = -self._true
-        self._next[event] = never if caused or opening > 1 else every([*known, *not_brought])
-        self._first[event] = never if caused or opening <= 1 else every([*known, *not_brought])
-        self._waiting[event] = never if caused else every([*known, -self._first[event]])
+        self._next[event] = never if opening > 1 else every([*known, *not_brought])
+        self._first[event] = never if opening <= 1 else every([*known, *not_brought])
+        others = [-self._next[event], -self._first[event]]
+        self._last[event] = never if endless else every([*known, *not_brought, *others])
+        self._waiting[event] = every([*known, -self._first[event], -self._last[event]])
 
     def _met(self, instant: Instant, demand: Demand) -> int:
         """A literal that implies that a policy meets a demand of an instant to come."""
@@ -280,6 +299,7 @@ class Policies:
 
         # In seconds after now.
         first: dict[str, set[int]] = {}
+        last: dict[str, set[int]] = {}
         over: dict[str, int] = {}
         for at, what in ((one.at, what) for one in decided for what in occurrences(one.due)):
             since = times[now] - times[at]
@@ -287,6 +307,8 @@ class Policies:
                 over[what.event] = max(over.get(what.event, 0), what.end - since)
             elif not what.negated and not occurred(at, what) and _has_time(what, since):
                 first.setdefault(what.event, set()).add(max(1, (what.start or 0) - since))
+                if what.end is not None:
+                    last.setdefault(what.event, set()).add(what.end - since)
 
         def left(at: int, demand: Demand) -> int:
             if isinstance(demand, int):
@@ -301,8 +323,9 @@ class Policies:
                     in_time = end is None or over.get(event, 0) < end - since
                     return kept if in_time else self._joined([kept, -self._waiting[event]], every=True)
                 ways = [kept] if end is None else [kept, self._waiting[event]]
-                if not any(demand.covers(since + seconds) for seconds in first.get(event, ())):
-                    ways.append(self._first[event])
+                for at_times, literals in ((first, self._first), (last, self._last)):
+                    if not any(demand.covers(since + seconds) for seconds in at_times.get(event, ())):
+                        ways.append(literals[event])
                 return self._joined(ways, every=False)
             return self._joined([left(at, part) for part in demand.parts], isinstance(demand, Every))
 
@@ -315,7 +338,28 @@ class Policies:
 
         for one in decided:
             found.append(left(one.at, one.due))
+        found += [-over for name, over in self._over.items() if self._lasts(name, times, now, happening, unseen)]
         return self._joined(found, every=True)
+
+    def _lasts(
+        self,
+        name: str,
+        times: Mapping[int, int],
+        now: int,
+        happening: Mapping[int, Set[str]],
+        unseen: Mapping[Unseen, bool],
+    ) -> bool:
+        """Whether a law may be in force after now, whatever the measures were."""
+        law = self._program.law_named[name]
+        assert isinstance(law, Lasting)
+        ended = {number for number, events in happening.items() if law.end in events and law.end_condition is None}
+        return any(
+            law.event in events
+            and (law.duration is None or times[now] - times[number] < last_second(law.duration))
+            and not any(times[end] >= times[number] for end in ended)
+            and not unseen.get(Unseen(number, name), False)
+            for number, events in happening.items()
+        )
 
     def _from_now_on(self, what: Occurs, since: int) -> int:
         """What a policy makes of a response, triggered so many seconds ago, that has not occurred up to now."""
@@ -341,13 +385,18 @@ class Policies:
     @cached_property
     def _plain(self) -> int:
         """A literal that implies that a policy waits for nothing."""
-        kinds = (*self._first.values(), *self._waiting.values())
+        kinds = (*self._first.values(), *self._last.values(), *self._waiting.values())
         return self._joined([-literal for literal in kinds], every=True)
+
+    @cached_property
+    def _none_over(self) -> list[int]:
+        """Literals for a policy that keeps all laws, whichever of them are in force."""
+        return [-over for over in self._over.values()]
 
     @cached_property
     def _suits_all(self) -> int:
         """A literal that implies that a policy suits every history."""
-        found = [self._unprepared(frozenset())]
+        found = [self._unprepared(frozenset()), *self._none_over]
         for rule in self._rules.values():
             for demand in self._program.demands(rule):
                 every = list(occurrences(demand))
@@ -420,8 +469,6 @@ def can_come_late(program: Program, event: str) -> bool:
 def _kept(instant: Instant, law: Law) -> Iterator[list[int]]:
     """Clauses that imply that a law holds at an instant to come, whichever of its events occur there; but for what has
     to have happened before. What a law causes then occurs at every such instant."""
-    if isinstance(law, Lasting):
-        yield [instant.literal(law.formula)]
     if isinstance(law, (Assume, Never)):
         # Not all events of the policy need occur at once.
         yield from ([-instant.event(event)] for event in events_of(law))

@@ -278,20 +278,27 @@ class Program:
         return found
 
     def bound_to_follow(self, event: str) -> list[Follower]:
-        """What comes of an event whatever the conditions, by the rules that it triggers and by theirs."""
+        """What comes of an event whatever the conditions, by the rules that it triggers, by laws, and by theirs."""
         found = self._followers.get(event)
         if found is None:
             found = self._followers[event] = []
             ahead = deque([Follower(Occurs(event, 0, 0), ())])
             while ahead and len(found) < MOST_FOLLOWERS:
                 one = ahead.popleft()
-                for rule in self.by_trigger.get(one.what.event, ()):
-                    if rule.label not in one.labels:
-                        called = self._surely_called(rule)
-                        fresh = [Follower(what.following(one.what), (*one.labels, rule.label)) for what in called]
+                for label, called in self._follow_at_first(one.what.event):
+                    if label not in one.labels:
+                        fresh = [Follower(what.following(one.what), (*one.labels, label)) for what in called]
                         found += fresh
                         ahead += fresh
         return found
+
+    def _follow_at_first(self, event: str) -> Iterator[tuple[str, Iterator[Occurs]]]:
+        """What comes of an event by single rules and laws, each with its label or name."""
+        for rule in self.by_trigger.get(event, ()):
+            yield rule.label, self._surely_called(rule)
+        for law in self.laws_of_event.get(event, ()):
+            if isinstance(law, EventRelation) and law.relation in ("equal", "witness"):
+                yield law_name(law), (Occurs(other, 0, 0) for other in may_call(law) if other != event)
 
     def _surely_called(self, rule: Rule) -> Iterator[Occurs]:
         """What a rule calls for whichever of its clauses decides, each event in a window that has room for all."""

@@ -116,6 +116,11 @@ def seconds(length: Length) -> Rational:
     return value
 
 
+def last_second(length: Length) -> int:
+    """The last second of what lasts so long, counted from 0. Raises Undecided where a measure says how long."""
+    return int(-(-seconds(length) // 1) - 1)
+
+
 def _joined(parts: tuple[Demand, ...], every: bool) -> Demand:
     if len(parts) == 1:
         return parts[0]

@@ -46,8 +46,20 @@ class Times:
         self._add = add
         self._true = true
         self._known = dict(known or {})
+        self._fixed: dict[int, tuple[int, int]] = {}
         self._pairs: dict[tuple[int, int], _Pair] = {}
         self._asked_of: dict[int, int] = {}
+
+    def fix(self, number: int, after: int, wait: int) -> bool:
+        """Let an instant that nothing is said of yet be so many seconds after another one, if the time of that is
+        known; False if there is an instant at this time already."""
+        if after in self._known:
+            time = self._known[after] + wait
+            if time in self._known.values():
+                return False
+            self._known[number] = time
+            self._fixed[number] = (after, wait)
+        return True
 
     @property
     def pairs(self) -> int:
@@ -141,7 +153,7 @@ class Times:
         ``(the other, how many seconds)``. The model is one that `refused` accepts. Of several other ones of known times
         that it may be due to, it is the one that was asked about first."""
         earliest = {node: self._known.get(node, 0) for node in (_ZERO, *used)}
-        waits: dict[int, tuple[int, int]] = {}
+        waits = dict(self._fixed)
         edges = [edge for edge in self._edges(holds, used) if edge.source != _ZERO]
         changed = True
         while changed:

@@ -27,10 +27,11 @@ from sleec_runtime.model import (
 from sleec_verify.solver import MiniSat, Undecided
 from sleec_verify.timed.instant import Fixed, Formula, Instant
 from sleec_verify.timed.laws import law_at
-from sleec_verify.timed.needs import Decided, Need, Placed, Unseen
+from sleec_verify.timed.needs import Decided, Need, Placed
 from sleec_verify.timed.program import Follower, Program
 from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.times import Times
+from sleec_verify.timed.unseen import LeftOut, Unseen
 from sleec_verify.timed.windows import allows, inside
 
 MOST = 12
@@ -41,6 +42,9 @@ MOST_CLAUSES = 20_000
 
 MOST_COMPARED = 300_000
 """Pairs of instants whose times may be compared in all, model by model: a few seconds."""
+
+MOST_AT_ONCE = 12
+"""As many may be added at once, where one may do for several of them."""
 
 PATIENCE = 5
 """How many times as much of all this it may take where it comes to an end by itself."""
@@ -89,9 +93,7 @@ class Unfolding:
         self._most_compared = MOST_COMPARED * patience
         self._there_for: dict[int, int] = {}
         self._impossible = impossible
-        self._in_part = in_part
-        self._unseen_known = unseen
-        self.unseen: dict[Unseen, int] = {}
+        self.left_out = LeftOut(self.formula, self.times, in_part, unseen)
         self._needs: list[Need] = []
         self._nevers: dict[str, list[Placed]] = {}
         self._firsts: list[Need] = []
@@ -128,7 +130,7 @@ class Unfolding:
                     self.times.at_most(other, number, -1),
                 ]
             )
-        if fixed is None and self.now >= 0:
+        if fixed is None and 0 <= self.now < number:
             self.add([-used, self.times.before(self.now, number)])
         # What these add, they add for this instant too.
         waiting = list(self._needs)
@@ -198,7 +200,7 @@ class Unfolding:
         if what.start == what.end == 0:
             event = self.instants[at].event(what.event)
             return -event if what.negated else event
-        unseen = self.came_about(at, what.event, what.start, what.end)
+        unseen = self.left_out.came_about(at, what.event, what.start, what.end)
         if not what.negated:
             later = what.event if what.start is not None and what.start >= 0 else None
             literal = self.formula.fresh()
@@ -216,29 +218,6 @@ class Unfolding:
 
         self.everywhere(not_there)
         return never
-
-    def came_about(self, at: int, what: str, start: int | None = None, end: int | None = None) -> int:
-        """The literal "it came about in this window, at an instant before now that is not one of these"."""
-        if at >= self._in_part or (end is not None and end <= 0):
-            return -self.formula.true
-        key = Unseen(at, what, start, end)
-        if self._unseen_known is not None:
-            return self.formula.true if self._unseen_known.get(key) else -self.formula.true
-        literal = self.unseen.get(key)
-        if literal is None:
-            literal = self.formula.fresh()
-            for other, its in self.unseen.items():
-                if (other.at, other.what) == (at, what):
-                    # What comes about in a part of a window does so in all of it.
-                    if allows(inside(key, other), 0):
-                        self.add([-literal, its])
-                    if allows(inside(other, key), 0):
-                        self.add([-its, literal])
-            self.unseen[key] = literal
-            # There has been time for it, after this instant and before now.
-            for bound in self.times.bounds(at, self._in_part, max(start or 0, 1) + 1, None):
-                self.add([-literal, bound])
-        return literal
 
     def occurrence(self, at: int, other: int, what: Occurs) -> int:
         """A literal that implies that the event occurs at instant `other`, in a window around instant `at`."""
@@ -325,14 +304,15 @@ class Unfolding:
 
     def grow(self, by: Set[int] | None = None) -> None:
         """Add an instant for each thing that the model found last trusts to come about at some other instant; only for
-        what the instants `by` call for, and what that calls for in turn, if that is anything. If these are too many,
-        one for each event that is called for: one occurrence may well do for all who call for it."""
+        what the instants `by` call for, and what that calls for in turn, if that is anything. If these are many, one
+        for each event that is called for, but for what has a time of its own: one occurrence may well do for all who
+        call for it."""
         trusted = [need for need in self._needs if self.true(need.rest)]
         if by is not None:
             trusted = [n for n in trusted if n.placed is not None and self._root(n.placed.at) in by] or trusted
-        if self._grown + len(trusted) > self._most:
+        if len(trusted) > MOST_AT_ONCE:
             events = {need.later: need for need in reversed(trusted) if need.later is not None}
-            trusted = [need for need in trusted if need.later is None or events[need.later] is need]
+            trusted = [n for n in trusted if n.later is None or events[n.later] is n or n.wait is not None]
         for need in trusted:
             self._grow(need)
 
@@ -352,9 +332,14 @@ class Unfolding:
             raise self._given_up()
         self._grown += 1
         self._needs.remove(need)
-        number = self.instant()
+        number = len(self.instants)
         if need.placed is not None:
+            if need.wait is not None and not self.times.fix(number, need.placed.at, need.wait):
+                # One time is one instant, and there is one at this time.
+                self.add([-need.rest])
+                return
             self._there_for[number] = need.placed.at
+        self.instant()
         # What the new instant stands for is met there, or was met at one of the others.
         self.add([-need.rest, need.witness(number)])
 
@@ -439,6 +424,7 @@ class Unfolding:
             for need in self._needs
             if need.placed is not None and self.true(need.rest) and self.true(need.placed.literal)
         ]
+        trusted += [placed for placed in self.left_out.placed() if self.true(placed.literal)]
         # Rules that the question leaves out, or that the solver is free to.
         not_in_force = {*self._without, *(label for label, _ in self.spared)}
         not_in_force.update(label for label, literal in self._in_force.items() if not self.true(literal))

@@ -55,6 +55,30 @@ def test_each_second_of_its_window_has_to_be_forbidden(forbidden, due, conflicts
     assert (found_in(text) is not None) == conflicts
 
 
+CALLED = """def_start
+    event Knock
+    event Open
+    event Close
+    measure m: boolean
+def_end
+rule_start
+    fast when Knock then Open otherwise Close within [2, 2] minutes
+    slow when Knock and {m} then not Close within 2 minutes otherwise Open within 2 minutes
+rule_end
+relation_start
+    includes Open {m}
+    forbid Close {m}
+relation_end
+"""
+
+
+def test_what_each_second_calls_for_has_a_time_of_its_own():
+    """To confirm it, two minutes of seconds are continued by two minutes of seconds."""
+    found = found_in(CALLED)
+    assert len(found.instants) == 121
+    assert found.instants[-1].time == 120
+
+
 def test_it_is_told_as_one_stretch():
     found = found_in(FILLED)
     words = list(in_words(found.timeline))

@@ -13,7 +13,7 @@ import pytest
 from sleec_runtime.evaluation import decide
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
-from sleec_runtime.model_time import Effect, EventRelation
+from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_runtime.trace import Instant, Trace, _Replay, broken
 from sleec_verify.timed import conflicts
 from sleec_verify.timed.brought import Brought
@@ -22,7 +22,7 @@ from sleec_verify.timed.conflicts import FEW_PLANS, _partial, conflict
 from sleec_verify.timed.histories import Search, Tried
 from sleec_verify.timed.plans import Plan
 from sleec_verify.timed.policy import Policies, Policy, can_come_late
-from sleec_verify.timed.program import Program, events_of
+from sleec_verify.timed.program import Program, events_of, law_name
 from tests.timed_agreement import SIZES, answered
 from tests.timed_strategies import timed_ruleset
 from tests.verify.test_conflict_cone import sparse
@@ -81,17 +81,18 @@ class Played:
 
     def soon_one(self):
         after = self.instants[-1].time + 1
-        called = [
-            (max(after, one.first, 1 + self.over.get(one.event, 0) if one.event in self.policy.waiting else 0), one)
-            for one in self.calls(self.due)
-            if one.event in self.policy.soon
-        ]
+        called = [(self.time_of(one, after), one) for one in self.calls(self.due) if one.event in self.policy.soon]
         called = [(time, one) for time, one in called if one.covers(time)]
         if not called:
             return False
         time = min(time for time, _ in called)
         self.add(time, {one.event for when, one in called if when == time}, self.soon, self.policy.soon)
         return True
+
+    def time_of(self, one, after):
+        if one.event in self.policy.last:
+            return max(after, one.last)
+        return max(after, one.first, 1 + self.over.get(one.event, 0) if one.event in self.policy.waiting else 0)
 
     def late_one(self):
         called = [one for one in self.calls(self.due) if one.last is None and one.event in self.policy.late]
@@ -182,7 +183,7 @@ def played(monkeypatch):
     def all_played(search, inner, now, unseen):
         for plan in ways(search, inner, now, unseen):
             # Where only a part of the history is known, it is not clear what is to be done.
-            if plan.policy is not None and not search.outer._in_part:
+            if plan.policy is not None and not search.outer.left_out.instants:
                 why = play(search, inner, now, plan)
                 assert why is None, f"{search.rule.label}: {why}\n{search.program.ruleset.source.text}"
                 found.append(plan.policy)
@@ -220,6 +221,22 @@ def test_what_a_policy_does_keeps_all(first, played):
         found = played_texts(played, seed)
     assert any(policy.soon for policy in found)
     assert any(policy.waiting for policy in found)
+
+
+@pytest.mark.parametrize("seed", [7, 10, 72])
+def test_what_is_done_at_the_last_second_keeps_all(seed, played):
+    assert any(policy.last for policy in played_texts(played, seed))
+
+
+OVER = ["forbid A {m}\nwhen D then {m} until C", "forbid A {m}\nwhen D and {n} then {m} for 2 minutes"]
+
+
+@pytest.mark.parametrize("relations", OVER)
+def test_what_is_done_after_laws_are_over_keeps_all(relations, played):
+    rules = "r when C then A within [1, 1] minutes\ns when E then D within [5, 9] minutes"
+    policies = played(written(rules, relations))
+    assert any(policy.over for policy in policies)
+    assert not any(policy.over and "D" in policy.events for policy in policies)
 
 
 @pytest.mark.parametrize("unit", ["seconds", "minutes"])
@@ -375,6 +392,10 @@ def test_some_do_not(text, played):
 
 
 FEW_DO = {
+    "what is done at the last second": "r when C then B within 1 minutes unless {m} then not C within 1 minutes\n"
+    "otherwise not B",
+    "what other measures would call for": """r when B then A within [0, 3] minutes otherwise not C within 1 minutes
+        s when A and (not {m}) then C within 3 minutes""",
     "what waits until it is not forbidden": """r when B then A within 10 minutes
         s when C then not A within 2 minutes""",
     "what is brought, and waits": """r when B then A within 1 minutes
@@ -388,9 +409,34 @@ FEW_DO = {
 }
 
 
-@pytest.mark.parametrize("rules", FEW_DO.values(), ids=FEW_DO.keys())
-def test_few_plans_do_for(rules):
-    program = Program(parse(written(rules)))
+FEW_DO_BY_LAWS = {
+    "what a law forbids that is over": (
+        "r when C then A within [1, 1] minutes",
+        "forbid A {m}\nwhen D then {m} until C",
+    ),
+    "what would come of other measures": (
+        "r when B then A within [3, 3] minutes\ns when B then not A within [1, 1] minutes",
+        "causation A {m}",
+    ),
+    "what ends in the instant in which it began": (
+        """r when C then D otherwise not A eventually else not A otherwise D within [1, 3] minutes
+            else D within 1 minutes""",
+        "when C and {n} then (not {n}) until A\nincludes A {n}",
+    ),
+    "what never occurs, as something comes with it that is forbidden": (
+        """r when C then D
+        s when B then A within 2 minutes
+        t when B then C unless {m} then {not D eventually}""",
+        "equal A D",
+    ),
+}
+
+
+@pytest.mark.parametrize(
+    "text", [(rules, "") for rules in FEW_DO.values()] + [*FEW_DO_BY_LAWS.values()], ids=[*FEW_DO, *FEW_DO_BY_LAWS]
+)
+def test_few_plans_do_for(text):
+    program = Program(parse(written(*text)))
     rule = program.ruleset.by_label["r"]
     searches = (
         Search(program, rule, Cone(program, rule), Tried(few, True, 0, True, patient)) for few, patient in FEW_PLANS
@@ -540,8 +586,33 @@ UNSUITED = {
         Policy(soon=frozenset("A"), first=frozenset("A")),
         range(59, 60),
     ),
+    "the last second in which it is called for is forbidden": (
+        ("r when B then not A within [1, 1] minutes", "now when C then A within [30, 30] seconds"),
+        Policy(soon=frozenset("A"), last=frozenset("A")),
+        range(30, 31),
+    ),
+    "the last second in which it was called for is forbidden": (
+        ("r when B then A within [1, 1] minutes", "now when C then not A within [30, 30] seconds"),
+        Policy(soon=frozenset("A"), last=frozenset("A")),
+        range(30, 31),
+    ),
+    "what lasts until something is done lasts still": (
+        (
+            "r when B then not E within 1 minutes",
+            "now when C then A within [30, 30] seconds",
+            "when B then {m} until E",
+            "forbid A {m}",
+        ),
+        Policy(soon=frozenset("A"), over=frozenset({"the law"})),
+        range(1, 30),
+    ),
+    "what lasts for some time lasts still": (
+        ("now when C then A within [30, 30] seconds", "when B then {m} for 1 minutes", "forbid A {m}"),
+        Policy(soon=frozenset("A"), over=frozenset({"the law"})),
+        range(1, 30),
+    ),
     "what has to come before has not come": (
-        ("r when B then not D within 1 minute", "now when C then A within 10 seconds", "before D A"),
+        ("r when B then not D within 1 minute", "now when C then A within 10 seconds", "happenBefore D A"),
         A_SOON,
         range(1, 52),
     ),
@@ -550,8 +621,11 @@ UNSUITED = {
 
 @pytest.mark.parametrize(("rules", "policy", "times"), UNSUITED.values(), ids=UNSUITED.keys())
 def test_a_history_that_a_policy_does_not_suit_is_found_all_the_same(rules, policy, times):
-    relations = "".join(f"happenBefore{rule[6:]}" for rule in rules if rule.startswith("before"))
-    program = Program(parse(written("\n".join(r for r in rules if not r.startswith("before")), relations)))
+    is_rule = re.compile(r"\w+ when")
+    relations = "\n".join(one for one in rules if not is_rule.match(one))
+    program = Program(parse(written("\n".join(filter(is_rule.match, rules)), relations)))
+    if policy.over:
+        policy = policy._replace(over=frozenset(law_name(law) for law in program.laws if isinstance(law, Lasting)))
     rule = program.ruleset.by_label["now"]
     for since in {times[0], times[-1]}:
         search = Search(program, rule, Cone(program, rule), Tried(1))
