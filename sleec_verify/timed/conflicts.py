@@ -41,7 +41,7 @@ SECONDS_FOR_ONE = 4
 MOST_DRAWN_OUT = 4
 """Instants before now of a conflict that may be drawn out."""
 
-FEW_PLANS = ((2, False), (3, True), (7, True), (7, False))
+FEW_PLANS = ((2, False), (3, True), (7, True), (7, False), (12, False))
 """Numbers of instants before now with which all histories are tried at once, all plans being reckoned from now: as many
 are enough to show that a history defeats these plans (`Policies.faults`). With each, whether policies that wait, which
 take two or more, are preferred."""
