@@ -4,7 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from sleec_runtime.model import Clause, Obligation, Rule, Ruleset, Span, Statement, literals
+from sleec_runtime.model import (
+    Clause,
+    Constant,
+    Declaration,
+    Measure,
+    Obligation,
+    Rule,
+    Ruleset,
+    Span,
+    Statement,
+    literals,
+)
 from sleec_runtime.model_time import RELATIONS, Claim
 from sleec_verify.calculations import refuse_unsayable_calculations
 from sleec_verify.conversion.to_dsl import refuse
@@ -33,6 +44,18 @@ def has_untimed(statements: Iterable[Statement]) -> bool:
     )
 
 
+def taken_names(statements: Iterable[Statement]) -> list[str]:
+    """The names that SLEEC-TK's editor refuses, as the processes that it makes of rules have them."""
+    names: set[str] = set()
+    for statement in statements:
+        if isinstance(statement, Declaration):
+            names.update(statement.names)
+        elif isinstance(statement, (Measure, Constant)):
+            names.add(statement.name)
+    return sorted(names & _TAKEN)
+
+
+_TAKEN = {"STOP", "P", "Q", "c", "d"}
 _HINT = "write --to legos"
 
 

@@ -32,6 +32,7 @@ from sleec_runtime.model import (
 from sleec_runtime.model_time import RELATIONS, Claim
 from sleec_verify.conversion.parts import with_formulas
 from sleec_verify.conversion.rules import narrow, split
+from sleec_verify.report.words import listed
 from sleec_verify.timed.names import beside_rules
 
 _NAME = re.compile(r"[^\W\d]\w*")
@@ -47,9 +48,12 @@ def in_dsl(ruleset: Ruleset, dialect: Dialect) -> tuple[Ruleset, list[str]]:
     english = ruleset.syntax == "english"
     statements = list(_from_english(ruleset, notes) if english else ruleset.statements)
     if dialect == "sleec-tk":
-        from sleec_verify.conversion.sleec_tk import has_untimed, refuse_unsayable
+        from sleec_verify.conversion.sleec_tk import has_untimed, refuse_unsayable, taken_names
 
         refuse_unsayable(ruleset, statements)
+        taken = taken_names(statements)
+        if taken:
+            notes.append(f"the editor of SLEEC-TK refuses {listed(taken)} as {'names' if len(taken) > 1 else 'a name'}")
         if ruleset.dialect != "sleec-tk" and has_untimed(statements):
             notes.append("a response without a window is due at once here, and for SLEEC-TK at some time from then on")
     else:

@@ -142,7 +142,7 @@ class Search:
             unseen = self._unseen()
             inner = self._going_on(beginning, unseen)
             if inner is None:
-                if after(self.program, beginning, self.rule, unseen).ask():
+                if self._after(beginning, unseen, self.rule).ask():
                     return beginning
                 # It was lost before the rule came to it. To look for the instants that matter takes as many questions.
                 self.outer.grow(self._lost(beginning, unseen) if self._from_now else None)
@@ -163,7 +163,7 @@ class Search:
         for place, instant in enumerate(beginning):
             triggered = (rule for event in instant.events for rule in self.program.by_trigger.get(event, ()))
             demands = {(rule.label, place) for rule in triggered}
-            inner = after(self.program, beginning, unseen=unseen)
+            inner = self._after(beginning, unseen)
             inner.spared |= spared | demands
             try:
                 goes_on = inner.ask()
@@ -180,15 +180,20 @@ class Search:
         something else."""
         happened = {event for fixed in beginning for event in fixed.events}
         if self._before - happened:
-            inner = after(self.program, beginning, unseen=unseen)
+            inner = self._after(beginning, unseen)
             now = inner.instants[len(beginning) - 1]
             try:
                 if inner.ask(*(now.event(event) for event in sorted(self._before - happened))):
                     return inner
             except Undecided:
                 pass
-        inner = after(self.program, beginning, unseen=unseen)
+        inner = self._after(beginning, unseen)
         return inner if inner.ask() else None
+
+    def _after(
+        self, beginning: tuple[Fixed, ...], unseen: Mapping[Unseen, bool], spared: Rule | None = None
+    ) -> Unfolding:
+        return after(self.program, beginning, spared, unseen if self.outer.left_out.instants else None)
 
     def _beginning(self) -> tuple[Fixed, ...]:
         outer = self.outer
@@ -269,7 +274,8 @@ def after(
     spared: Rule | None = None,
     unseen: Mapping[Unseen, bool] | None = None,
 ) -> Unfolding:
-    """The traces that a history can be continued to. What came about at instants that it leaves out is `unseen`."""
+    """The traces that a history can be continued to. If it is a part of one, what came about at the instants that it
+    leaves out is `unseen`."""
     without = frozenset() if spared is None else frozenset({spared.label})
     unfolding = Unfolding(
         program,
@@ -277,7 +283,7 @@ def after(
         impossible=program.impossible(without),
         most=max(MOST, len(history)),
         most_clauses=max(MOST_CLAUSES, MOST_CLAUSES_EACH * len(history)),
-        in_part=len(history) - 1 if unseen else 0,
+        in_part=0 if unseen is None else len(history) - 1,
         unseen=unseen,
     )
     if spared is not None:

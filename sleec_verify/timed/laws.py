@@ -34,6 +34,9 @@ def law_at(unfolding: Unfolding, law: Law) -> Callable[[int], None]:
 
     def of_before(at: int, relation: EventRelation) -> None:
         assert comes_first is not None
+        if at <= unfolding.now and unfolding.left_out.are_some:
+            # It may have come at an instant that is left out.
+            return
         event(at, relation.left)
         right = event(at, relation.right)
         before = Occurs(relation.left, None, -1)

@@ -308,6 +308,8 @@ class Unfolding:
         for each event that is called for, but for what has a time of its own: one occurrence may well do for all who
         call for it."""
         trusted = [need for need in self._needs if self.true(need.rest)]
+        if not trusted:
+            raise self._given_up()
         if by is not None:
             trusted = [n for n in trusted if n.placed is not None and self._root(n.placed.at) in by] or trusted
         if len(trusted) > MOST_AT_ONCE:

@@ -30,6 +30,7 @@ class LeftOut:
         self._formula = formula
         self._times = times
         self.instants = instants
+        self.are_some = instants > 0 or known is not None
         self._known = known
         self.literals: dict[Unseen, int] = {}
 

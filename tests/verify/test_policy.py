@@ -303,6 +303,37 @@ def test_what_few_plans_decide_of_many_is_so_without_policies(first, monkeypatch
         few_plans_decide(parse(sparse(seed)), monkeypatch)
 
 
+BETWEEN = ["happenBefore {0} {1}", "when {0} and {{m}} then (not {{m}}) until {1}", "when {0} then {{m}} until {1}"]
+
+
+def with_law(seed, law):
+    """A random text with a law about two of its events."""
+    text = timed_ruleset(seed, **SIZES[seed % 3]).source.text.replace(" seconds", " minutes")
+    events = Random(seed).sample(re.findall(r"event (\w+)", text), 2)
+    law = f"  {law.format(*events)}\n"
+    if "relation_start" in text:
+        return text.replace("relation_start\n", f"relation_start\n{law}")
+    return text.replace("rule_end\n", f"rule_end\nrelation_start\n{law}relation_end\n", 1)
+
+
+@pytest.mark.parametrize("law", BETWEEN)
+def test_what_came_before_may_be_left_out(law):
+    """A search for parts of histories has one of each conflict among them, however few instants a part has."""
+    conflicts = 0
+    for seed in range(5_640, 5_820):
+        program = Program(parse(with_law(seed, law)))
+        for rule in program.rules if program.is_acyclic else ():
+            cone = Cone(program, rule)
+            found = [answered(Search(program, rule, cone, Tried(instants)).find) for instants in (0, 1, 2)]
+            if any(found):
+                conflicts += 1
+                for instants, patient in ((1, False), *FEW_PLANS[:2]):
+                    search = Search(program, rule, cone, Tried(instants, True, from_now=True, patient=patient))
+                    found_in_part = answered(lambda: (search.find(),))  # noqa: B023
+                    assert found_in_part != (None,), f"{rule.label}\n{program.ruleset.source.text}"
+    assert conflicts > 5
+
+
 # One thing each -------------------------------------------------------------------------------------------
 
 
