@@ -178,10 +178,12 @@ class Search:
     def _going_on(self, beginning: tuple[Fixed, ...], unseen: Mapping[Unseen, bool]) -> Unfolding | None:
         """How a history can be continued, if it can: where that is possible, by doing now what has to come before
         something else."""
+        place = len(beginning) - 1
         happened = {event for fixed in beginning for event in fixed.events}
+        happened |= {event for event in self._before if unseen.get(Unseen.before(place, event))}
         if self._before - happened:
             inner = self._after(beginning, unseen)
-            now = inner.instants[len(beginning) - 1]
+            now = inner.instants[place]
             try:
                 if inner.ask(*(now.event(event) for event in sorted(self._before - happened))):
                     return inner

@@ -34,16 +34,13 @@ def law_at(unfolding: Unfolding, law: Law) -> Callable[[int], None]:
 
     def of_before(at: int, relation: EventRelation) -> None:
         assert comes_first is not None
-        if at <= unfolding.now and unfolding.left_out.are_some:
-            # It may have come at an instant that is left out.
-            return
         event(at, relation.left)
         right = event(at, relation.right)
         before = Occurs(relation.left, None, -1)
         came = unfolding.by_first(
             comes_first, lambda other: unfolding.occurrence(at, other, before), at > unfolding.now
         )
-        require(-right, came)
+        require(-right, came, unfolding.left_out.came_before(at, relation.left))
 
     def of_lasting(at: int, lasting: Lasting) -> None:
         begins = unfolding.formula.fresh()

@@ -236,10 +236,10 @@ class Plans:
             bounds = self._gap(points[at], point, what.start, what.end)
             if event != -self.true and -self.true not in bounds:
                 there.append([event, *(bound for bound in bounds if bound != self.true)])
-        if at < len(self.past):
-            unseen = self.outer.left_out.came_about(self.past[at], what.event, what.start, what.end)
-            if unseen != -self.true:
-                there.append([unseen])
+        number = self.past[at] if at < len(self.past) else self.now
+        unseen = self.outer.left_out.came_about(number, what.event, what.start, what.end)
+        if unseen != -self.true:
+            there.append([unseen])
         if not what.negated:
             return formula.any_of([formula.every(literals) for literals in there]) if there else -self.true
         never = formula.fresh()

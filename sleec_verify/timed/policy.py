@@ -291,7 +291,8 @@ class Policies:
         """A literal that implies that a policy meets all that is left to be done by the instants up to `now`."""
         times, _ = inner.schedule()
         happening = {number: inner.happening(number) for number in inner.used() if number <= now}
-        found = [self._unprepared({event for events in happening.values() for event in events})]
+        left_out = {key.what for key, came in unseen.items() if came and key == Unseen.before(now, key.what)}
+        found = [self._unprepared(left_out.union(*happening.values()))]
         decided = self._decided(inner, now)
 
         def occurred(at: int, what: Occurs) -> bool:

@@ -14,12 +14,16 @@ from sleec_verify.timed.windows import allows, inside
 
 class Unseen(NamedTuple):
     """That an event (or what ends a law) came about in a window around instant `at`, at an instant before now that is
-    not one of those that are known."""
+    not one of those that are known. Those that begin without bound end right before it (`before`)."""
 
     at: int
     what: str
     start: int | None = None
     end: int | None = None
+
+    @classmethod
+    def before(cls, at: int, event: str) -> Unseen:
+        return cls(at, event, None, -1)
 
 
 class LeftOut:
@@ -36,14 +40,12 @@ class LeftOut:
 
     def came_about(self, at: int, what: str, start: int | None = None, end: int | None = None) -> int:
         """The literal "it came about in this window, at an instant before now that is not one of these"."""
-        true = self._formula.true
-        if at >= self.instants or (end is not None and end <= 0):
-            return -true
+        if end is not None and end <= 0:
+            return self.came_before(at, what) if start is None else -self._formula.true
+        if at >= self.instants:
+            return -self._formula.true
         key = Unseen(at, what, start, end)
-        if self._known is not None:
-            return true if self._known.get(key) else -true
-        literal = self.literals.get(key)
-        if literal is None:
+        if self._known is None and key not in self.literals:
             add = self._formula.clauses.append
             literal = self._formula.fresh()
             for other, its in self.literals.items():
@@ -57,7 +59,26 @@ class LeftOut:
             # There has been time for it, after this instant and before now.
             for bound in self._times.bounds(at, self.instants, max(start or 0, 1) + 1, None):
                 add([-literal, bound])
-        return literal
+        return self._literal(key)
+
+    def came_before(self, at: int, event: str) -> int:
+        """The literal "it came about before this instant, and before now, at one that is not one of these"."""
+        if not self.are_some:
+            return -self._formula.true
+        key = Unseen.before(min(at, self.instants), event)
+        if self._known is None and key not in self.literals:
+            literal = self._formula.fresh()
+            for other, its in self.literals.items():
+                if other == Unseen.before(other.at, event):
+                    # The instants are numbered in the order of time.
+                    self._formula.clauses.append([-its, literal] if other.at < key.at else [-literal, its])
+            self.literals[key] = literal
+        return self._literal(key)
+
+    def _literal(self, key: Unseen) -> int:
+        if self._known is None:
+            return self.literals[key]
+        return self._formula.true if self._known.get(key) else -self._formula.true
 
     def placed(self) -> Iterator[Placed]:
         """All of it that may have come about."""

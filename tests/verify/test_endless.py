@@ -47,6 +47,7 @@ def test_what_cannot_be_moves_to_no_other_instant():
         parse("RULE r WHEN A THEN B\nWHEN B THEN C\nWHEN B THEN C WITHIN 2 minutes\nWHEN C THEN NOT C"), "eventually"
     )
     found = conflict(program, program.ruleset.by_label["r"])
+    assert found is not None
     assert [instant.events for instant in found.instants] == [{"A"}]
 
 
