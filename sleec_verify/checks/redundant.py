@@ -10,6 +10,29 @@ from sleec_verify.checks.base import Check, FindingKind, clause_name, listed, li
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
 from sleec_verify.question import Question
+from sleec_verify.solver import Undecided
+
+
+def with_others(findings: Iterator[Finding]) -> Iterator[Finding]:
+    """The findings about rules that can be removed, with what to do where one rests on another: both may not go.
+
+    Raises Undecided, after all of them, where `findings` does."""
+    found = []
+    why: Undecided | None = None
+    try:
+        for finding in findings:
+            found.append(finding)
+    except Undecided as error:
+        why = error
+    can_go = {finding.rules[0] for finding in found}
+    for finding in found:
+        others = [label for label in finding.rules[1:] if label in can_go]
+        if others:
+            again = f"check again before you remove {listed(others)} as well"
+            finding = replace(finding, help=f"remove it, and {again}; or keep it on purpose and say why in a comment")
+        yield finding
+    if why is not None:
+        raise why
 
 
 def _redundant_rules(cones: Cones) -> Iterator[Finding]:
@@ -162,7 +185,7 @@ REDUNDANT_RULE = Check(
             "RULE answer_kindly\nWHEN UserCalls THEN Answer AND Smile\n",
         ),
     ),
-    _redundant_rules,
+    lambda cones: with_others(_redundant_rules(cones)),
     scope="every domain",
 )
 

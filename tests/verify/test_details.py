@@ -127,6 +127,26 @@ def test_the_note_on_a_dead_hedge_says_which_kind_it_is():
     assert two.note.startswith("its condition can be true")
 
 
+@pytest.mark.parametrize("window", ["", " WITHIN 1 minute"])
+def test_of_rules_that_make_each_other_redundant_not_all_may_go(window):
+    """Each comes with the others that go with it, and what follows the advice, one rule after the other, keeps one."""
+    rules = {"a": "B", "b": "B AND C", "c": "C", "d": "D"}
+    text = "".join(
+        f"RULE {label} WHEN A THEN {due.replace(' AND', f'{window} AND')}{window}\n" for label, due in rules.items()
+    )
+    by_rule = {finding.rules[0]: finding.help for finding in found(text, "redundant-rule")}
+    keep = "or keep it on purpose and say why in a comment"
+    assert by_rule == {
+        "a": f"remove it, and check again before you remove b as well; {keep}",
+        "b": f"remove it, and check again before you remove a and c as well; {keep}",
+        "c": f"remove it, and check again before you remove b as well; {keep}",
+    }
+    (alone,) = found(
+        "\n".join(line for line in text.splitlines() if " c " not in line and " d " not in line), "redundant-rule"
+    )
+    assert (alone.rules, alone.help) == (("a", "b"), f"remove it, {keep}")
+
+
 def test_a_redundant_rule_names_what_covers_it():
     text = "RULE a WHEN t THEN o AND p\nRULE b WHEN t THEN o\nRULE c WHEN t THEN p\nRULE d WHEN t THEN o"
     by_rule = {finding.rules[0]: finding.rules[1:] for finding in found(text, "redundant-rule")}

@@ -10,7 +10,7 @@ from sleec_runtime.model import Rule
 from sleec_verify.checks.base import clause_name, listed
 from sleec_verify.checks.redundant import REDUNDANT_HEDGE as HEDGE_OF_SITUATIONS
 from sleec_verify.checks.redundant import REDUNDANT_RULE as RULE_OF_SITUATIONS
-from sleec_verify.checks.redundant import what_to_do, without_hedge
+from sleec_verify.checks.redundant import what_to_do, with_others, without_hedge
 from sleec_verify.checks.timed.each import each, in_words, rules_in, traces
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
@@ -68,5 +68,5 @@ def _redundant_hedges(cones: Cones) -> Iterator[Finding]:
     yield from each(hedges, of)
 
 
-REDUNDANT_RULE = replace(RULE_OF_SITUATIONS, run=_redundant_rules)
+REDUNDANT_RULE = replace(RULE_OF_SITUATIONS, run=lambda cones: with_others(_redundant_rules(cones)))
 REDUNDANT_HEDGE = replace(HEDGE_OF_SITUATIONS, run=_redundant_hedges)
