@@ -208,7 +208,7 @@ class Brought:
     def _comes_late(self, event: str) -> bool:
         known = self._late.get(event)
         if known is None:
-            from sleec_verify.timed.policy import can_come_late
+            from sleec_verify.timed.policies import can_come_late
 
             known = self._late[event] = can_come_late(self._program, event)
         return known

@@ -16,6 +16,7 @@ from sleec_verify.timed.drawn_out import drawn_out, shortened
 from sleec_verify.timed.histories import Search, Tried, after
 from sleec_verify.timed.instant import Fixed
 from sleec_verify.timed.past import Past, past
+from sleec_verify.timed.policy import Style
 from sleec_verify.timed.program import Program
 from sleec_verify.timed.questions import decided, needed
 from sleec_verify.timed.timeline import Timeline, excerpt
@@ -41,10 +42,19 @@ SECONDS_FOR_ONE = 4
 MOST_DRAWN_OUT = 4
 """Instants before now of a conflict that may be drawn out."""
 
-FEW_PLANS = ((2, False), (3, True), (7, True), (7, False), (12, False))
+FEW_PLANS: tuple[tuple[int, Style], ...] = (
+    (2, "plain"),
+    (3, "patient"),
+    (7, "patient"),
+    (7, "plain"),
+    (7, "busy"),
+    (12, "patient"),
+    (12, "busy"),
+    (12, "plain"),
+)
 """Numbers of instants before now with which all histories are tried at once, all plans being reckoned from now: as many
-are enough to show that a history defeats these plans (`Policies.faults`). With each, whether policies that wait, which
-take two or more, are preferred."""
+are enough to show that a history defeats these plans (`Policies.faults`). With each, the style of policies: those that
+wait take two or more."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +68,7 @@ class History:
 
 def _partial(needed: Past, by_seconds: bool) -> tuple[list[Tried], list[Tried]]:
     """The searches for parts of histories that are worth a try, and those that are if nothing else helps."""
-    one, two, *more = (Tried(instants, True, from_now=True, patient=patient) for instants, patient in FEW_PLANS)
+    one, two, *more = (Tried(instants, True, from_now=True, style=style) for instants, style in FEW_PLANS)
     # To leave out the instants that nothing pending now needs rules out no history.
     pending = [Tried(needed.pending, True)] if needed.pending <= MOST_PENDING else []
     if by_seconds and needed.endless <= MOST_PENDING:
@@ -89,6 +99,7 @@ class _Searches:
         self._by_seconds = 0 < self._needed.reach <= MOST_SECONDS
         self._early, self._rest = _partial(self._needed, self._by_seconds)
         self._work = 0
+        self._looked_at = 0
 
     def find(self) -> tuple[Fixed, ...] | None:
         try:
@@ -99,7 +110,8 @@ class _Searches:
                 raise
             if self._all_go_on(self._rest):
                 return None
-            if self._drawn_out is not None:
+            # Where few instants were too much work, they are with shorter windows, too.
+            if self._looked_at >= FEW and self._drawn_out is not None:
                 return self._drawn_out
             if not self._by_seconds:
                 raise
@@ -136,6 +148,7 @@ class _Searches:
             found = self._search(Tried(instants))
             if found is not None:
                 return self._less(found)
+            self._looked_at = instants
             if self._work > MOST_WORK and most > MOST_PAST:
                 # That there is none would not follow from the further ones either.
                 tried = instants

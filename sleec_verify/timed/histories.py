@@ -20,7 +20,8 @@ from sleec_verify.solver import Undecided
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.instant import Fixed
 from sleec_verify.timed.plans import Later, Plan, Plans, at_once
-from sleec_verify.timed.policy import Policies
+from sleec_verify.timed.policies import Policies
+from sleec_verify.timed.policy import Style
 from sleec_verify.timed.program import Program
 from sleec_verify.timed.responses import Demand, Every, Occurs
 from sleec_verify.timed.unfolding import MOST, MOST_CLAUSES, PATIENCE, Unfolding
@@ -44,20 +45,20 @@ class Tried(NamedTuple):
     where all that can have come about at the others may have.
 
     `from_now`, only plans that are reckoned from now count, and no more of them than these instants are enough for:
-    then there is no other history either. If `patient`, policies that wait come first."""
+    then there is no other history either. Policies are of a `style`."""
 
     instants: int
     in_part: bool = False
     seconds: int = 0
     from_now: bool = False
-    patient: bool = False
+    style: Style = "plain"
 
 
 class Search:
     """The search for a history that `rule`, triggered now, leaves without a way to go on."""
 
     def __init__(self, program: Program, rule: Rule, cone: Cone, tried: Tried) -> None:
-        instants, in_part, seconds, self._from_now, self._patient = tried
+        instants, in_part, seconds, self._from_now, self._style = tried
         self.program = program
         self.cone = cone
         self.rule = rule
@@ -220,9 +221,9 @@ class Search:
 
     def _ways(self, inner: Unfolding, now: int, unseen: Mapping[Unseen, bool]) -> Iterator[Plan]:
         """How the history just tried can be continued, by as little of it as can be: by a policy, if one suits it."""
-        if self._patient:
+        if self._style != "plain":
             self._do_less(inner, now)
-        policy = self._policies.suiting(inner, now, unseen, self._patient)
+        policy = self._policies.suiting(inner, now, unseen, self._style)
         if policy is not None:
             by_policy = self._policies.last_chances(policy, inner, now, unseen)
             yield Plan(self._added(inner, now, by_policy), policy=policy)

@@ -14,7 +14,7 @@ from sleec_runtime.model import And, Assume, Atom, Clause, Exclusive, Never, Not
 from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.instant import Fixed, Instant
-from sleec_verify.timed.policy import Policy
+from sleec_verify.timed.policy import Policy, ruled_out
 from sleec_verify.timed.program import Program, events_of, law_name
 from sleec_verify.timed.responses import Demand, Every, Occurs, certain, last_second, occurrences
 from sleec_verify.timed.unfolding import Unfolding
@@ -75,6 +75,8 @@ class Plans:
         self.add = outer.add
         self.true = outer.formula.true
         self._loops: list[Callable[[], list[list[int]]]] = []
+        self._laws = [law for law in self.program.laws if cone.events.issuperset(events_of(law))]
+        self._rules_out = ruled_out(self.program, cone.rules.values(), self._laws)
 
     def loops(self) -> list[list[int]]:
         """Clauses against what happens under some plan, in the model, only because of itself."""
@@ -254,7 +256,7 @@ class Plans:
         if what.negated:
             # It is called for, and done as long as there is time left after now, and after what it waits for.
             waits = what.event in policy.waiting and what.end is not None
-            yield [*self._gap(here, now, None, end), *([-self._forbidden(points, at, what)] if waits else [])]
+            yield [*self._gap(here, now, None, end), *([-self._awaits(points, at, what, policy)] if waits else [])]
         elif what.event in policy.first:
             for number, guard, call in self._of_history(points, what.event, negated=False):
                 caller, opens = points[number], call.start or 0
@@ -286,12 +288,18 @@ class Plans:
             begins = what.start - 1 if what.event in policy.next and what.start is not None else None
             yield self._gap(here, now, begins, end)
 
-    def _forbidden(self, points: Sequence[_Point], at: int, what: Occurs) -> int:
-        """A literal that implies that the history may forbid an event up to the end of a window, or longer."""
+    def _awaits(self, points: Sequence[_Point], at: int, what: Occurs, policy: Policy) -> int:
+        """A literal that implies that the history may forbid an event up to the end of a window, or longer, or call for
+        what the event forbids."""
         assert what.end is not None
+        over = [(number, other, [guard]) for number, guard, other in self._of_history(points, what.event, negated=True)]
+        for event in sorted(self._rules_out[what.event] & policy.soon):
+            for number, guard, call in self._of_history(points, event, negated=False):
+                pending = self._occurs(points, number, call._replace(negated=True), Policy())
+                over.append((number, call, [guard, pending]))
         ways = [
-            [guard, *self._gap(points[at], points[number], what.end - other.end, None)]
-            for number, guard, other in self._of_history(points, what.event, negated=True)
+            [*literals, *self._gap(points[at], points[number], what.end - other.end, None)]
+            for number, other, literals in over
             if other.end is not None
         ]
         ways = [way for way in ways if -self.true not in way]
@@ -323,7 +331,7 @@ class Plans:
             if rule.trigger in policy.events:
                 for what in self.program.windows(rule):
                     if what.event in policy.waiting and not what.negated and what.end is not None:
-                        yield self._forbidden(points, now, what._replace(end=what.end + 1))
+                        yield self._awaits(points, now, what._replace(end=what.end + 1), policy)
 
     def _laws_broken(self, points: Sequence[_Point], policy: Policy) -> Iterator[int]:
         """For each law and instant of now or later, a literal that implies that it is broken there; those of the past
@@ -335,7 +343,7 @@ class Plans:
 
         since = len(self.past)
         # What a law brings about of events outside the cone is part of what is given.
-        for law in (law for law in self.program.laws if self.cone.events.issuperset(events_of(law))):
+        for law in self._laws:
             for number, point in enumerate(points):
                 if isinstance(law, EventRelation):
                     left, right = point.event(law.left), point.event(law.right)

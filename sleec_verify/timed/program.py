@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Iterable, Iterator
+from collections import defaultdict, deque
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, TypeVar, Union
 
@@ -105,17 +105,38 @@ def _found(same: dict[str, str], event: str) -> str:
     return event
 
 
-def leads_back(calls: Iterable[tuple[str, str]]) -> bool:
-    """Whether anything that calls for something else is called for by that in the end."""
+def leads_back(calls: Iterable[tuple[str, str]], equal: Iterable[tuple[str, str]] = ()) -> bool:
+    """Whether anything that calls for something else is called for by that in the end, where some are equal."""
     from graphlib import CycleError, TopologicalSorter
 
+    same: dict[str, str] = {}
+    for left, right in equal:
+        one, other = _found(same, left), _found(same, right)
+        if one != other:
+            same[one] = other
     graph: TopologicalSorter[str] = TopologicalSorter()
     for event, called in calls:
-        graph.add(event, called)
+        graph.add(_found(same, event), _found(same, called))
     try:
         graph.prepare()
     except CycleError:
         return True
+    return False
+
+
+def comes_back(later: Sequence[tuple[str, str]], at_once: Iterable[tuple[str, str]]) -> bool:
+    """Whether anything that calls for something later is called for by that in the end, be it at once or later."""
+    called: dict[str, set[str]] = defaultdict(set)
+    for event, other in (*later, *at_once):
+        called[event].add(other)
+    for event, other in later:
+        found, ahead = {other}, [other]
+        while ahead:
+            fresh = called[ahead.pop()] - found
+            found |= fresh
+            ahead += fresh
+        if event in found:
+            return True
     return False
 
 
@@ -342,7 +363,7 @@ class Program:
             return False
         calls = [(rule.trigger, o.name) for rule in self.rules for o in responses_of(rule) if not o.negated]
         calls += [(law.event, law.end) for law in laws if isinstance(law, Lasting) and law.end is not None]
-        same: dict[str, str] = {}
+        equal = []
         for law in laws:
             if isinstance(law, EventRelation):
                 if law.relation == "witness":
@@ -350,10 +371,8 @@ class Program:
                 elif law.relation == "happenBefore":
                     calls.append((law.right, law.left))
                 elif law.relation == "equal":
-                    one, other = _found(same, law.left), _found(same, law.right)
-                    if one != other:
-                        same[one] = other
-        return not leads_back((_found(same, event), _found(same, called)) for event, called in calls)
+                    equal.append((law.left, law.right))
+        return not leads_back(calls, equal)
 
     @cached_property
     def is_open_ended(self) -> bool:

@@ -155,6 +155,11 @@ class Unfolding:
         self._needs.append(need)
         for number in range(len(self.instants)):
             self._offer(need, number)
+        if need.placed is not None and need.placed.at <= self.now < len(self.instants):
+            at, what, _ = need.placed
+            if what.end is not None:
+                # Those still to come are after now.
+                self.add([-need.rest, self.times.at_most(at, self.now, what.end - 1)])
 
     def first(self, witness: Callable[[int], int]) -> Need:
         """The first instant at which `witness` holds, if there is any, as one thing to look for."""

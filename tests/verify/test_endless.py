@@ -69,3 +69,20 @@ def test_no_trace_has_what_can_never_occur(first):
             found += 1
             assert not occurs(program, event), f"{event}\n{program.ruleset.source.text}"
     assert found > 5
+
+
+CIRCLES = ["witness C B", "equal C B", "causation B {m}\nincludes C {m}"]
+
+
+@pytest.mark.parametrize("window", ["eventually", "within 3 seconds", "within [1, 2] hours"])
+@pytest.mark.parametrize("laws", CIRCLES)
+def test_what_comes_back_to_itself_by_a_law_never_ends(laws, window):
+    """B calls for C a second later, and with C comes B again: so A, which calls for B, has no way to go on."""
+    text = f"""def_start event A event B event C measure m: boolean def_end
+        rule_start
+            later when B then C within [1, 1] seconds
+            r when A then B {window}
+        rule_end
+        relation_start {laws} relation_end"""
+    program = Program(parse(text))
+    assert conflict(program, program.ruleset.by_label["r"]) is not None
