@@ -351,7 +351,8 @@ class Unfolding:
         self.add([-need.rest, need.witness(number)])
 
     def _given_up(self) -> Undecided:
-        return Undecided(f"no answer with up to {len(self.instants)} instants")
+        several = len(self.instants) != 1
+        return Undecided(f"no answer with up to {len(self.instants)} instant{'s' * several}")
 
     def _assumed(self, required: Sequence[int], let_in: Sequence[str] | None, trusts: _Trust) -> list[int]:
         counting = self._in_force if let_in is None else [name for name in let_in if name in self._in_force]

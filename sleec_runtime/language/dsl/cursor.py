@@ -36,6 +36,9 @@ _INSTEAD = {
 class Cursor(TokenReader):
     """Where the parser of the DSL stands, and what it does with names, keywords and mistakes."""
 
+    item = "rule"
+    """What a name at the begin of a line is that of."""
+
     def __init__(self, source: Source, tokens: Tokens, dialect: Dialect, problems: list[Problem]) -> None:
         super().__init__(source, tokens, problems)
         self.dialect = dialect
@@ -64,7 +67,7 @@ class Cursor(TokenReader):
                 )
         if kind in ITEM_STARTS:
             end = self.ends[at - 1] if at else 0
-            ends = {"end": "the text ends here", "label": f"here the rule {quoted(written)} begins"}
+            ends = {"end": "the text ends here", "label": f"here the {self.item} {quoted(written)} begins"}
             self.fail(
                 f"expected {what}, but {ends.get(kind, f'{written} comes next')}",
                 Span(end, end),
@@ -73,7 +76,8 @@ class Cursor(TokenReader):
         self.fail(f"expected {what}, but found {quoted(written)}", self.token_span(at), hint)
 
     def _unsaid(self, kind: str) -> str | None:
-        return "a rule looks like this: R1 when Event then Response" if kind == "label" else None
+        name = "R1" if self.item == "rule" else f"{self.item[0]}1"
+        return f"a {self.item} looks like this: {name} when Event then Response" if kind == "label" else None
 
     # Small things ---------------------------------------------------------------------------------------------
 
@@ -143,7 +147,17 @@ class Cursor(TokenReader):
             return
         if kind in (")", "}", "]"):
             self.fail(f"this closing {quoted(kind)} has no opening one", self.token_span(self.at), "delete it")
-        self.expected(what)
+        self.expected(what, self._begins_wrong(what))
+
+    def _begins_wrong(self, what: str) -> str | None:
+        """What to do about a line that begins with a word that begins nothing."""
+        at = self.at
+        if self.kinds[at] != "word" or "\n" not in self.text[self.ends[at - 1] : self.starts[at]]:
+            return None
+        if "rule" in what:
+            return "a rule begins with its name and when: R1 when Event then Response"
+        meant = nearest(self.token_text(at).lower(), sorted(DEFINITIONS)) if "definition" in what else None
+        return f"did you mean {meant}?" if meant is not None else None
 
     def end_of_block(self, opened: int) -> None:
         """Reads the keyword that closes the block of token `opened`, or says that it is missing."""

@@ -75,8 +75,12 @@ class DefinitionParser(FormulaParser):
             spans.append(self.token_span(self.at - 1))
             if not self.accept(","):
                 break
-        if self.kinds[self.at] == "word":
-            self.expected("a comma between the values of the scale")
+        if self.kinds[self.at] == "word" or self.token_text(self.at) == ";":
+            self.fail(
+                f"expected a comma between the values of the scale, but found {quoted(self.token_text(self.at))}",
+                self.token_span(self.at),
+                "as in: scale(low, medium, high)",
+            )
         self.close(")", opened)
         if len(values) < 2:
             self.fail(

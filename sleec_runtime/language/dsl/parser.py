@@ -131,6 +131,7 @@ class DslParser(RelationParser):
 
     def _item(self, block: str) -> Statement | None:
         kind = self.kinds[self.at]
+        self.item = block[:7] if block in ("concern_start", "purpose_start") else "rule"
         if block == "relation_start" and kind == "relation":
             return self._read(self.relation, "the next relation")
         begins = kind in ("label", UNNAMED)
@@ -138,7 +139,7 @@ class DslParser(RelationParser):
         if block == "rule_start" and begins and self.token_text(keyword) == "when":
             return self._rule()
         if block in ("concern_start", "purpose_start") and begins:
-            of = cast("ClaimKind", block[:7])
+            of = cast("ClaimKind", self.item)
             return self._read(lambda: self.claim(of), f"the next {of}")
         what, hint = _BELONGS[block]
         self.begin_clause()
@@ -212,8 +213,13 @@ class DslParser(RelationParser):
         try:
             trigger, trigger_span, guard = self.occasion("a trigger")
             at_then = self.at
+            several = self.kinds[self.at] == "or"
             self.require(
-                "then", "then and a response", "every rule says what is to be done: R1 when Event then Response"
+                "then",
+                "then and a response",
+                "one event triggers a rule: write a rule for each"
+                if several
+                else "every rule says what is to be done: R1 when Event then Response",
             )
             opening = trigger, trigger_span, guard, self.chain(None, at_then)
             end = self.at

@@ -170,7 +170,7 @@ class ResponseParser(DefinitionParser):
         if self.kinds[self.at] != "word" or self.token_text(self.at) not in UNITS:
             written = self.token_text(self.at)
             if self.kinds[self.at] != "word":
-                self.expected("a unit after the number: seconds, minutes, hours or days")
+                self.expected("a unit after the number: seconds, minutes, hours or days", "as in: within 5 minutes")
             if "\n" in self.text[self.ends[self.at - 1] : self.starts[self.at]]:
                 end = self.ends[self.at - 1]
                 self.fail("a unit is missing after the number", Span(end, end), "as in: within 5 minutes")
