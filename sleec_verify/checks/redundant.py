@@ -14,7 +14,7 @@ from sleec_verify.solver import Undecided
 
 
 def with_others(findings: Iterator[Finding]) -> Iterator[Finding]:
-    """The findings about rules that can be removed, with what to do where one rests on another: both may not go.
+    """The findings about rules that can be removed, with what to do: where one rests on another, both may not go.
 
     Raises Undecided, after all of them, where `findings` does."""
     found = []
@@ -27,10 +27,8 @@ def with_others(findings: Iterator[Finding]) -> Iterator[Finding]:
     can_go = {finding.rules[0] for finding in found}
     for finding in found:
         others = [label for label in finding.rules[1:] if label in can_go]
-        if others:
-            again = f"check again before you remove {listed(others)} as well"
-            finding = replace(finding, help=f"remove it, and {again}; or keep it on purpose and say why in a comment")
-        yield finding
+        remove = f"remove it, and check again before you remove {listed(others)} as well;" if others else "remove it,"
+        yield replace(finding, help=f"{remove} or keep it on purpose and say why in a comment")
     if why is not None:
         raise why
 
@@ -51,7 +49,6 @@ def _redundant_rules(cones: Cones) -> Iterator[Finding]:
             note=f"what it obliges, {listed(cover)} {'obliges' if len(cover) == 1 else 'oblige'} too"
             if cover
             else "it obliges nothing in any situation",
-            help="remove it, or keep it on purpose and say why in a comment",
         )
 
 

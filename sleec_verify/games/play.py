@@ -20,7 +20,7 @@ from sleec_verify.games.circuit import FALSE, TRUE, Circuit
 from sleec_verify.games.grid import Grid
 from sleec_verify.games.parts import Part, formulas_of_law
 from sleec_verify.games.values import Scales, Values
-from sleec_verify.timed.program import Law, Program, events_of
+from sleec_verify.timed.program import Law, Program, events_of, excluding
 from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
 
 
@@ -317,9 +317,7 @@ class Play:
             else:
                 kept = -circuit.both(left, holds(law.right))
         elif isinstance(law, Exclusive):
-            names = list(dict.fromkeys(law.names))
-            pairs = ((a, b) for place, a in enumerate(names) for b in names[place + 1 :])
-            kept = circuit.every(-circuit.both(event(a), event(b)) for a, b in pairs)
+            kept = circuit.every(-circuit.both(event(one), event(other)) for one, other in excluding(law))
         else:
             kept = holds(law.formula) if isinstance(law, Assume) else -holds(law.formula)
         return circuit.implies(there, kept)

@@ -230,12 +230,12 @@ class Brought:
     @cached_property
     def _tied(self) -> dict[str, set[str]]:
         """The events that a relation has occur whenever another one does."""
+        from sleec_verify.timed.program import together
+
         found: dict[str, set[str]] = {}
         for law in self._program.laws:
-            if isinstance(law, EventRelation) and law.relation in ("witness", "equal"):
-                found.setdefault(law.left, set()).add(law.right)
-                if law.relation == "equal":
-                    found.setdefault(law.right, set()).add(law.left)
+            for one, other in together(law):
+                found.setdefault(one, set()).add(other)
         return found
 
     @cached_property

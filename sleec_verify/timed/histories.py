@@ -196,7 +196,7 @@ class Search:
     def _after(
         self, beginning: tuple[Fixed, ...], unseen: Mapping[Unseen, bool], spared: Rule | None = None
     ) -> Unfolding:
-        return after(self.program, beginning, spared, unseen if self.outer.left_out.instants else None)
+        return after(self.program, beginning, spared, unseen if self.outer.left_out.are_some else None)
 
     def _beginning(self) -> tuple[Fixed, ...]:
         outer = self.outer

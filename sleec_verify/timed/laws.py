@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume, Exclusive, Never
 from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
-from sleec_verify.timed.program import Law, law_name
+from sleec_verify.timed.program import Law, excluding, law_name
 from sleec_verify.timed.responses import Occurs, last_second
 
 if TYPE_CHECKING:
@@ -120,10 +120,8 @@ def clauses_at(instant: Instant, law: Law) -> Iterator[list[int]]:
         else:
             yield [-occurs, holds if law.relation == "includes" else -holds]
     elif isinstance(law, Exclusive):
-        names = list(dict.fromkeys(law.names))
-        for place, name in enumerate(names):
-            for other in names[place + 1 :]:
-                yield [-instant.event(name), -instant.event(other)]
+        for one, other in excluding(law):
+            yield [-instant.event(one), -instant.event(other)]
     elif isinstance(law, (Assume, Never)):
         holds = instant.literal(law.formula)
         yield [unused, holds if isinstance(law, Assume) else -holds]

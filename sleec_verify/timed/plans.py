@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from sleec_runtime.model import And, Assume, Atom, Clause, Exclusive, Never, Not, Or, Reading, Rule, Value
 from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.instant import Fixed, Instant
 from sleec_verify.timed.policy import Policy, ruled_out
-from sleec_verify.timed.program import Program, events_of, law_name
+from sleec_verify.timed.program import Program, excluding, law_name, together
 from sleec_verify.timed.responses import Demand, Every, Occurs, certain, last_second, occurrences
 from sleec_verify.timed.unfolding import Unfolding
 
@@ -75,8 +76,7 @@ class Plans:
         self.add = outer.add
         self.true = outer.formula.true
         self._loops: list[Callable[[], list[list[int]]]] = []
-        self._laws = [law for law in self.program.laws if cone.events.issuperset(events_of(law))]
-        self._rules_out = ruled_out(self.program, cone.rules.values(), self._laws)
+        self._laws = self.program.laws_among(cone.events)
 
     def loops(self) -> list[list[int]]:
         """Clauses against what happens under some plan, in the model, only because of itself."""
@@ -129,12 +129,10 @@ class Plans:
                     formula.clauses += ([-both, trigger], [-both, decides], [both, -trigger, -decides])
                     supports[event].append((rule.trigger, both))
         for law in self.program.laws:
-            if isinstance(law, EventRelation) and law.relation in ("witness", "equal"):
-                pairs = [(law.left, law.right), (law.right, law.left)][: 1 + (law.relation == "equal")]
-                for cause, effect in pairs:
-                    if cause in happens and effect in happens:
-                        supports[effect].append((cause, happens[cause]))
-            elif isinstance(law, Effect) and law.relation == "causation" and law.event in happens:
+            for cause, effect in together(law):
+                if cause in happens and effect in happens:
+                    supports[effect].append((cause, happens[cause]))
+            if isinstance(law, Effect) and law.relation == "causation" and law.event in happens:
                 supports[law.event].append((None, self.outer.condition(self.now, law.formula)))
         for event in happens:
             literal, reasons = happens[event], [support for _, support in supports[event]]
@@ -262,7 +260,7 @@ class Plans:
                 caller, opens = points[number], call.start or 0
                 start = None if what.start is None else what.start - opens
                 in_time = [] if call.end is None else self._gap(caller, now, None, call.end - 1)
-                pending = self._occurs(points, number, call._replace(negated=True), Policy())
+                pending = self._pending(points, number, call)
                 yield [
                     guard,
                     pending,
@@ -282,21 +280,29 @@ class Plans:
                 caller, last = points[number], call.end
                 assert last is not None, "what has no end is not done at the last second"
                 start, stop = (None if bound is None else bound - last for bound in (what.start, what.end))
-                pending = self._occurs(points, number, call._replace(negated=True), Policy())
+                pending = self._pending(points, number, call)
                 yield [guard, pending, *self._gap(here, caller, start, stop), *self._gap(now, caller, 1 - last, None)]
         elif what.event not in policy.waiting or what.end is None:
             begins = what.start - 1 if what.event in policy.next and what.start is not None else None
             yield self._gap(here, now, begins, end)
 
+    @cached_property
+    def _rules_out(self) -> dict[str, set[str]]:
+        """The events that an event may rule out, when it occurs or later on."""
+        return ruled_out(self.program, self.cone.rules.values(), self._laws)
+
+    def _pending(self, points: Sequence[_Point], number: int, call: Occurs) -> int:
+        """A literal that implies that no instant up to now has done what one of them calls for."""
+        return self._occurs(points, number, call._replace(negated=True), Policy())
+
     def _awaits(self, points: Sequence[_Point], at: int, what: Occurs, policy: Policy) -> int:
         """A literal that implies that the history may forbid an event up to the end of a window, or longer, or call for
-        what the event forbids."""
+        what the event rules out."""
         assert what.end is not None
         over = [(number, other, [guard]) for number, guard, other in self._of_history(points, what.event, negated=True)]
         for event in sorted(self._rules_out[what.event] & policy.soon):
             for number, guard, call in self._of_history(points, event, negated=False):
-                pending = self._occurs(points, number, call._replace(negated=True), Policy())
-                over.append((number, call, [guard, pending]))
+                over.append((number, call, [guard, self._pending(points, number, call)]))
         ways = [
             [*literals, *self._gap(points[at], points[number], what.end - other.end, None)]
             for number, other, literals in over
@@ -375,9 +381,7 @@ class Plans:
                         yield self._lasts(law, points, number, condition)
                 elif isinstance(law, Exclusive):
                     if number >= since:
-                        names = list(dict.fromkeys(law.names))
-                        for place, name in enumerate(names):
-                            yield from (every([point.event(name), point.event(o)]) for o in names[place + 1 :])
+                        yield from (every([point.event(one), point.event(other)]) for one, other in excluding(law))
                 elif isinstance(law, (Never, Assume)) and number >= since:
                     shadow = _Shadow(point)
                     holds = shadow.literal(law.formula)

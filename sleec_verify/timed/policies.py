@@ -11,8 +11,8 @@ from sleec_verify.solver import MiniSat, Undecided
 from sleec_verify.timed.instant import Formula, Instant
 from sleec_verify.timed.laws import clauses_at
 from sleec_verify.timed.needs import Decided
-from sleec_verify.timed.policy import Policy, Style, excluding, ruled_out
-from sleec_verify.timed.program import Law, Program, comes_back, events_of, law_name, responses_of
+from sleec_verify.timed.policy import Policy, Style, ruled_out
+from sleec_verify.timed.program import Law, Program, comes_back, events_of, excluding, law_name, responses_of, together
 from sleec_verify.timed.responses import Demand, Every, Occurs, certain, last_second, occurrences, ways_of
 from sleec_verify.timed.unfolding import Unfolding
 from sleec_verify.timed.unseen import Unseen
@@ -26,7 +26,7 @@ class Policies:
     ) -> None:
         self._program = program
         self._rules = rules
-        self._laws = [law for law in program.laws if events.issuperset(events_of(law))]
+        self._laws = program.laws_among(events)
         self._formula = Formula()
         self._true = self._formula.true
         self._solver = MiniSat()
@@ -193,8 +193,7 @@ class Policies:
                 if not what.negated and {rule.trigger, what.event} <= policy:
                     (at_once if what.start == what.end == 0 else later).append((rule.trigger, what.event))
         for law in self._laws:
-            if isinstance(law, EventRelation) and law.relation in ("witness", "equal"):
-                at_once += [(law.left, law.right), (law.right, law.left)][: 1 + (law.relation == "equal")]
+            at_once += together(law)
         return not comes_back(later, [pair for pair in at_once if policy.issuperset(pair)])
 
     # What a policy has to keep of itself ----------------------------------------------------------------------
@@ -248,8 +247,7 @@ class Policies:
         for law in self._laws:
             if isinstance(law, Effect) and law.relation == "causation" and law.event == event:
                 causes += (instant.literal(law.formula) for instant in self._instants)
-            if isinstance(law, EventRelation) and law.relation in ("witness", "equal"):
-                tied.update({law.left, law.right} - {event} if event in (law.left, law.right) else ())
+            tied.update(*({*pair} - {event} for pair in together(law) if event in pair))
         every, late = self._formula.every, self._instants[1].event(event)
         known = [self._soon[event], -late, *(-self._done[other] for other in sorted(tied)), *(-one for one in causes)]
         # Only the history calls for it.

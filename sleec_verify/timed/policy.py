@@ -19,13 +19,11 @@ Where responses do not come back to their own trigger, the trace ends, as it has
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
-from itertools import combinations
+from collections.abc import Iterable
 from typing import Literal, NamedTuple
 
-from sleec_runtime.model import Exclusive, Rule
-from sleec_runtime.model_time import EventRelation
-from sleec_verify.timed.program import Law, Program
+from sleec_runtime.model import Rule
+from sleec_verify.timed.program import Law, Program, excluding
 
 Style = Literal["plain", "busy", "patient"]
 """Of the policies that suit a history, one that does and waits for as little as it can; or that does more, if it is
@@ -69,11 +67,3 @@ def ruled_out(program: Program, rules: Iterable[Rule], laws: Iterable[Law]) -> d
     for event, others in found.items():
         others.discard(event)
     return found
-
-
-def excluding(law: Law) -> Iterator[tuple[str, str]]:
-    """The pairs of events that a law excludes from one instant, whatever else is the case."""
-    if isinstance(law, EventRelation) and law.relation == "mutualExclusive":
-        yield law.left, law.right
-    elif isinstance(law, Exclusive):
-        yield from combinations(dict.fromkeys(law.names), 2)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict, deque
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
+from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple, TypeVar, Union
 
 from sleec_runtime.model import (
@@ -75,6 +76,22 @@ def may_call(law: Law) -> Iterator[str]:
         yield from events_of(law)
 
 
+def together(law: Law) -> Iterator[tuple[str, str]]:
+    """The pairs of events of which a law lets the one occur only with the other."""
+    if isinstance(law, EventRelation) and law.relation in ("equal", "witness"):
+        yield law.left, law.right
+        if law.relation == "equal":
+            yield law.right, law.left
+
+
+def excluding(law: Law) -> Iterator[tuple[str, str]]:
+    """The pairs of events that a law excludes from one instant, whatever else is the case."""
+    if isinstance(law, EventRelation) and law.relation == "mutualExclusive":
+        yield law.left, law.right
+    elif isinstance(law, Exclusive):
+        yield from combinations(dict.fromkeys(law.names), 2)
+
+
 def formulas_of_law(law: Law) -> Iterator[Formula]:
     """What a law says of the conditions and measures."""
     if isinstance(law, MeasureRelation):
@@ -105,18 +122,13 @@ def _found(same: dict[str, str], event: str) -> str:
     return event
 
 
-def leads_back(calls: Iterable[tuple[str, str]], equal: Iterable[tuple[str, str]] = ()) -> bool:
-    """Whether anything that calls for something else is called for by that in the end, where some are equal."""
+def leads_back(calls: Iterable[tuple[str, str]]) -> bool:
+    """Whether anything that calls for something else is called for by that in the end."""
     from graphlib import CycleError, TopologicalSorter
 
-    same: dict[str, str] = {}
-    for left, right in equal:
-        one, other = _found(same, left), _found(same, right)
-        if one != other:
-            same[one] = other
     graph: TopologicalSorter[str] = TopologicalSorter()
     for event, called in calls:
-        graph.add(_found(same, event), _found(same, called))
+        graph.add(event, called)
     try:
         graph.prepare()
     except CycleError:
@@ -124,8 +136,11 @@ def leads_back(calls: Iterable[tuple[str, str]], equal: Iterable[tuple[str, str]
     return False
 
 
-def comes_back(later: Sequence[tuple[str, str]], at_once: Iterable[tuple[str, str]]) -> bool:
-    """Whether anything that calls for something later is called for by that in the end, be it at once or later."""
+def comes_back(later: Sequence[tuple[str, str]], at_once: Sequence[tuple[str, str]]) -> bool:
+    """Whether anything that calls for something later is called for by that in the end, be it at once or later. Linear
+    where nothing leads back, and quadratic else."""
+    if not leads_back((*later, *at_once)):
+        return False
     called: dict[str, set[str]] = defaultdict(set)
     for event, other in (*later, *at_once):
         called[event].add(other)
@@ -191,6 +206,10 @@ class Program:
     def laws(self) -> list[Law]:
         """Relations and constraints, in the order of the text."""
         return [s for s in self.ruleset.statements if isinstance(s, (*RELATIONS, Exclusive, Never, Assume))]
+
+    def laws_among(self, events: set[str]) -> list[Law]:
+        """The laws that speak of these events only."""
+        return [law for law in self.laws if events.issuperset(events_of(law))]
 
     @cached_property
     def obliging(self) -> dict[str, list[Rule]]:
@@ -318,8 +337,9 @@ class Program:
         for rule in self.by_trigger.get(event, ()):
             yield rule.label, self._surely_called(rule)
         for law in self.laws_of_event.get(event, ()):
-            if isinstance(law, EventRelation) and law.relation in ("equal", "witness"):
-                yield law_name(law), (Occurs(other, 0, 0) for other in may_call(law) if other != event)
+            for one, other in together(law):
+                if one == event != other:
+                    yield law_name(law), iter([Occurs(other, 0, 0)])
 
     def _surely_called(self, rule: Rule) -> Iterator[Occurs]:
         """What a rule calls for whichever of its clauses decides, each event in a window that has room for all."""
@@ -363,7 +383,7 @@ class Program:
             return False
         calls = [(rule.trigger, o.name) for rule in self.rules for o in responses_of(rule) if not o.negated]
         calls += [(law.event, law.end) for law in laws if isinstance(law, Lasting) and law.end is not None]
-        equal = []
+        same: dict[str, str] = {}
         for law in laws:
             if isinstance(law, EventRelation):
                 if law.relation == "witness":
@@ -371,8 +391,10 @@ class Program:
                 elif law.relation == "happenBefore":
                     calls.append((law.right, law.left))
                 elif law.relation == "equal":
-                    equal.append((law.left, law.right))
-        return not leads_back(calls, equal)
+                    one, other = _found(same, law.left), _found(same, law.right)
+                    if one != other:
+                        same[one] = other
+        return not leads_back((_found(same, event), _found(same, called)) for event, called in calls)
 
     @cached_property
     def is_open_ended(self) -> bool:

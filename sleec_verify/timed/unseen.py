@@ -34,9 +34,13 @@ class LeftOut:
         self._formula = formula
         self._times = times
         self.instants = instants
-        self.are_some = instants > 0 or known is not None
         self._known = known
         self.literals: dict[Unseen, int] = {}
+
+    @property
+    def are_some(self) -> bool:
+        """Whether any may be left out."""
+        return self.instants > 0 or self._known is not None
 
     def came_about(self, at: int, what: str, start: int | None = None, end: int | None = None) -> int:
         """The literal "it came about in this window, at an instant before now that is not one of these"."""

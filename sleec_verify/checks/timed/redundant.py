@@ -33,7 +33,6 @@ def _redundant_rules(cones: Cones) -> Iterator[Finding]:
             note=f"it is kept wherever {listed(others)} {'is' if len(others) == 1 else 'are'} kept"
             if others
             else "nothing can break it",
-            help="remove it, or keep it on purpose and say why in a comment",
         )
 
     yield from each(((rule.label, rule) for rule in known.rules), of)
