@@ -8,11 +8,11 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume, Never
-from sleec_runtime.model_time import Effect, EventRelation
+from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_verify.timed.responses import Demand, Occurs, occurrences, ways_of
 
 if TYPE_CHECKING:
-    from sleec_verify.timed.program import Program
+    from sleec_verify.timed.program import Law, Program
 
 
 class Brought:
@@ -24,7 +24,8 @@ class Brought:
         self._due: dict[str, set[Occurs]] = {}
         self._harmless: dict[str, bool] = {}
         self._late: dict[str, bool] = {}
-        self._needed: dict[str, float] = {}
+        self._needed: dict[tuple[str, bool], float] = {}
+        self._can_come: dict[tuple[str, float], bool] = {}
 
     def instants(self, trigger: str, missing: Collection[str] = ()) -> int | None:
         """How many instants the deadlines take that an event brings with it, and those of what they call for; None
@@ -157,48 +158,112 @@ class Brought:
 
     def _is_apart(self, what: Occurs) -> bool:
         """Whether it begins only after all that can need the event, if it forbids that; else, whether it ends only
-        after all that can forbid it, and the event has no consequences."""
+        after all that can stand in the way of the event."""
         if what.negated:
-            return what.start is not None and what.start > self._needed_until(what.event)
+            return self._is_kept_after(what, 0)
+        return not what.is_empty and self._can_come_at(what.event, inf if what.end is None else what.end)
+
+    def _is_kept_after(self, what: Occurs, second: float) -> bool:
+        """Whether what is forbidden so many seconds after now is not needed any more."""
+        end = inf if what.end is None else second + what.end
+        return what.start is not None and second + what.start > self._needed_until(what.event, end)
+
+    def _can_come_at(self, event: str, second: float) -> bool:
+        """Whether an event can be added to such a way to go on so many seconds after now, with all that it calls for,
+        each as late as can be: after all that may forbid these, and all that may need what they forbid."""
+        key = event, second
+        if key not in self._can_come:
+            # What comes back to itself has no end.
+            self._can_come[key] = False
+            self._can_come[key] = self._has_room(event, second)
+        return self._can_come[key]
+
+    def _has_room(self, event: str, second: float) -> bool:
+        program = self._program
+        laws = program.laws_of_event.get(event, ())
         return (
-            not what.is_empty
-            and self._program.is_inert(what.event)
-            and self._program.is_open_ended
-            and (inf if what.end is None else what.end) > self._forbidden_until(what.event)
+            not self._any_instant_is_bound
+            and second > self._forbidden_until(event, second)
+            and all(self._lets_come(law, event, second) for law in laws)
+            and all(
+                self._is_met_after(demand, second)
+                for rule in program.by_trigger.get(event, ())
+                for demand in program.demands(rule)
+            )
         )
 
-    def _forbidden_until(self, event: str) -> float:
-        """The last second after now at which such a way to go on may forbid an event; before now, if none does."""
+    @cached_property
+    def _any_instant_is_bound(self) -> bool:
+        """Whether a law may demand something of an instant that is there for another event."""
+        return any(
+            isinstance(law, (Lasting, Assume, Never)) or (isinstance(law, Effect) and law.relation == "causation")
+            for law in self._program.laws
+        )
+
+    def _lets_come(self, law: Law, event: str, second: float) -> bool:
+        """Whether a law that speaks of an event lets it be added so many seconds after now."""
+        from sleec_verify.timed.program import excluding, together
+
+        if isinstance(law, Effect):
+            # The measures may be those of something else.
+            return False
+        if isinstance(law, EventRelation) and law.relation == "happenBefore":
+            return event != law.right
+        others = (other for pair in excluding(law) for one, other in (pair, pair[::-1]) if one == event)
+        return all(second > self._needed_until(other, second) for other in others) and all(
+            self._can_come_at(other, second) for one, other in together(law) if one == event
+        )
+
+    def _is_met_after(self, demand: Demand, second: float) -> bool:
+        """Whether a demand of an event that is added so many seconds after now can be met."""
+
+        def is_met(what: Occurs) -> bool:
+            if what.negated:
+                return self._is_kept_after(what, second)
+            end = inf if what.end is None else second + what.end
+            return not what.is_empty and self._can_come_at(what.event, end)
+
+        ways = ways_of(demand)
+        return ways is not None and all(self._is_free(way) or any(map(is_met, way)) for way in ways)
+
+    def _forbidden_until(self, event: str, second: float) -> float:
+        """The last second after now, of those up to one, at which such a way to go on may forbid an event; before now,
+        if none does."""
         latest = -1.0
         for rule in self._program.forbidding.get(event, ()):
             for what in self._program.windows_at_most(rule):
                 if what.event == event and what.negated:
                     end = inf if what.end is None else what.end
-                    latest = max(latest, self._needed_until(rule.trigger) + end)
+                    latest = max(latest, self._needed_until(rule.trigger, second) + end)
         return latest
 
-    def _needed_until(self, event: str) -> float:
-        """The last second after now at which a way to go on may need an event, for itself or for what it goes with, if
-        nothing is done that nothing needs; infinity if there is no end to it, or it comes back to itself."""
-        known = self._needed.get(event)
+    def _needed_until(self, event: str, second: float) -> float:
+        """The last second after now, of those up to one, at which a way to go on may need an event, for itself or for
+        what it goes with, if nothing is done that nothing needs, and what can be done after all else is done then;
+        infinity if there is no end to it, or it comes back to itself."""
+        key = event, second < inf
+        known = self._needed.get(key)
         if known is None:
-            self._needed[event] = inf
-            known = self._needed[event] = self._look_for_need(event)
+            self._needed[key] = inf
+            known = self._needed[key] = self._look_for_need(event, second)
         return known
 
-    def _look_for_need(self, event: str) -> float:
+    def _look_for_need(self, event: str, second: float) -> float:
         from sleec_verify.timed.program import may_call
 
         program, latest = self._program, 0.0
         for rule in program.obliging.get(event, ()):
             called = [what for what in program.windows_at_most(rule) if what.event == event and not what.negated]
-            ends = max(inf if what.end is None else what.end for what in called)
-            latest = max(latest, self._needed_until(rule.trigger) + ends)
+            for what in called:
+                if what.end is not None:
+                    latest = max(latest, self._needed_until(rule.trigger, second) + what.end)
+                elif second == inf or not self._comes_late(event):
+                    return inf
         for law in program.laws_of_event.get(event, ()):
             if event in may_call(law):
                 if not isinstance(law, EventRelation):
                     return inf
-                latest = max(latest, self._needed_until(law.right if event == law.left else law.left))
+                latest = max(latest, self._needed_until(law.right if event == law.left else law.left, second))
         return latest
 
     def _can_wait(self, way: Sequence[Occurs]) -> bool:

@@ -55,6 +55,15 @@ def test_what_a_law_calls_for_may_be_needed(relation, free):
     assert is_free("NOT Ring WITHIN [5, 9] seconds", rules) == free
 
 
+DARK = """RULE dark WHEN Knock THEN NOT Light WITHIN [2, 4] seconds
+RULE late WHEN Dim THEN NOT Light WITHIN 7 seconds
+RULE two WHEN Open THEN Light WITHIN 2 minutes
+RULE close WHEN Close THEN NOT Knock WITHIN 1 minute
+RULE turn WHEN Turn THEN Open WITHIN 8 seconds OTHERWISE Close
+RULE never WHEN Never THEN Close WITHIN 1 second OTHERWISE NOT Turn
+RULE asked WHEN Hear THEN """
+
+
 @pytest.mark.parametrize(
     ("asked", "free"),
     [
@@ -62,17 +71,55 @@ def test_what_a_law_calls_for_may_be_needed(relation, free):
         ("Light WITHIN 7 seconds", False),
         ("Light WITHIN [3, 8] seconds", True),
         ("Light EVENTUALLY", True),
-        # What is opened calls for light.
-        ("Open WITHIN 8 seconds", False),
+        # What is opened calls for light, which comes after all that forbids it.
+        ("Open WITHIN 8 seconds", True),
+        ("Open", True),
+        # Nothing needs that one knocks.
+        ("Close WITHIN 1 second", True),
+        ("Close", False),
+        ("Turn WITHIN 9 seconds", True),
+        ("Turn EVENTUALLY", True),
     ],
 )
-def test_what_nothing_forbids_any_more_can_be_done(asked, free):
-    dark = """RULE dark WHEN Knock THEN NOT Light WITHIN [2, 4] seconds
-RULE late WHEN Dim THEN NOT Light WITHIN 7 seconds
-RULE two WHEN Open THEN Light WITHIN 2 minutes
+def test_what_nothing_stands_in_the_way_of_any_more_can_be_done(asked, free):
+    assert is_free(asked, DARK) == free
+
+
+def test_what_can_come_after_all_else_stands_in_the_way_of_nothing_before():
+    rules = """RULE alarm WHEN Fire THEN Alarm EVENTUALLY
+RULE calm WHEN Alarm THEN NOT Land WITHIN 20 seconds
+RULE asked WHEN Low THEN """
+    assert is_free("Land WITHIN 1 minute", rules)
+    assert is_free("NOT Alarm WITHIN [1, 60] seconds", rules)
+    assert not is_free("Land WITHIN 1 minute", rules.replace("NOT Land WITHIN 20 seconds", "NOT Land EVENTUALLY"))
+    assert not is_free("Land WITHIN 1 minute", rules.replace("Alarm EVENTUALLY", "Alarm WITHIN 50 seconds"))
+
+
+@pytest.mark.parametrize(
+    ("relation", "free"),
+    [
+        # Dimming is called for up to a minute from now.
+        ("RELATION Open EXCLUDES Dim", True),
+        ("RELATION Light EXCLUDES Dim", True),
+        ("RELATION Open EXCLUDES Open", False),
+        ("RELATION Open WITNESSES Dim", True),
+        ("RELATION Open WITNESSES Ring", False),
+        ("RELATION Open PRECEDES Ring", True),
+        ("RELATION Ring PRECEDES Open", False),
+        ("RELATION Open FORBIDS dark", False),
+        ("RELATION Ring FORBIDS dark", True),
+        ("RELATION Ring CAUSES dark", False),
+        ("RELATION WHEN Ring THEN dark FOR 1 minute", False),
+        ("NEVER Dim AND Ring", False),
+    ],
+)
+def test_laws_may_stand_in_the_way(relation, free):
+    rules = f"""{relation}
+RULE one WHEN Open THEN Light WITHIN 2 minutes
+RULE dim WHEN Knock THEN Dim WITHIN 1 minute
+RULE ring WHEN Ring THEN NOT Open WITHIN 1 minute
 RULE asked WHEN Hear THEN """
-    assert is_free(asked, dark) == free
-    assert not is_free("Light EVENTUALLY", dark.replace("WITHIN 7 seconds", "EVENTUALLY"))
+    assert is_free("Open WITHIN [5, 61] seconds", rules) == free
 
 
 def differing(seed, minutes, monkeypatch):
