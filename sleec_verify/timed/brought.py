@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cached_property
-from math import inf
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume, Never
-from sleec_runtime.model_time import Effect, EventRelation, Lasting
+from sleec_runtime.model_time import Effect
+from sleec_verify.solver import Undecided
+from sleec_verify.timed.lean import Lean
+from sleec_verify.timed.program import events_of, together
 from sleec_verify.timed.responses import Demand, Occurs, occurrences, ways_of
 
 if TYPE_CHECKING:
-    from sleec_verify.timed.program import Law, Program
+    from sleec_verify.timed.program import Program
 
 
 class Brought:
@@ -24,8 +26,9 @@ class Brought:
         self._due: dict[str, set[Occurs]] = {}
         self._harmless: dict[str, bool] = {}
         self._late: dict[str, bool] = {}
-        self._needed: dict[tuple[str, bool], float] = {}
-        self._can_come: dict[tuple[str, float], bool] = {}
+        self._measured: dict[str, bool] = {}
+        self.parts: dict[str, list[tuple[Occurs, Occurs | None]]] = {}
+        """What each rule demands, and what may be done instead, once a lean way to go on has been looked for."""
 
     def instants(self, trigger: str, missing: Collection[str] = ()) -> int | None:
         """How many instants the deadlines take that an event brings with it, and those of what they call for; None
@@ -140,9 +143,11 @@ class Brought:
     def is_free(self, demand: Demand) -> bool:
         """Whether a demand can be met whatever else is the case, when it is made and as long as it is pending."""
         ways = ways_of(demand)
-        return ways is not None and all(map(self._is_free, ways))
+        return ways is not None and all(map(self.is_free_way, ways))
 
-    def _is_free(self, way: Sequence[Occurs]) -> bool:
+    def is_free_way(self, way: Sequence[Occurs]) -> bool:
+        """Whether one of several responses can be met whatever else is the case, when it is called for and as long as
+        it is pending."""
         if self._can_wait(way):
             return True
         # A law may call for something else at an instant that is only there for this.
@@ -151,126 +156,42 @@ class Brought:
         return any(self.is_harmless(what.event) for what in at_hand) and (not pending or self.can_be_done(pending))
 
     def is_free_now(self, demand: Demand) -> bool:
-        """Whether a demand of now can be met whatever else is the case: as `is_free`, or by a way to go on without it
-        in which nothing is done that nothing needs."""
+        """Whether a demand of now can be met whatever else is the case: as `is_free`, or by a lean way to go on."""
         ways = ways_of(demand)
-        return ways is not None and all(self._is_free(way) or any(map(self._is_apart, way)) for way in ways)
+        return ways is not None and all(self.is_free_way(way) or self._has_lean(way) for way in ways)
 
-    def _is_apart(self, what: Occurs) -> bool:
-        """Whether it begins only after all that can need the event, if it forbids that; else, whether it ends only
-        after all that can stand in the way of the event."""
-        if what.negated:
-            return self._is_kept_after(what, 0)
-        return not what.is_empty and self._can_come_at(what.event, inf if what.end is None else what.end)
-
-    def _is_kept_after(self, what: Occurs, second: float) -> bool:
-        """Whether what is forbidden so many seconds after now is not needed any more."""
-        end = inf if what.end is None else second + what.end
-        return what.start is not None and second + what.start > self._needed_until(what.event, end)
-
-    def _can_come_at(self, event: str, second: float) -> bool:
-        """Whether an event can be added to such a way to go on so many seconds after now, with all that it calls for,
-        each as late as can be: after all that may forbid these, and all that may need what they forbid."""
-        key = event, second
-        if key not in self._can_come:
-            # What comes back to itself has no end.
-            self._can_come[key] = False
-            self._can_come[key] = self._has_room(event, second)
-        return self._can_come[key]
-
-    def _has_room(self, event: str, second: float) -> bool:
-        program = self._program
-        laws = program.laws_of_event.get(event, ())
-        return (
-            not self._any_instant_is_bound
-            and second > self._forbidden_until(event, second)
-            and all(self._lets_come(law, event, second) for law in laws)
-            and all(
-                self._is_met_after(demand, second)
-                for rule in program.by_trigger.get(event, ())
-                for demand in program.demands(rule)
-            )
-        )
+    def _has_lean(self, way: Sequence[Occurs]) -> bool:
+        if any(self._lean.is_over(what) if what.negated else self._lean.has_room(what) for what in way):
+            return True
+        # Without the demand of now, nothing of it is met.
+        lean = Lean(self._program, way)
+        return any(not what.negated and lean.can_add(what) for what in way)
 
     @cached_property
-    def _any_instant_is_bound(self) -> bool:
-        """Whether a law may demand something of an instant that is there for another event."""
-        return any(
-            isinstance(law, (Lasting, Assume, Never)) or (isinstance(law, Effect) and law.relation == "causation")
-            for law in self._program.laws
-        )
+    def _lean(self) -> Lean:
+        return Lean(self._program)
 
-    def _lets_come(self, law: Law, event: str, second: float) -> bool:
-        """Whether a law that speaks of an event lets it be added so many seconds after now."""
-        from sleec_verify.timed.program import excluding, together
-
-        if isinstance(law, Effect):
-            # The measures may be those of something else.
-            return False
-        if isinstance(law, EventRelation) and law.relation == "happenBefore":
-            return event != law.right
-        others = (other for pair in excluding(law) for one, other in (pair, pair[::-1]) if one == event)
-        return all(second > self._needed_until(other, second) for other in others) and all(
-            self._can_come_at(other, second) for one, other in together(law) if one == event
-        )
-
-    def _is_met_after(self, demand: Demand, second: float) -> bool:
-        """Whether a demand of an event that is added so many seconds after now can be met."""
-
-        def is_met(what: Occurs) -> bool:
-            if what.negated:
-                return self._is_kept_after(what, second)
-            end = inf if what.end is None else second + what.end
-            return not what.is_empty and self._can_come_at(what.event, end)
-
-        ways = ways_of(demand)
-        return ways is not None and all(self._is_free(way) or any(map(is_met, way)) for way in ways)
-
-    def _forbidden_until(self, event: str, second: float) -> float:
-        """The last second after now, of those up to one, at which such a way to go on may forbid an event; before now,
-        if none does."""
-        latest = -1.0
-        for rule in self._program.forbidding.get(event, ()):
-            for what in self._program.windows_at_most(rule):
-                if what.event == event and what.negated:
-                    end = inf if what.end is None else what.end
-                    latest = max(latest, self._needed_until(rule.trigger, second) + end)
-        return latest
-
-    def _needed_until(self, event: str, second: float) -> float:
-        """The last second after now, of those up to one, at which a way to go on may need an event, for itself or for
-        what it goes with, if nothing is done that nothing needs, and what can be done after all else is done then;
-        infinity if there is no end to it, or it comes back to itself."""
-        key = event, second < inf
-        known = self._needed.get(key)
+    def has_measures(self, event: str) -> bool:
+        """Whether the laws of the measures leave any at an instant of an event, of which no rule is asked for."""
+        known = self._measured.get(event)
         if known is None:
-            self._needed[key] = inf
-            known = self._needed[key] = self._look_for_need(event, second)
+            from sleec_verify.timed.unfolding import Unfolding
+
+            unfolding = Unfolding(self._program, rules={})
+            here = unfolding.instants[unfolding.instant(unfolding.formula.true)]
+            try:
+                known = unfolding.ask(here.event(event))
+            except Undecided:
+                known = False
+            self._measured[event] = known
         return known
-
-    def _look_for_need(self, event: str, second: float) -> float:
-        from sleec_verify.timed.program import may_call
-
-        program, latest = self._program, 0.0
-        for rule in program.obliging.get(event, ()):
-            called = [what for what in program.windows_at_most(rule) if what.event == event and not what.negated]
-            for what in called:
-                if what.end is not None:
-                    latest = max(latest, self._needed_until(rule.trigger, second) + what.end)
-                elif second == inf or not self._comes_late(event):
-                    return inf
-        for law in program.laws_of_event.get(event, ()):
-            if event in may_call(law):
-                if not isinstance(law, EventRelation):
-                    return inf
-                latest = max(latest, self._needed_until(law.right if event == law.left else law.left, second))
-        return latest
 
     def _can_wait(self, way: Sequence[Occurs]) -> bool:
         """Whether something of it has no end, and can be done after all else."""
-        return any(not what.negated and what.end is None and self._comes_late(what.event) for what in way)
+        return any(not what.negated and what.end is None and self.comes_late(what.event) for what in way)
 
-    def _comes_late(self, event: str) -> bool:
+    def comes_late(self, event: str) -> bool:
+        """Whether an event can be done after all else (`can_come_late`)."""
         known = self._late.get(event)
         if known is None:
             from sleec_verify.timed.policies import can_come_late
@@ -295,8 +216,6 @@ class Brought:
     @cached_property
     def _tied(self) -> dict[str, set[str]]:
         """The events that a relation has occur whenever another one does."""
-        from sleec_verify.timed.program import together
-
         found: dict[str, set[str]] = {}
         for law in self._program.laws:
             for one, other in together(law):
@@ -306,8 +225,6 @@ class Brought:
     @cached_property
     def _at_any_time(self) -> set[str]:
         """The events that a law may have occur at any instant."""
-        from sleec_verify.timed.program import events_of
-
         return {
             event
             for law in self._program.laws

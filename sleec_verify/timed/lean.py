@@ -1,0 +1,368 @@
+"""Lean ways to go on: what can be done after all that stands in its way.
+
+From any way to go on, a lean one can be had, step by step: what nothing needs is left out; what is called for is done
+once, as soon as nothing that may stand in its way is left, for all who have called for it; and of what may be done in
+place of something else, only what has to be. So there are times, the same for all histories, after which a lean way to
+go on does not have an event any more (`latest`), and after which an event may be added to it with all that follows
+(`Lean.blocked`). Each is derived from others; where it comes back to itself, by what is left out alone (`_plainly`).
+
+All times are in seconds after now. Up to some time to come, what can be done after all else is left out as well;
+``late`` is asked of all times.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cached_property
+from math import inf
+from typing import TYPE_CHECKING, NamedTuple
+
+from sleec_runtime.model import Assume, Never, Rule
+from sleec_runtime.model_time import Effect, EventRelation, Lasting
+from sleec_verify.solver import Undecided
+from sleec_verify.timed.program import Law, Program, events_of, excluding, may_call, together
+from sleec_verify.timed.responses import Demand, Occurs, occurrences, ways_of
+
+if TYPE_CHECKING:
+    from sleec_verify.timed.brought import Brought
+
+_DEEPEST = 60
+"""Steps from one time to another that it is derived from; what takes more is not known."""
+
+_MOST_ADDED = 30
+"""Events that may come of one that is added."""
+
+
+class _Part(NamedTuple):
+    """A part of what a rule demands, and what may as well be done in its place."""
+
+    what: Occurs
+    instead: Occurs | None
+
+
+class _Added(NamedTuple):
+    """An event that is added at a time, or may not occur from one time to another, because of the clauses of rules of
+    this path: which of the events added triggers it, the rule, and its clause."""
+
+    event: str
+    start: float
+    end: float
+    path: tuple[tuple[int, str, int], ...]
+
+    def goes_with(self, other: _Added) -> bool:
+        """Whether one clause of each rule decides for both."""
+        mine = {step[:2]: step[2] for step in self.path}
+        return all(mine.get(step[:2], step[2]) == step[2] for step in other.path)
+
+
+class Lean:
+    """The lean ways to go on with a program, where none of the events `absent` occurs in the window given with it."""
+
+    def __init__(self, program: Program, absent: Sequence[Occurs] = ()) -> None:
+        self._program = program
+        self._absent = {what.event: what for what in absent if not what.negated}
+        self._plain: dict[tuple[str, bool], float] = {}
+        self._latest: dict[tuple[str, bool], float] = {}
+        self._blocked: dict[tuple[str, bool], float] = {}
+        self._depth = 0
+
+    @property
+    def _brought(self) -> Brought:
+        return self._program.brought
+
+    def is_over(self, what: Occurs, second: float = 0) -> bool:
+        """Whether nothing that is needed breaks what is forbidden so many seconds after now."""
+        late = what.end is None or second == inf
+        return what.start is not None and second + what.start > self.latest(what.event, late)
+
+    def has_room(self, what: Occurs, second: float = 0) -> bool:
+        """Whether what is called for so many seconds after now can be done at its last second."""
+        end = inf if what.end is None else second + what.end
+        return not what.is_empty and end > self.blocked(what.event, end == inf)
+
+    # When an event is needed ----------------------------------------------------------------------------------
+
+    def latest(self, event: str, late: bool) -> float:
+        """The last second after now at which a lean way to go on may have an event; infinity if that is not known."""
+        key = event, late
+        known = self._latest.get(key)
+        if known is None:
+            self._latest[key] = self._plainly(event, late)
+            known = self._latest[key] = self._deeper(lambda: self._look_for_latest(event, late, self._soonest))
+        return known
+
+    def _plainly(self, event: str, late: bool) -> float:
+        """As `latest`, if what is called for may be done at any of the times at which it may be."""
+        key = event, late
+        known = self._plain.get(key)
+        if known is None:
+            self._plain[key] = inf
+            known = self._plain[key] = self._deeper(lambda: self._look_for_latest(event, late, self._last_of))
+        return known
+
+    def _look_for_latest(self, event: str, late: bool, until: Callable[[Rule, _Part, bool], float]) -> float:
+        program = self._program
+        times = [0.0]
+        for rule in program.obliging.get(event, ()):
+            for part in self._parts(rule):
+                if part.what.event == event and not part.what.negated:
+                    times.append(until(rule, part, late))
+        plain = until == self._last_of
+        for law in program.laws_of_event.get(event, ()):
+            if event in may_call(law):
+                if not isinstance(law, EventRelation):
+                    return inf
+                other = law.right if event == law.left else law.left
+                needed = self._plainly(other, late) if plain else self.latest(other, late)
+                if law.relation == "happenBefore" and not plain:
+                    needed = min(needed, max(self.blocked(event, late) + 1, 0))
+                times.append(needed)
+        latest = max(times)
+        gap = self._absent.get(event)
+        if gap is not None and latest <= (inf if gap.end is None else gap.end):
+            return (gap.start or 0) - 1
+        return latest
+
+    def _last_of(self, rule: Rule, part: _Part, late: bool) -> float:
+        """When it is called for at last, if its rule may be triggered as long as its trigger may be needed."""
+        if part.what.end is None:
+            return inf if late or not self._brought.comes_late(part.what.event) else -1
+        return self._plainly(rule.trigger, late) + part.what.end
+
+    def _soonest(self, rule: Rule, part: _Part, late: bool) -> float:
+        """When it is done for all who have called for it."""
+        last = self._until(rule, part, late)
+        if last < 0:
+            return last
+        what = part.what
+        opens = self.latest(rule.trigger, late) + (what.start or 0)
+        return min(last, max(self.blocked(what.event, late) + 1, opens))
+
+    def _until(self, rule: Rule, part: _Part, late: bool) -> float:
+        """When the window of a part of what a rule demands ends at last."""
+        what, instead = part
+        if what.end is None:
+            if not what.negated and not late and self._brought.comes_late(what.event):
+                return -1
+            return inf
+        last = self.latest(rule.trigger, late) + what.end
+        if instead is None or instead.end is None or instead.is_empty:
+            return last
+        # As long as there is room for what may be done instead, that is done at its last second.
+        return min(last, self.blocked(instead.event, late) + what.end - instead.end)
+
+    def _parts(self, rule: Rule) -> list[_Part]:
+        """What a rule demands in any case, and instead of something else. Of each choice, one part is done whenever it
+        can be, the first that calls for something."""
+        found = self._brought.parts.get(rule.label)
+        if found is None:
+            found = self._brought.parts[rule.label] = list(dict.fromkeys(self._look_for_parts(rule)))
+        return [_Part(*part) for part in found]
+
+    def _look_for_parts(self, rule: Rule) -> Iterator[_Part]:
+        try:
+            demands = self._program.demands(rule)
+        except Undecided:
+            yield from (_Part(what, None) for what in self._program.windows_at_most(rule))
+            return
+        for demand in demands:
+            ways = ways_of(demand)
+            if ways is None:
+                yield from (_Part(what, None) for what in occurrences(demand))
+            for way in ways or ():
+                first = next((what for what in way if not what.negated), None)
+                yield from (_Part(what, None if what is first else first) for what in way)
+
+    # When an event can be done --------------------------------------------------------------------------------
+
+    def blocked(self, event: str, late: bool) -> float:
+        """The last second after now at which an event may not be added to a lean way to go on, with all that it calls
+        for in turn; before now, if it can be done at any time."""
+        key = event, late
+        known = self._blocked.get(key)
+        if known is None:
+            self._blocked[key] = inf
+            known = self._blocked[key] = self._deeper(lambda: self._look_for_room(event, late))
+        return known
+
+    def _look_for_room(self, event: str, late: bool) -> float:
+        program = self._program
+        if self._any_instant_is_bound:
+            return inf
+        times = [-1.0, self._forbidden_until(event, late)]
+        for law in program.laws_of_event.get(event, ()):
+            times.append(self._blocked_by(law, event, late))
+        try:
+            demands = [d for rule in program.by_trigger.get(event, ()) for d in program.demands(rule)]
+        except Undecided:
+            return inf
+        for demand in demands:
+            ways = ways_of(demand)
+            if ways is None:
+                return inf
+            for way in ways:
+                if not self._brought.is_free_way(way):
+                    times.append(min(self._kept_after(what, late) for what in way))
+        return max(times)
+
+    def _kept_after(self, what: Occurs, late: bool) -> float:
+        """The last second at which a response may not be met by what is triggered then."""
+        if what.negated:
+            if what.start is None:
+                return inf
+            return self.latest(what.event, late or what.end is None) - what.start
+        if what.is_empty:
+            return inf
+        if what.end is None:
+            return inf if self.blocked(what.event, True) == inf else -1
+        return self.blocked(what.event, late) - what.end
+
+    def _forbidden_until(self, event: str, late: bool) -> float:
+        """The last second after now at which a rule may forbid an event."""
+        return max(
+            (
+                self._until(rule, part, late)
+                for rule in self._program.forbidding.get(event, ())
+                for part in self._parts(rule)
+                if part.what.event == event and part.what.negated
+            ),
+            default=-1.0,
+        )
+
+    @cached_property
+    def _any_instant_is_bound(self) -> bool:
+        """Whether a law may demand something of an instant that is there for another event."""
+        return any(
+            isinstance(law, Lasting)
+            or (isinstance(law, (Assume, Never)) and any(events_of(law)))
+            or (isinstance(law, Effect) and law.relation == "causation")
+            for law in self._program.laws
+        )
+
+    def _blocked_by(self, law: Law, event: str, late: bool) -> float:
+        """The last second after now at which a law that speaks of an event may not let it be added."""
+        if isinstance(law, Effect):
+            return max(0.0, self._measured_until(event, late)) if self._brought.has_measures(event) else inf
+        if isinstance(law, EventRelation) and law.relation == "happenBefore":
+            return self.blocked(law.left, late) + 1 if event == law.right else -1
+        times = [-1.0]
+        for pair in excluding(law):
+            if pair[0] == pair[1]:
+                return inf
+            times += (self.latest(other, late) for one, other in (pair, pair[::-1]) if one == event)
+        times += (self.blocked(other, late) for one, other in together(law) if one == event)
+        return max(times)
+
+    def _measured_until(self, event: str, late: bool) -> float:
+        """The last second after now at which it may matter to some other event how the measures are."""
+        program = self._program
+        reading = {rule.trigger for rule in program.rules if rule.guard is not None or len(list(rule.clauses())) > 1}
+        reading.update(law.event for law in program.laws if isinstance(law, Effect))
+        return max((self.latest(other, late) for other in sorted(reading - {event})), default=-1.0)
+
+    def _deeper(self, look: Callable[[], float]) -> float:
+        if self._depth >= _DEEPEST:
+            return inf
+        self._depth += 1
+        try:
+            return look()
+        finally:
+            self._depth -= 1
+
+    # What comes of an event that is added ---------------------------------------------------------------------
+
+    def can_add(self, what: Occurs) -> bool:
+        """Whether what is called for now, and is absent, can be done at its last second, with all that comes of it."""
+        added: list[_Added] = []
+        forbidden: list[_Added] = []
+        end = inf if what.end is None else float(what.end)
+        return (
+            not what.is_empty
+            and not self._any_instant_is_bound
+            and self._add(what.event, end, (), added, forbidden)
+            and not any(_clash(one, other) for one in added for other in forbidden)
+            and not any(self._exclude(one, other) for one in added for other in added if one is not other)
+        )
+
+    def _add(
+        self,
+        event: str,
+        second: float,
+        path: tuple[tuple[int, str, int], ...],
+        added: list[_Added],
+        forbidden: list[_Added],
+    ) -> bool:
+        program, late, number = self._program, second == inf, len(added)
+        if any(one[:2] == (event, second) and path[: len(one.path)] == one.path for one in added):
+            return True
+        if number >= _MOST_ADDED or second <= self._forbidden_until(event, late):
+            return False
+        added.append(_Added(event, second, second, path))
+        for law in program.laws_of_event.get(event, ()):
+            if isinstance(law, EventRelation) and law.relation == "happenBefore":
+                if event == law.right and not self._add(law.left, second - 1, path, added, forbidden):
+                    return False
+            elif isinstance(law, Effect) or any(True for _ in excluding(law)):
+                if second <= self._blocked_by(law, event, late):
+                    return False
+            elif not all(
+                self._add(other, second, path, added, forbidden) for one, other in together(law) if one == event
+            ):
+                return False
+        try:
+            rules = [(rule, program.demands_of_clauses(rule)) for rule in program.by_trigger.get(event, ())]
+        except Undecided:
+            return False
+        return all(
+            self._meet(demand, second, (*path, (number, rule.label, clause)), added, forbidden)
+            for rule, clauses in rules
+            for clause, demands in enumerate(clauses)
+            for demand in demands
+        )
+
+    def _meet(
+        self,
+        demand: Demand,
+        second: float,
+        path: tuple[tuple[int, str, int], ...],
+        added: list[_Added],
+        forbidden: list[_Added],
+    ) -> bool:
+        """Meet a demand of an event that is added."""
+        ways = ways_of(demand)
+        if ways is None:
+            return False
+        for way in ways:
+            if self._brought.is_free_way(way):
+                continue
+            for what in way:
+                so_far = len(added), len(forbidden)
+                end = inf if what.end is None else second + what.end
+                if what.negated:
+                    if self.is_over(what, second):
+                        forbidden.append(_Added(what.event, second + (what.start or 0), end, path))
+                        break
+                elif not what.is_empty and self._add(what.event, end, path, added, forbidden):
+                    break
+                del added[so_far[0] :], forbidden[so_far[1] :]
+            else:
+                return False
+        return True
+
+    def _exclude(self, one: _Added, other: _Added) -> bool:
+        """Whether a law may keep two events that are added from one instant."""
+        if one.start != other.start or not one.goes_with(other):
+            return False
+        laws: Iterable[Law] = self._program.laws_of_event.get(one.event, ())
+        return any(
+            isinstance(law, Effect) or any({one.event, other.event} == set(pair) for pair in excluding(law))
+            for law in laws
+        )
+
+
+def _clash(added: _Added, forbidden: _Added) -> bool:
+    return (
+        added.event == forbidden.event
+        and forbidden.start <= added.start <= forbidden.end
+        and added.goes_with(forbidden)
+    )
