@@ -210,7 +210,7 @@ def _plain(finding: Finding) -> dict[str, Any]:
             {
                 **vars(moment),
                 "conditions": _plain_values(moment.conditions),
-                "due": [vars(due) for due in moment.due],
+                "due": [{**vars(due), "law": None if due.law is None else tuple(due.law)} for due in moment.due],
             }
             for moment in finding.timeline.moments
         ]
@@ -233,11 +233,14 @@ def _finding(fields: dict[str, Any]) -> Finding:
 
 
 def _timeline(moments: list[dict[str, Any]], now: int | None) -> Timeline:
+    from sleec_runtime.model import Span
     from sleec_verify.timed.timeline import Due, Moment, Timeline
 
     for moment in moments:
         moment["conditions"] = _values(moment["conditions"])
-        moment["due"] = tuple(Due(**due) for due in moment["due"])
+        moment["due"] = tuple(
+            Due(**{**due, "law": None if due["law"] is None else Span(*due["law"])}) for due in moment["due"]
+        )
     return Timeline(tuple(Moment(**moment) for moment in moments), now)
 
 

@@ -5,14 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import ceil, floor
 from typing import TYPE_CHECKING
 
-from sleec_runtime.model import Clause, Context, Obligation, Ruleset, in_text_order
-from sleec_runtime.model_time import Length
-from sleec_verify.cnf import Encoder
-from sleec_verify.solver import MiniSat
+from sleec_runtime.model import Context, Ruleset
 from sleec_verify.timed.scope import Untimed, speaks_of_traces
+from sleec_verify.timed.windowed import Windows
 
 if TYPE_CHECKING:
     from sleec_verify.chains import Step
@@ -24,7 +21,8 @@ class Entry:
     """One response with its window, in seconds from the situation, or from when `after` is done. No `end`: at some
     time. `unknown` is a length that a measure says which is not given; then there are no times.
 
-    `instead_of` is the event that it is due in place of: once that was not done in time (`overdue`), or at any time.
+    `instead_of` is what it is due in place of, an event or ``NOT`` and an event: once that was not kept in time
+    (`overdue`), or at any time.
     """
 
     event: str
@@ -63,88 +61,21 @@ def _of_steps(writer: _Writer, steps: Sequence[Step]) -> Iterator[Entry]:
 class _Writer:
     def __init__(self, ruleset: Ruleset, context: Context, untimed: Untimed) -> None:
         self._ruleset = ruleset
-        self._context = context
-        self._untimed = untimed
+        self._windows = Windows(ruleset, context, untimed)
 
     def of(self, because: Because, after: str | None) -> Iterator[Entry]:
         clause = list(self._ruleset.by_label[because.rule].clauses())[because.clause]
-        for obligation in clause.obligations:
-            yield from self._obligation(obligation, _Place(because, after))
-
-    def _obligation(self, obligation: Obligation, place: _Place) -> Iterator[Entry]:
-        timing = obligation.timing
-        window = None if timing is None else timing.window
-        start, end, unknown = place.since, None, place.unknown
-        if window is None:
-            end = start if self._untimed == "at" else None
-        else:
-            # Instants are whole seconds.
-            for length in (window.start, window.end):
-                if length is not None and self._seconds(length) is None:
-                    unknown = str(length)
-            if unknown is None:
-                start += ceil(self._seconds(window.start) or 0) if window.start is not None else 0
-                end = None if window.end is None else place.since + floor(self._seconds(window.end) or 0)
-        yield place.entry(obligation, start, end, unknown)
-        if timing is None:
-            return
-        if timing.otherwise is not None:
-            over = place.since if window is None or end is None else end
-            yield from self._clause(timing.otherwise, place.instead(obligation, over, True, unknown))
-        if timing.instead is not None:
-            yield from self._clause(timing.instead, place.instead(obligation, place.since, False, None))
-
-    def _clause(self, clause: Clause, place: _Place) -> Iterator[Entry]:
-        for obligation in self._deciding(clause).obligations:
-            yield from self._obligation(obligation, place)
-
-    def _deciding(self, clause: Clause) -> Clause:
-        """The clause of a chain of its own that decides in the situation."""
-        encoder = Encoder(self._ruleset.measures, frozenset(self._ruleset.measures) - set(self._context.conditions))
-        decides = encoder.chain(clause, self._ruleset.reading)
-        encoder.close()
-        with MiniSat(encoder.clauses) as solver:
-            answer = solver.solve(encoder.assumptions(self._context))
-            assert answer, "in a total context something decides"
-            return next(c for c, literal in zip(in_text_order(clause), decides) if solver.holds(literal))
-
-    def _seconds(self, length: Length) -> float | None:
-        """A length in seconds; where measures say it, by the situation, and None if one of them is not given there."""
-        values = {}
-        for name in length.measures:
-            given = self._context.conditions.get(name)
-            if given is None or isinstance(given, (bool, str)):
-                return None
-            values[name] = given
-        return float(length.seconds_where(values))
-
-
-@dataclass(frozen=True)
-class _Place:
-    """Which clause a response is of, and since when it counts."""
-
-    because: Because
-    after: str | None
-    since: int = 0
-    instead_of: str | None = None
-    overdue: bool = False
-    unknown: str | None = None
-
-    def instead(self, obligation: Obligation, since: int, overdue: bool, unknown: str | None) -> _Place:
-        return _Place(self.because, self.after, since, obligation.name, overdue, unknown)
-
-    def entry(self, obligation: Obligation, start: int, end: int | None, unknown: str | None) -> Entry:
-        known = unknown is None
-        return Entry(
-            obligation.name,
-            obligation.negated,
-            start if known else None,
-            end if known else None,
-            self.because.rule,
-            self.because.clause,
-            self.because.layer,
-            self.after,
-            self.instead_of,
-            self.overdue,
-            unknown,
-        )
+        for one in self._windows.of(clause):
+            yield Entry(
+                one.obligation.name,
+                one.obligation.negated,
+                one.start,
+                one.end,
+                because.rule,
+                because.clause,
+                because.layer,
+                after,
+                None if one.instead is None else str(one.instead.obligation),
+                one.overdue,
+                one.unknown,
+            )

@@ -54,18 +54,19 @@ def steps(ruleset: Ruleset, finding: Finding) -> list[Step]:
 
 
 def _of_moment(ruleset: Ruleset, finding: Finding, moment: Moment, number: int) -> Iterator[Step]:
-    from sleec_verify.report.timeline import duration
+    from sleec_verify.report.timeline import duration, says
 
     when = "at first, " if number == 1 else f"after {duration(moment.time)}, "
     told = {name: moment.conditions[name] for name in moment.telling}
     for step in _happening(ruleset, finding, moment.events, told):
         yield step._replace(words=when + step.words, moment=number)
     for due in moment.due:
-        rule = ruleset.by_label[due.rule]
-        clause = list(rule.clauses())[due.clause]
-        verb = "forbids" if due.negated else "calls for"
-        words = f"{when}{rule.label} {verb} {due.words.removeprefix('NOT ') if due.negated else due.words}"
-        yield Step(ruleset.source, clause.span, words, {}, number)
+        span = due.law or list(ruleset.by_label[due.rule].clauses())[due.clause].span
+        if due.overdue:
+            words = f"after {duration(due.start)}, {says(due)} in place of {due.instead_of}"
+            yield Step(ruleset.source, span, words, {}, number)
+        elif due.instead_of is None:
+            yield Step(ruleset.source, span, f"{when}{says(due)}", {}, number)
 
 
 def _of_strategy(ruleset: Ruleset, finding: Finding, strategy: Strategy, number: int = 1) -> Iterator[Step]:

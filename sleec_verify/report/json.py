@@ -82,7 +82,7 @@ def finding_json(finding: Finding, source: Source) -> dict[str, Json]:
         "obligations": list(finding.obligations),
         "span": span_json(finding.span, source),
         "witness": None if finding.witness is None else witness_json(finding.witness),
-        **({} if finding.timeline is None else {"timeline": _timeline(finding.timeline)}),
+        **({} if finding.timeline is None else {"timeline": _timeline(finding.timeline, source)}),
         **({} if finding.strategy is None else {"strategy": _strategy(finding.strategy)}),
         "domains": list(finding.domains),
         "related": [{"span": span_json(span, source), "message": word} for span, word in finding.related],
@@ -115,8 +115,9 @@ def witness_json(witness: Witness) -> Json:
     return {"triggers": list(witness.triggers), "conditions": values_json(witness.conditions)}
 
 
-def _timeline(timeline: Timeline) -> Json:
-    """Times are seconds from the first moment; `now` is the moment after which all is open, or null."""
+def _timeline(timeline: Timeline, source: Source) -> Json:
+    """Times are seconds from the first moment; `now` is the moment after which all is open, or null. What a relation or
+    constraint calls for has no rule and no clause, but the place of that `law`."""
     moments: list[Json] = [
         {
             "time": moment.time,
@@ -124,13 +125,16 @@ def _timeline(timeline: Timeline) -> Json:
             "conditions": values_json(moment.conditions),
             "due": [
                 {
-                    "rule": due.rule,
-                    "clause": due.clause,
+                    "rule": due.rule if due.law is None else None,
+                    "clause": due.clause if due.law is None else None,
+                    "law": None if due.law is None else span_json(due.law, source),
                     "response": due.words,
                     "event": due.event,
                     "negated": due.negated,
                     "from": due.start,
                     "until": due.end,
+                    "instead_of": due.instead_of,
+                    "overdue": due.overdue,
                 }
                 for due in moment.due
             ],

@@ -51,8 +51,10 @@ def _by(entry: Entry) -> str:
     why = f"by {entry.layer or entry.rule}"
     if entry.instead_of is None:
         return why
-    if entry.overdue:
+    if entry.overdue and not entry.instead_of.startswith("NOT "):
         return f"{why}, if {quoted(entry.instead_of)} was not done in time"
+    if entry.overdue:
+        return f"{why}, if {quoted(entry.instead_of.removeprefix('NOT '))} was done"
     return f"{why}, in place of {quoted(entry.instead_of)}"
 
 

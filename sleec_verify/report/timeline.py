@@ -1,7 +1,8 @@
 """Timelines: in words, and as a small chart of text.
 
-The chart has a column for each moment and a row for each event: ``*`` where it occurs, ``-`` while it is due, ``x``
-while it is forbidden, ``!`` while it is forbidden and is due, or occurs. ``>``: and so on, past the last moment.
+The chart has a column for each moment, and for each time at which something falls due in place of what was not kept;
+and a row for each event: ``*`` where it occurs, ``-`` while it is due, ``x`` while it is forbidden, ``!`` while it is
+forbidden and is due, or occurs. ``>``: and so on, past the last column.
 
 Where the same happens second by second, only the first and the last of these moments are told.
 """
@@ -55,24 +56,43 @@ def _alike(timeline: Timeline) -> list[list[Moment]]:
 
 
 def in_words(timeline: Timeline) -> Iterator[str]:
-    """A line for each moment, or for several that are alike, and one below it for each thing that is due by it."""
+    """A line for each moment, or for several that are alike, and one below it for each thing that is due by it; a line
+    for each time at which something falls due in place of what was not kept in time."""
+    told: list[tuple[int, str, list[str]]] = []
+    late: list[tuple[int, str, str]] = []
     for moment, *others in _alike(timeline):
-        when = "at one moment" if len(timeline.moments) == 1 else _when(moment, first=moment is timeline.moments[0])
-        if others:
-            when += f", and each second up to {duration(others[-1].time)}"
-        yield f"{when}, {_happens(moment)}"
+        lasts = others[-1].time - moment.time if others else 0
+        told.append((moment.time, _up_to(moment.time, lasts) + _happens(moment), []))
         for due in moment.due:
-            yield f"  {due.rule} {_calls(due)}"
-        if timeline.now is not None and moment is timeline.moments[timeline.now]:
-            yield "and then there is no way to keep every rule"
+            if due.overdue and due.start > moment.time:
+                late.append((due.start, _up_to(due.start, lasts), f"{says(due)} in place of {due.instead_of}"))
+            elif due.instead_of is None:
+                told[-1][2].append(f"  {says(due)}")
+    for time, up_to, owed in sorted(late, key=lambda one: one[0]):
+        # What falls due at a moment that is told of is told there.
+        below = next((lines for at, _, lines in told if at == time and not up_to), None)
+        if below is None:
+            told.append((time, up_to + owed, []))
+        else:
+            below.append(f"  {owed}")
+    told.sort(key=lambda one: one[0])
+    for time, happens, below in told:
+        when = "at one moment" if len(told) == 1 else "at first" if time == told[0][0] else f"after {duration(time)}"
+        yield f"{when}, {happens}"
+        yield from dict.fromkeys(below)
+    if timeline.now is not None:
+        yield "and then there is no way to keep every rule"
 
 
-def _when(moment: Moment, first: bool) -> str:
-    return "at first" if first else f"after {duration(moment.time)}"
+def _up_to(time: int, lasts: int) -> str:
+    return f"and each second up to {duration(time + lasts)}, " if lasts else ""
 
 
-def _calls(due: Due) -> str:
-    return f"forbids {due.words.removeprefix('NOT ')}" if due.negated else f"calls for {due.words}"
+def says(due: Due) -> str:
+    """What a rule, relation or constraint calls for or forbids."""
+    if due.negated:
+        return f"{due.rule} forbids {due.words.removeprefix('NOT ')}"
+    return f"{due.rule} calls for {due.words}"
 
 
 def _happens(moment: Moment) -> str:
@@ -87,10 +107,12 @@ def _happens(moment: Moment) -> str:
 
 def chart_of(timeline: Timeline) -> list[str]:
     """The moments as columns, the events that occur or are due as rows."""
-    columns = [moment for run in _alike(timeline) for moment in (run if len(run) == 1 else (run[0], run[-1]))]
-    heads = [_short(moment.time) for moment in columns]
+    shown = [moment for run in _alike(timeline) for moment in (run if len(run) == 1 else (run[0], run[-1]))]
+    late = {due.start for moment in shown for due in moment.due if due.overdue}
+    columns = sorted({*(moment.time for moment in shown), *late})
+    heads = [_short(time) for time in columns]
     if timeline.now is not None:
-        heads[columns.index(timeline.moments[timeline.now])] += " now"
+        heads[columns.index(timeline.moments[timeline.now].time)] += " now"
     demands = [due for moment in timeline.moments for due in moment.due]
     names = list(dict.fromkeys([e for m in timeline.moments for e in m.events] + [due.event for due in demands]))
     label = max(len(name) for name in names)
@@ -108,9 +130,9 @@ def chart_of(timeline: Timeline) -> list[str]:
 
 
 def _marks(
-    name: str, moments: Sequence[Moment], columns: Sequence[Moment], demands: Sequence[Due]
+    name: str, moments: Sequence[Moment], columns: Sequence[int], demands: Sequence[Due]
 ) -> list[tuple[str, str]]:
-    """For each column the mark of an event at its moment, and those of the time up to the next column, one for each
+    """For each column the mark of an event at its time, and those of the time up to the next column, one for each
     stretch in which nothing changes. What comes after all demands is not among those of the last column."""
     times = [moment.time for moment in moments if name in moment.events]
     mine = [_while_open(due, times) for due in demands if due.event == name]
@@ -126,12 +148,12 @@ def _marks(
     changes = {due.start for due in mine} | {due.end + 1 for due in mine if due.end is not None}
     changes.update(moment.time for moment in moments)
     found = []
-    for place, moment in enumerate(columns):
-        first = moment.time + 1
-        behind = columns[place + 1].time if place + 1 < len(columns) else None
-        begins = sorted(time for time in {first, *changes} if time >= first and (behind is None or time < behind))
+    for place, time in enumerate(columns):
+        first = time + 1
+        behind = columns[place + 1] if place + 1 < len(columns) else None
+        begins = sorted(t for t in {first, *changes} if t >= first and (behind is None or t < behind))
         after = "".join(kind for kind, _ in groupby(map(mark, begins)))
-        found.append((mark(moment.time), after.rstrip() if behind is None else after))
+        found.append((mark(time), after.rstrip() if behind is None else after))
     return found
 
 
@@ -147,7 +169,9 @@ def _spread(marks: str, width: int) -> str:
 
 
 def _short(seconds: int) -> str:
-    for size, unit in ((86400, "d"), (3600, "h"), (60, "min")):
-        if seconds and seconds % size == 0:
-            return f"{seconds // size} {unit}"
-    return f"{seconds} s"
+    parts = []
+    for size, unit in ((86400, "d"), (3600, "h"), (60, "min"), (1, "s")):
+        count, seconds = divmod(seconds, size)
+        if count:
+            parts.append(f"{count} {unit}")
+    return " ".join(parts) or "0 s"

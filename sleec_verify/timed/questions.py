@@ -43,15 +43,23 @@ def _ask(
 ) -> Answer:
     """Whether some trace has an instant at which `what` holds: literals about an instant of an unfolding."""
 
+    def begun(impossible: frozenset[str]) -> tuple[Unfolding, list[int]]:
+        unfolding = Unfolding(program, without=without, rules=rules, impossible=impossible)
+        return unfolding, list(what(unfolding, unfolding.instant(unfolding.formula.true)))
+
     def question() -> Answer:
         # Of rules that stand in for others, nothing is known.
         impossible = program.impossible(without) if rules is None else frozenset()
-        unfolding = Unfolding(program, without=without, rules=rules, impossible=impossible)
-        seed = unfolding.instant(unfolding.formula.true)
-        required = list(what(unfolding, seed))
+        unfolding, required = begun(impossible)
         if unfolding.ask(*required):
             return Answer(timeline(unfolding))
-        return Answer(None, tuple(needed(unfolding, required)))
+        matter = needed(unfolding, required)
+        if impossible and not matter:
+            # What is known to be impossible leaves nothing to name, though it may be so by what one instant has to be.
+            unfolding, required = begun(frozenset())
+            if not unfolding.trusting(*required):
+                matter = needed(unfolding, required)
+        return Answer(None, tuple(matter))
 
     return decided(program, question, *([without] if rules is None else []))
 

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
-from sleec_runtime.model import Rule, Value, formulas_of, in_text_order, names_of
+from sleec_runtime.model import Context, Rule, Span, Value, formulas_of, names_of
 from sleec_runtime.model_time import described
 from sleec_verify.timed.needs import Decided
-from sleec_verify.timed.responses import occurrences
 from sleec_verify.timed.unfolding import Unfolding
+from sleec_verify.timed.windowed import Windowed, Windows
 
 
 @dataclass(frozen=True)
 class Due:
     """What a rule calls for at some moment: in words, and the window of its event in seconds of the timeline. No `end`:
-    at some time."""
+    at some time.
+
+    `instead_of` is what it is due in place of, in words: from `start` on, as that was not kept in time (`overdue`), or
+    at any time. Where a `law` calls for it, a relation or constraint of that place, `rule` is what that is called.
+    """
 
     rule: str
     clause: int
@@ -24,6 +28,9 @@ class Due:
     negated: bool
     start: int
     end: int | None
+    instead_of: str | None = None
+    overdue: bool = False
+    law: Span | None = None
 
 
 @dataclass(frozen=True)
@@ -54,10 +61,9 @@ def timeline(unfolding: Unfolding) -> Timeline:
     for number in sorted(unfolding.used(), key=lambda n: schedule[n]):
         decided = [d for d in unfolding.decided if d.at == number and unfolding.true(d.guard)]
         conditions = dict(sorted(unfolding.values(number).items()))
-        due = _due(unfolding, decided, schedule[number])
         events = tuple(sorted(unfolding.happening(number)))
-        moments.append(Moment(schedule[number], events, conditions, tuple(conditions), due))
-    return Timeline(tuple(moments))
+        moments.append((Moment(schedule[number], events, conditions, tuple(conditions)), decided))
+    return Timeline(_with_dues(unfolding, moments, over=True))
 
 
 def excerpt(unfolding: Unfolding, chosen: Iterable[tuple[int, Sequence[Rule]]], now: int) -> Timeline:
@@ -72,19 +78,64 @@ def excerpt(unfolding: Unfolding, chosen: Iterable[tuple[int, Sequence[Rule]]], 
         named = {name for rule in rules for formula in formulas_of(rule) for name in names_of(formula)}
         conditions = dict(sorted({**unfolding.values(at), **fixed.conditions}.items()))
         telling = tuple(name for name in conditions if name in named)
-        due = _due(unfolding, [d for d in decided if unfolding.true(d.guard)], fixed.time)
-        moments.append(Moment(fixed.time, tuple(sorted(fixed.events)), conditions, telling, due))
-    return Timeline(tuple(moments), now)
+        moment = Moment(fixed.time, tuple(sorted(fixed.events)), conditions, telling)
+        moments.append((moment, [d for d in decided if unfolding.true(d.guard)]))
+    return Timeline(_with_dues(unfolding, moments, over=False), now)
 
 
-def _due(unfolding: Unfolding, decided: Iterable[Decided], time: int) -> tuple[Due, ...]:
-    responses = unfolding.program.responses
+def _with_dues(
+    unfolding: Unfolding, moments: Sequence[tuple[Moment, Sequence[Decided]]], over: bool
+) -> tuple[Moment, ...]:
+    """The moments with what the clauses that decide there call for. After the last of them nothing happens any more if
+    all is `over`; else that is open."""
+    course = [moment for moment, _ in moments]
     found = []
-    for at in decided:
-        for obligation in at.clause.obligations:
-            demand = responses.of((obligation,), lambda clause: [1] * sum(1 for _ in in_text_order(clause)))
-            first = next(iter(occurrences(demand)))
-            end = None if first.end is None else time + first.end
-            name, start = obligation.name, time + (first.start or 0)
-            found.append(Due(at.rule.label, at.number, described(obligation), name, obligation.negated, start, end))
-    return tuple(dict.fromkeys(found))
+    for moment, decided in moments:
+        context = Context(frozenset(moment.events), moment.conditions)
+        windows = Windows(unfolding.program.ruleset, context, unfolding.program.untimed)
+        due = [
+            _due(at, one, moment.time)
+            for at in decided
+            for one in windows.of(at.clause)
+            if not any(_is_kept(other, moment.time, course, over) for other in _replaced(one))
+        ]
+        found.append(replace(moment, due=tuple(dict.fromkeys(due))))
+    return tuple(found)
+
+
+def _replaced(one: Windowed) -> Iterator[Windowed]:
+    """What a response is due in place of, and what that is."""
+    while one.instead is not None:
+        one = one.instead
+        yield one
+
+
+def _is_kept(one: Windowed, triggered: int, course: Sequence[Moment], over: bool) -> bool:
+    """Whether a response was kept, so that nothing is due in its place any more."""
+    start, end = triggered + _known(one.start), None if one.end is None else triggered + one.end
+    open_still = not over and (end is None or end >= course[-1].time)
+    done = any(
+        start <= moment.time and (end is None or moment.time <= end)
+        for moment in course
+        if one.obligation.name in moment.events
+    )
+    return not done and not open_still if one.obligation.negated else done
+
+
+def _due(at: Decided, one: Windowed, time: int) -> Due:
+    return Due(
+        at.rule.label,
+        at.number,
+        described(one.obligation),
+        one.obligation.name,
+        one.obligation.negated,
+        time + _known(one.start),
+        None if one.end is None else time + one.end,
+        None if one.instead is None else str(one.instead.obligation),
+        one.overdue,
+    )
+
+
+def _known(start: int | None) -> int:
+    assert start is not None, "rules with a window that a measure says are not analysed"
+    return start

@@ -81,7 +81,7 @@ def test_what_was_called_for_is_due_until_it_is_done():
     assert row(timeline([demand(CALLED_FOR, 0, 60)], [0, 30, 60], rings=[30])) == "--------*"
     assert row(timeline([demand(CALLED_FOR, 0, None)], [0, 30], rings=[30])) == "--------*"
     # What is not done, and has something else in its place, was due to the end.
-    assert row(timeline([demand(CALLED_FOR, 0, 60)], [0, 60, 61])) == "---------"
+    assert row(timeline([demand(CALLED_FOR, 0, 60)], [0, 60, 120])) == "---------"
     # What is done too early leaves it due.
     assert row(timeline([demand(CALLED_FOR, 30, 60)], [0, 60], rings=[0])) == "*    ----"
 

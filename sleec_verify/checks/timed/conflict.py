@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from sleec_runtime.model import Rule
+from sleec_runtime.model import Rule, Span
 from sleec_verify.checks.base import listed
 from sleec_verify.checks.conflict import CONFLICT as OF_SITUATIONS
-from sleec_verify.checks.timed.each import each, in_words, rules_in, traces
+from sleec_verify.checks.timed.each import each, in_words, laws_in, rules_in, traces
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding, Witness
 from sleec_verify.timed.conflicts import conflict
+from sleec_verify.timed.ruled import ruled
+from sleec_verify.timed.traces import Traces
 
 
 def _conflicts(cones: Cones) -> Iterator[Finding]:
@@ -25,6 +27,7 @@ def _conflicts(cones: Cones) -> Iterator[Finding]:
             return
         others = [name for name in history.matter if name != rule.label]
         words = in_words(known, others)
+        laws = laws_in(known, others)
         now = history.timeline.moments[-1]
         unasked = sorted(_unasked(known, history.matter) & (set(now.events) - {rule.trigger}))
         yield CONFLICT.finding(
@@ -34,15 +37,21 @@ def _conflicts(cones: Cones) -> Iterator[Finding]:
             rules=(rule.label, *rules_in(known, others)),
             obligations=tuple(sorted(_contested(known, history.matter))),
             witness=Witness(now.events, now.conditions),
-            timeline=history.timeline,
+            timeline=ruled(history.timeline, laws, known.ruleset.measures),
             help=_help(bool(words), unasked),
-            related=tuple(
-                (other.label_span if other.labelled else other.span, "with this one")
-                for other in (known.ruleset.by_label[label] for label in rules_in(known, others))
-            ),
+            related=tuple((span, "with this one") for span in _places(known, others)),
         )
 
     yield from each(((rule.label, rule) for rule in known.rules), of)
+
+
+def _places(cones: Traces, matter: Sequence[str]) -> list[Span]:
+    """Where the rules and laws that matter stand."""
+    rules = (cones.ruleset.by_label[label] for label in rules_in(cones, matter))
+    return [
+        *(rule.label_span if rule.labelled else rule.span for rule in rules),
+        *(law.span for _, law in laws_in(cones, matter)),
+    ]
 
 
 def _help(others: bool, unasked: list[str]) -> str:

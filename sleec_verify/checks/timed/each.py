@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 from sleec_runtime.model_time import RELATIONS
 from sleec_verify.finding import Finding
 from sleec_verify.solver import Undecided
-from sleec_verify.timed.program import law_name
+from sleec_verify.timed.program import Law, law_name
 from sleec_verify.timed.traces import Traces
 
 if TYPE_CHECKING:
@@ -44,18 +44,17 @@ def _named(names: list[str]) -> str:
 def in_words(cones: Traces, matter: Iterable[str]) -> list[str]:
     """Rules and laws as people call them."""
     matter = list(matter)
-    laws = cones.program.laws if any(name not in cones.ruleset.by_label for name in matter) else ()
-    places = {law_name(law): law for law in laws}
+    laws = {law_name(law): words for words, law in laws_in(cones, matter)}
+    return [laws.get(name, name) for name in matter]
+
+
+def laws_in(cones: Traces, matter: Iterable[str]) -> list[tuple[str, Law]]:
+    """The relations and constraints among what matters, each with what people call it, in the order of the text."""
+    names = [name for name in matter if name not in cones.ruleset.by_label]
+    laws = sorted((cones.program.law_named[name] for name in names), key=lambda law: law.span)
     source = cones.ruleset.source
-    words = []
-    for name in matter:
-        law = places.get(name)
-        if law is None:
-            words.append(name)
-        else:
-            kind = "the relation" if isinstance(law, RELATIONS) else "the constraint"
-            words.append(f"{kind} in line {source.place(law.span).line}")
-    return words
+    kinds = ("the relation" if isinstance(law, RELATIONS) else "the constraint" for law in laws)
+    return [(f"{kind} in line {source.place(law.span).line}", law) for kind, law in zip(kinds, laws)]
 
 
 def rules_in(cones: Traces, matter: Iterable[str], but: str | None = None) -> tuple[str, ...]:
