@@ -73,8 +73,9 @@ class Entailment:
 
     Where it is not `consistent`, nothing is listed as due and `conflicts` says why. `timed` are the literals due at
     some later time; whether they can be kept with all else is not decided, and `consistent` says nothing of them.
-    `chain` is what becomes due once that is done, and `schedule` what is due until when, where they were asked for
-    (`sleec_verify.chains`, `sleec_verify.schedule`).
+    `chain` is what becomes due once that is done, `at_odds` the events that occur and are forbidden, each with the
+    clauses that do, and `schedule` what is due until when, where they were asked for (`sleec_verify.chains`,
+    `sleec_verify.schedule`).
     `missing` are measures that were asked about and not given: comparisons with them count as false.
     `broken_assumptions` are the assumptions by which the situation cannot be, and the relations, whatever else occurs.
     """
@@ -89,6 +90,7 @@ class Entailment:
     missing: tuple[str, ...]
     timed: tuple[Obligation, ...] = ()
     chain: tuple[Step, ...] = ()
+    at_odds: tuple[tuple[str, tuple[str, ...]], ...] = ()
     schedule: tuple[Entry, ...] = ()
 
 

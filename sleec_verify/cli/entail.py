@@ -73,5 +73,6 @@ def ask(
     else:
         ruleset = ruleset.in_domain(domain)
     answer = entail(ruleset, context)
-    answer = replace(answer, chain=chain(ruleset, context, answer))
+    steps, at_odds = chain(ruleset, context, answer, untimed)
+    answer = replace(answer, chain=steps, at_odds=at_odds)
     return ruleset, context, replace(answer, schedule=schedule(ruleset, context, answer, untimed))

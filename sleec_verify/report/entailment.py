@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from sleec_runtime.model import Assume
 from sleec_verify.chains import lines
 from sleec_verify.report.full import finding_lines
-from sleec_verify.report.words import listed
+from sleec_verify.report.words import listed, quoted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Ruleset
@@ -74,6 +74,8 @@ def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palet
         said["timed"] = [{"obligation": o.name, "negated": o.negated, "when": str(o.timing)} for o in answer.timed]
     if answer.chain:
         said["chain"] = _chain_json(answer.chain)
+    if answer.at_odds:
+        said["at_odds"] = [{"event": event, "forbidden_by": list(by)} for event, by in answer.at_odds]
     if _has_times(answer):
         from sleec_verify.report.schedule import as_json
 
@@ -138,6 +140,9 @@ def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[
             f"{palette('warning', 'warning')}: this situation cannot be, by {by} of {ruleset.source.path}; "
             "checks leave it out\n"
         )
+    for event, forbidding in answer.at_odds:
+        verb = "forbids" if len(forbidding) == 1 else "forbid"
+        yield f"{palette('warning', 'warning')}: {quoted(event)} occurs, and {listed(forbidding)} {verb} it\n"
     if answer.timed:
         yield (
             f"{palette('note', 'note')}: what is due at other times is not weighed here; `sleec-verify check` tells "

@@ -15,7 +15,7 @@ from tests.timed_strategies import timed_ruleset
 def tree(text, when, **given):
     ruleset = parse(text)
     context = Context(frozenset({when}), given)
-    return list(lines(chain(ruleset, context, entail(ruleset, context))))
+    return list(lines(chain(ruleset, context, entail(ruleset, context)).steps))
 
 
 def test_a_chain_with_a_cycle():
@@ -83,5 +83,73 @@ def test_the_steps_are_the_closure(seed):
                 yield from (name for name in because.obligations if not name.startswith("NOT "))
                 yield from names(done)
 
-    found = set(answer.obligations) | set(names(chain(ruleset, context, answer)))
+    found = set(answer.obligations) | set(names(chain(ruleset, context, answer).steps))
     assert found == closure
+
+
+def forbidden(text, when):
+    """What the tree says of each step: the clauses that forbid it, by name."""
+    ruleset = parse(text)
+    context = Context(frozenset(when), {})
+    found = {}
+
+    def walk(steps):
+        for step in steps:
+            found[step.name] = step.forbidden
+            for _, done in step.clauses:
+                walk(done)
+
+    answer = chain(ruleset, context, entail(ruleset, context))
+    walk(answer.steps)
+    return found, dict(answer.at_odds)
+
+
+WINDOWS = [(0, 0), (0, 2), (1, 3), (2, 2)]
+
+
+@pytest.mark.parametrize("prohibition", [(0, 0), (0, 2), (0, 5), (1, 3), (2, 6)])
+@pytest.mark.parametrize("trigger", ["X", "B", "C"])
+@pytest.mark.parametrize("later", WINDOWS)
+@pytest.mark.parametrize("first", WINDOWS)
+def test_a_step_is_forbidden_if_it_is_at_every_time_at_which_it_may_be_done(first, later, trigger, prohibition):
+    def within(window):
+        return f"within [{window[0]}, {window[1]}] seconds"
+
+    text = f"""def_start
+event A
+event B
+event C
+event X
+def_end
+rule_start
+r1 when A then B {within(first)}
+r2 when B then C {within(later)}
+r3 when {trigger} then not C {within(prohibition)}
+r4 when C then not B {within(prohibition)}
+rule_end
+"""
+    found, _ = forbidden(text, ["A", "X"])
+    start, end = prohibition
+    courses = [
+        {"X": 0, "B": b, "C": b + c} for b in range(first[0], first[1] + 1) for c in range(later[0], later[1] + 1)
+    ]
+    assert (found["C"] == ("r3",)) == all(start <= times["C"] - times[trigger] <= end for times in courses)
+    # What is triggered at last may forbid what was due before.
+    assert (found["B"] == ("r4",)) == all(start <= times["B"] - times["C"] <= end for times in courses)
+
+
+def test_what_the_situation_forbids_for_a_time_is_named():
+    text = "R1 when A then B within 5 minutes\nR2 when X then not B within {} minutes\nR3 when B then C\n"
+    text = f"def_start\nevent A\nevent B\nevent C\nevent X\ndef_end\nrule_start\n{text}rule_end\n"
+    assert forbidden(text.format(10), ["A", "X"])[0] == {"B": ("R2",), "C": ()}
+    assert forbidden(text.format(4), ["A", "X"])[0] == {"B": (), "C": ()}
+    # Something else may come in place of what is forbidden.
+    assert forbidden(text.format("10 minutes otherwise C within 1"), ["A", "X"])[0]["B"] == ()
+
+
+def test_events_of_the_situation_that_are_forbidden_there():
+    text = "RULE r1 WHEN A THEN B\nRULE r2 WHEN B THEN NOT A WITHIN 5 minutes\n"
+    text += "RULE r3 WHEN B THEN NOT X WITHIN 1 TO 2 minutes\n"
+    assert forbidden(text, ["A", "X"])[1] == {"A": ("r2",)}
+    # Without times, that something happened is not that it is done.
+    assert forbidden("RULE r1 WHEN A THEN B\nRULE r2 WHEN B THEN NOT A", ["A"])[1] == {}

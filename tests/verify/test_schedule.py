@@ -33,7 +33,7 @@ def _entries(text: str, trigger: str, untimed: Untimed = "at", **conditions: obj
     ruleset = parse(text)
     context = Context(frozenset({trigger}), conditions)  # type: ignore[arg-type]
     answer = entail(ruleset, context)
-    return schedule(ruleset, context, replace(answer, chain=chain(ruleset, context, answer)), untimed)
+    return schedule(ruleset, context, replace(answer, chain=chain(ruleset, context, answer).steps), untimed)
 
 
 def _times(entries: tuple[Entry, ...]) -> list[tuple[str, int | None, int | None, str | None]]:
