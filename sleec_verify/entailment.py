@@ -18,9 +18,11 @@ from sleec_verify.clashes import clashes
 from sleec_verify.cnf import Encoder
 from sleec_verify.cone import Cones, Place, names_in, names_of_rule, obligations_in
 from sleec_verify.finding import Finding, Witness
+from sleec_verify.settling import Law, settled
 from sleec_verify.solver import MiniSat
 
 if TYPE_CHECKING:
+    from sleec_runtime.model import Value
     from sleec_runtime.model_time import Relation
     from sleec_verify.chains import Step
     from sleec_verify.schedule import Entry
@@ -77,7 +79,9 @@ class Entailment:
     clauses that do, and `schedule` what is due until when, where they were asked for (`sleec_verify.chains`,
     `sleec_verify.schedule`).
     `missing` are measures that were asked about and not given: comparisons with them count as false.
-    `broken_assumptions` are the assumptions by which the situation cannot be, and the relations, whatever else occurs.
+    `broken_assumptions` are the assumptions by which the situation cannot be, and the relations, whatever else occurs;
+    `unsettled` those that do not hold if all comparisons with what is not given are false. `possible` are values of
+    what is not given with which the situation can be, where it cannot without.
     """
 
     consistent: bool
@@ -91,6 +95,8 @@ class Entailment:
     timed: tuple[Obligation, ...] = ()
     chain: tuple[Step, ...] = ()
     at_odds: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    unsettled: tuple[Assume | Relation, ...] = ()
+    possible: tuple[tuple[str, Value], ...] = ()
     schedule: tuple[Entry, ...] = ()
 
 
@@ -157,7 +163,7 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     if ruleset.is_timed:
         from sleec_verify.timed.untimed import of_one_instant, untimed
 
-        related = [(law, formula) for law, formula in of_one_instant(ruleset) if _is_given(formula, ruleset, context)]
+        related = list(of_one_instant(ruleset))
         ruleset = untimed(ruleset)
     rules = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
     cones = Cones(ruleset)
@@ -175,6 +181,9 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     truth = {id(formula): true(literal) for formula, literal in zip(formulas, definition.formulas)}
     # Equal labels of several constraints were asked about once.
     come_true = {label for label in labels if truth[id(label)]}
+
+    laws = [*((one, one.formula) for one in cones.assumptions), *related]
+    situation = settled([Law(law, formula, truth[id(formula)]) for law, formula in laws], context, ruleset.measures)
 
     position = {rule.label: p for p, rule in enumerate(cones.rules)}
     active = [
@@ -200,18 +209,12 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
         ),
         consequences=tuple(_consequences(cones, obliged, context)) if consistent else (),
         conflicts=conflicts,
-        broken_assumptions=(
-            *(a for a in cones.assumptions if not truth[id(a.formula)]),
-            *(law for law, formula in related if not truth[id(formula)]),
-        ),
+        broken_assumptions=situation.broken,
+        unsettled=situation.unsettled,
+        possible=situation.possible,
         missing=tuple(sorted(missing)),
         timed=tuple(later),
     )
-
-
-def _is_given(formula: Formula, ruleset: Ruleset, context: Context) -> bool:
-    """Whether all measures in the formula have a value: without, nobody knows whether the situation can be."""
-    return all(name not in ruleset.measures or name in context.conditions for _, name in names_in(formula))
 
 
 def _conditions(rule: Rule) -> Iterator[tuple[Formula, int | None, Span]]:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume
 from sleec_verify.chains import lines
 from sleec_verify.report.full import finding_lines
-from sleec_verify.report.words import listed, quoted
+from sleec_verify.report.words import listed, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Ruleset
+    from sleec_runtime.model_time import Relation
     from sleec_verify.chains import Step
     from sleec_verify.entailment import Entailment
     from sleec_verify.report.json import Json
@@ -50,7 +51,7 @@ def _concise(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pa
 
 
 def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
-    from sleec_verify.report.json import dump, finding_json, span_json
+    from sleec_verify.report.json import dump, finding_json, span_json, values_json
 
     del context, palette  # a program reads this, and knows what it asked
     source = ruleset.source
@@ -70,6 +71,10 @@ def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palet
         said["conflicts"] = [finding_json(finding, source) for finding in answer.conflicts]
     if answer.broken_assumptions:
         said["broken_assumptions"] = [span_json(assume.span, source) for assume in answer.broken_assumptions]
+    if answer.unsettled:
+        said["unsettled"] = [span_json(law.span, source) for law in answer.unsettled]
+    if answer.possible:
+        said["possible_with"] = values_json(dict(answer.possible))
     if answer.timed:
         said["timed"] = [{"obligation": o.name, "negated": o.negated, "when": str(o.timing)} for o in answer.timed]
     if answer.chain:
@@ -130,16 +135,21 @@ def _chain_json(steps: tuple[Step, ...]) -> Json:
 
 def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
     """What to know about the situation itself: that it cannot be, or is not wholly given."""
+    with_these = listed(_as_given(answer)) if answer.possible else ""
     if answer.broken_assumptions:
-        laws: dict[str, list[str]] = {}
-        for law in answer.broken_assumptions:
-            kind = "ASSUME" if isinstance(law, Assume) else "relation"
-            laws.setdefault(kind, []).append(str(ruleset.source.place(law.span).line))
-        by = listed(f"the {kind} of line {listed(lines)}" for kind, lines in laws.items())
+        by = _named(ruleset, answer.broken_assumptions)
+        yield f"{palette('warning', 'warning')}: this situation cannot be, by {by}; checks leave it out\n"
+        if answer.possible:
+            yield f"{palette('help', 'help')}: what is not given counts as false; it can be with {with_these}\n"
+    elif answer.unsettled:
+        names = [quoted(name) for name, _ in answer.possible]
+        are, them = ("is", "it") if len(names) == 1 else ("are", "them")
+        by = _named(ruleset, answer.unsettled)
         yield (
-            f"{palette('warning', 'warning')}: this situation cannot be, by {by} of {ruleset.source.path}; "
-            "checks leave it out\n"
+            f"{palette('warning', 'warning')}: {listed(names)} {are} not given, and if all that compares with {them} "
+            f"is false, this situation cannot be, by {by}\n"
         )
+        yield f"{palette('help', 'help')}: give {them}; it can be with {with_these}\n"
     for event, forbidding in answer.at_odds:
         verb = "forbids" if len(forbidding) == 1 else "forbid"
         yield f"{palette('warning', 'warning')}: {quoted(event)} occurs, and {listed(forbidding)} {verb} it\n"
@@ -151,8 +161,29 @@ def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[
     if answer.missing:
         yield (
             f"{palette('note', 'note')}: {listed(answer.missing)} {'is' if len(answer.missing) == 1 else 'are'} "
-            "not given: what compares with it counts as false\n"
+            f"not given: what compares with {'it' if len(answer.missing) == 1 else 'them'} counts as false\n"
         )
+
+
+def _named(ruleset: Ruleset, said: Sequence[Assume | Relation]) -> str:
+    """Assumptions and relations by their lines."""
+    laws: dict[str, list[str]] = {}
+    for law in said:
+        kind = "ASSUME" if isinstance(law, Assume) else "relation"
+        laws.setdefault(kind, []).append(str(ruleset.source.place(law.span).line))
+    by = listed(
+        f"the {_plural(kind, lines)} of {_plural('line', lines)} {listed(lines)}" for kind, lines in laws.items()
+    )
+    return f"{by} of {ruleset.source.path}"
+
+
+def _plural(word: str, several: Sequence[str]) -> str:
+    return f"{word}s" if len(several) > 1 and word.islower() else word
+
+
+def _as_given(answer: Entailment) -> list[str]:
+    """What would have to be given as ``--given`` takes it."""
+    return [name if value is True else f"{name}={value_text(value)}" for name, value in answer.possible]
 
 
 RENDERERS: Mapping[str, Callable[[Ruleset, Context, Entailment, Palette], Iterator[str]]] = {
