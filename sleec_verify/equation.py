@@ -31,6 +31,11 @@ def implications(rule: Rule, reading: Reading) -> list[Implication]:
     return [Implication(number, guard, clause) for number, (guard, clause) in enumerate(found)]
 
 
+def chain(clause: Clause, reading: Reading) -> Iterator[tuple[Formula, Clause]]:
+    """Where each clause of a chain that stands by itself decides, in the order of `in_text_order`."""
+    return _descend([], clause, reading)
+
+
 def _descend(parts: list[Formula], clause: Clause, reading: Reading) -> Iterator[tuple[Formula, Clause]]:
     first, *rest = _split(parts, clause.hedges, reading)
     yield conjunction(first), clause

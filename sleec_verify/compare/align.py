@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from sleec_runtime.model import Clause, Formula, Rule
+from sleec_runtime.model import Clause, Formula, Rule, in_text_order
 
 
 class Pair(NamedTuple):
@@ -133,5 +133,16 @@ def _trigger(rule: Rule) -> str:
 
 
 def depends_on_reading(rule: Rule) -> bool:
-    """Whether a chain of the rule has two hedges or more: only there the readings can differ."""
-    return len(rule.hedges) > 1 or any(len(clause.hedges) > 1 for clause in rule.clauses())
+    """Whether a chain of the rule, or of what is due in place of a response, has two hedges or more: only there the
+    readings can differ."""
+    return len(rule.hedges) > 1 or any(map(_has_several, rule.clauses()))
+
+
+def _has_several(clause: Clause) -> bool:
+    return len(clause.hedges) > 1 or any(
+        _has_several(inner)
+        for obligation in clause.obligations
+        if obligation.timing is not None
+        for alternative in obligation.timing.alternatives()
+        for inner in in_text_order(alternative)
+    )

@@ -121,11 +121,11 @@ def _change(world: World, pair: Pair, group: _Group, witness: Witness) -> Change
 
 
 def _incomparable(world: World, rows: list[int], which: Which, literal: Obligation) -> str | None:
-    """Why the other side's literals of this name cannot be compared with it by their form, if that is so."""
+    """Why the other side's literals cannot be compared with it, if that is so."""
     if literal.timing is None and not world.sides[other(which)].stated.is_timed:
         return None
-    against = [o for row in rows for o in world.literals(row, other(which)) if o.name == literal.name]
-    if any(implies(o, literal, world.untimed) is True and o.timing == literal.timing for o in against):
+    against = [o for row in rows for o in world.literals(row, other(which))]
+    if literal in against:
         return None
     for one in against:
         if one.negated == literal.negated and implies(one, literal, world.untimed) is None:

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 
 from sleec_runtime.conflicts import find_conflict
 from sleec_runtime.evaluation import Situation, decide, holds
-from sleec_runtime.model import Context, Exclusive, Never, Obligation
+from sleec_runtime.model import Context, Exclusive, Formula, Never, Obligation
+from sleec_verify.compare.alternatives import here
 from sleec_verify.compare.result import Deciding
 from sleec_verify.compare.times import implies
 from sleec_verify.compare.world import SIDES, Which, World, triggered
@@ -15,12 +16,19 @@ from sleec_verify.compare.world import SIDES, Which, World, triggered
 def deciding(world: World, which: Which, context: Context) -> tuple[Deciding, ...]:
     """The clauses that decide on one side, in the order of its text, as the evaluator has it."""
     stated = world.sides[which].stated
+
+    def true(formula: Formula) -> bool:
+        return holds(formula, context, stated.measures)
+
     found = []
     for rule in triggered(world, which, context):
         decision = decide(rule, context, stated.reading, stated.measures)
         if decision is not None:
             span = list(rule.clauses())[decision.clause].span
-            found.append(Deciding(rule.label, decision.clause, decision.obligations, span))
+            due = here(
+                decision.obligations, stated.reading, world.untimed, lambda f: holds(f, context, stated.measures)
+            )
+            found.append(Deciding(rule.label, decision.clause, due, span))
     return tuple(sorted(found, key=lambda one: one.span))
 
 

@@ -26,6 +26,7 @@ from sleec_runtime.model import (
 )
 from sleec_verify.clashes import Clash, clashes, opposite
 from sleec_verify.compare.align import Pair, align, depends_on_reading
+from sleec_verify.compare.alternatives import plainly
 from sleec_verify.compare.sides import Side, common, mentions, side
 from sleec_verify.compare.times import implies
 from sleec_verify.cone import Cones, Name, names_in, names_of_rule, obligations_in
@@ -88,6 +89,7 @@ class World:
                     self.rows.append(Row(rule, None) if which == "old" else Row(None, rule))
             self.changed.append((pair, places))
         self._guards: dict[tuple[int, Which], list[Implication]] = {}
+        self._said: dict[tuple[int, Which], list[tuple[Formula, Obligation]]] = {}
         self._cones_of: dict[frozenset[str], Cone] = {}
         self._conflicts: dict[tuple[Which, tuple[int, ...]], Formula] = {}
         given = [one.formula for which in SIDES for one in self.sides[which].given]
@@ -206,16 +208,27 @@ class World:
             self._guards[key] = found
         return found
 
+    def said(self, row: int, which: Which) -> list[tuple[Formula, Obligation]]:
+        """What a rule obliges on one side, and where, in the order of the text."""
+        key = row, which
+        found = self._said.get(key)
+        if found is None:
+            of = self.sides[which]
+            found = self._said[key] = [
+                (conjunction([guard, of.formula(where)]), plain)
+                for _, guard, clause in self.guards(row, which)
+                for obligation in clause.obligations
+                for where, plain in plainly(obligation, of.stated.reading, self.untimed)
+            ]
+        return found
+
     def literals(self, row: int, which: Which) -> list[Obligation]:
         """All that a rule obliges on one side, each once, in the order of the text."""
-        rule = self.rows[row].on(which)
-        return [] if rule is None else list(dict.fromkeys(o for clause in rule.clauses() for o in clause.obligations))
+        return list(dict.fromkeys(literal for _, literal in self.said(row, which)))
 
     def obliges(self, row: int, which: Which, wanted: Callable[[Obligation], object]) -> Formula:
         """Where the rule obliges a literal that is `wanted`."""
-        return disjunction(
-            [guard for _, guard, clause in self.guards(row, which) if any(wanted(o) for o in clause.obligations)]
-        )
+        return disjunction(list(dict.fromkeys(where for where, literal in self.said(row, which) if wanted(literal))))
 
     def due(self, rows: Iterable[int], which: Which, literal: Obligation) -> Formula:
         """Where one of these rules obliges the literal, or one that asks for at least as much."""

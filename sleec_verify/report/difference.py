@@ -160,12 +160,15 @@ def _so(change: Change) -> str:
         times = _when(o), _when(_other_time(change, o) or o)
         now, before = times if o in change.added else times[::-1]
         role = "forbidden" if o.negated else "due"
-        parts.append(f"{quoted(o.name)} is now {role} {now} and no longer {before}")
+        # With what is due in its place, a time is long.
+        no_longer = f" (before: {before})" if "," in before or "," in now else f" and no longer {before}"
+        parts.append(f"{quoted(o.name)} is now {role} {now}{no_longer}")
     for literals, word in ((change.added, "now"), (change.removed, "no longer")):
         for negated, role in ((False, "due"), (True, "forbidden")):
             names = [_phrase(o) for o in literals if o.negated == negated and o not in moved]
             parts += [f"{listed(names)} {'is' if len(names) == 1 else 'are'} {word} {role}"] if names else []
-    return listed(parts)
+    # What asks for more here and for less there is a gain and a loss, of which the words are the same.
+    return listed(dict.fromkeys(parts))
 
 
 def _other_time(change: Change, obligation: Obligation) -> Obligation | None:

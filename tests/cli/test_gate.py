@@ -30,7 +30,7 @@ OLD = "RULE a\nWHEN t THEN o\nUNLESS c IN WHICH CASE p\n"
 CLASH = OLD + "RULE b\nWHEN t THEN NOT o\n"
 DEAD = OLD + "UNLESS NOT c IN WHICH CASE q\n"
 LOST = "RULE a\nWHEN t THEN o\n"
-TIMED = "RULE a\nWHEN t THEN o WITHIN 1 minute OTHERWISE p\n"
+TIMED = "MEASURE n: integer\nRULE a\nWHEN t THEN o WITHIN n minutes OTHERWISE p\n"
 TIMED_ELSE = TIMED.replace("OTHERWISE p", "OTHERWISE q")
 CASES = '[[case]]\nwhen = ["t"]\nobligations = ["o"]\n'
 BOTH = CASES + '[[case]]\nwhen = ["t"]\ngiven = { c = true }\nobligations = ["p"]\n'
@@ -120,7 +120,7 @@ def test_unknown_is_exit_3_unless_it_may_pass(cli: Cli, repository: Repository) 
     config(repository, block="findings = 'never'")
     code, said = gated(cli)
     assert (code, said["status"]) == (3, "unknown")
-    assert "otherwise" in said["unknown"][0]["what"]
+    assert "of a measure" in said["unknown"][0]["what"]
     config(repository, block="findings = 'never'\nunknown = false")
     assert gated(cli)[0] == 0
 

@@ -329,15 +329,37 @@ def test_a_name_that_is_something_else_now_is_not_compared(old: str, new: str) -
         ("NOT X WITHIN 5 minutes", "NOT X", "laxer"),
         ("X WITHIN 5 minutes OTHERWISE Y", "X WITHIN 5 minutes", "stricter"),
         ("X WITHIN 5 minutes", "X WITHIN 5 minutes OTHERWISE Y", "laxer"),
-        ("X WITHIN 5 minutes OTHERWISE Y", "X WITHIN 5 minutes OTHERWISE Z", "unknown"),
-        ("X WITHIN 5 minutes OTHERWISE Y", "X WITHIN 6 minutes OTHERWISE Y", "unknown"),
+        ("X WITHIN 5 minutes OTHERWISE Y", "X WITHIN 5 minutes OTHERWISE Z", "incomparable"),
+        ("X WITHIN 5 minutes OTHERWISE Y", "X WITHIN 6 minutes OTHERWISE Y", "incomparable"),
+        ("X WITHIN 5 minutes OTHERWISE Y", "X WITHIN 5 minutes OTHERWISE Y WITHIN 1 minute", "laxer"),
+        ("X WITHIN 5 minutes OTHERWISE Y", "X WITHIN 5 minutes OTHERWISE (Y AND Z)", "stricter"),
+        ("X WITHIN 5 minutes OTHERWISE Y", "X WITHIN 300 seconds OTHERWISE Y", "equivalent"),
+        ("X WITHIN 5 minutes OTHERWISE X WITHIN 1 minute", "X WITHIN 6 minutes", "equivalent"),
+        ("X WITHIN 5 minutes OTHERWISE Y", "X WITHIN 5 minutes ELSE Y WITHIN [5, 5] minutes", "equivalent"),
+        ("X WITHIN 5 minutes OTHERWISE Y", "X WITHIN 5 minutes OTHERWISE (Y UNLESS c)", "laxer"),
+        ("X WITHIN 5 minutes OTHERWISE Y", "X WITHIN 5 minutes OTHERWISE (Y UNLESS c IN WHICH CASE Z)", "incomparable"),
+        ("X ELSE Y", "Y ELSE X", "equivalent"),
+        ("X ELSE NOT X", "Y ELSE NOT Y", "equivalent"),
+        ("X WITHIN n minutes OTHERWISE Y", "X WITHIN n minutes OTHERWISE Z", "unknown"),
         ("X WITHIN 5 minutes AND Y", "X WITHIN 5 minutes AND Z", "incomparable"),
     ],
 )
 def test_windows(before: str, after: str, relation: str) -> None:
-    found = differ(f"RULE r\nWHEN t THEN {before}\n", f"RULE r\nWHEN t THEN {after}\n")
+    beside = "MEASURE n: integer\nRULE s\nWHEN u AND n > 3 THEN W\n"
+    found = differ(f"{beside}RULE r\nWHEN t THEN {before}\n", f"{beside}RULE r\nWHEN t THEN {after}\n")
     assert found.relation == relation
     assert bool(found.undecided) == (relation == "unknown")
+
+
+def test_the_hedges_of_what_is_due_in_place_are_counted() -> None:
+    old = "RULE r\nWHEN t THEN X WITHIN 5 minutes OTHERWISE (Y UNLESS c IN WHICH CASE Z UNLESS d)\n"
+    (change,) = edit(old, "CASE Z", "CASE W").changes
+    assert (change.extent.affected, change.extent.possible) == (1, 4)
+    assert change.witness.conditions == {"c": True, "d": False}
+    assert [str(o.timing) for o in change.added] == ["within 5 minutes, otherwise W"]
+    # The reading decides these hedges, too.
+    (change,) = differ(f"READING cascade\n{old}", f"READING priority\n{old}").changes
+    assert change.witness.conditions == {"c": False, "d": True}
 
 
 def test_windows_with_hedges_are_compared_where_they_apply() -> None:
