@@ -63,7 +63,7 @@ def _of_moment(ruleset: Ruleset, finding: Finding, moment: Moment, number: int) 
     for due in moment.due:
         span = due.law or list(ruleset.by_label[due.rule].clauses())[due.clause].span
         if due.overdue:
-            words = f"after {duration(due.start)}, {says(due)} in place of {due.instead_of}"
+            words = f"after {duration(due.start)}, in place of {due.instead_of}, {says(due)}"
             yield Step(ruleset.source, span, words, {}, number)
         elif due.instead_of is None:
             yield Step(ruleset.source, span, f"{when}{says(due)}", {}, number)

@@ -65,7 +65,7 @@ def in_words(timeline: Timeline) -> Iterator[str]:
         told.append((moment.time, _up_to(moment.time, lasts) + _happens(moment), []))
         for due in moment.due:
             if due.overdue and due.start > moment.time:
-                late.append((due.start, _up_to(due.start, lasts), f"{says(due)} in place of {due.instead_of}"))
+                late.append((due.start, _up_to(due.start, lasts), f"in place of {due.instead_of}, {says(due)}"))
             elif due.instead_of is None:
                 told[-1][2].append(f"  {says(due)}")
     for time, up_to, owed in sorted(late, key=lambda one: one[0]):

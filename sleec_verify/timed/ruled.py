@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from sleec_runtime.model import Measure, names_of
@@ -24,11 +24,52 @@ def ruled(timeline: Timeline, laws: Sequence[tuple[str, Law]], measures: Mapping
     for place, moment in enumerate(moments):
         here = _Here(moment, moments[:place], [due for due in demands if _covers(due, moment.time)], measures)
         said = list(here.says(laws, settled=place != timeline.now))
+        said += _spread([*moment.due, *said], laws, measures)
         speaking = [law for _, law in laws if _tells(law, moment, said)]
         named = {name for law in speaking for formula in formulas_of_law(law) for name in names_of(formula)}
         telling = tuple(name for name in moment.conditions if name in moment.telling or name in named)
         moments[place] = replace(moment, due=(*moment.due, *said), telling=telling)
     return replace(timeline, moments=tuple(moments))
+
+
+def _spread(dues: Sequence[Due], laws: Sequence[tuple[str, Law]], measures: Mapping[str, Measure]) -> Iterator[Due]:
+    """What is forbidden as long as something else is, that laws have to occur with it."""
+    ahead = [due for due in dues if due.negated and (due.end is None or due.start < due.end)]
+    known = {(due.event, due.start, due.end) for due in ahead}
+    while ahead:
+        due = ahead.pop(0)
+        for name, law in laws:
+            events = set(events_of(law))
+            for event in sorted(events - {due.event}) if due.event in events else ():
+                window = (event, due.start, due.end)
+                # What conditions and measures will be is not known.
+                at_any_time = Moment(due.start, (), {}, ())
+                if window not in known and not _possible(law, at_any_time, measures, [event], but=due.event):
+                    known.add(window)
+                    words = f"NOT {event} without {due.event}"
+                    ahead.append(Due(name, 0, words, event, True, due.start, due.end, law=law.span))
+                    yield ahead[-1]
+
+
+def _possible(
+    law: Law,
+    moment: Moment,
+    measures: Mapping[str, Measure],
+    done: Collection[str],
+    besides: str | None = None,
+    but: str | None = None,
+) -> bool:
+    """Whether a law allows what is done at a moment, with an event besides, or without one."""
+    formula = Formula()
+    instant = Instant(
+        formula, measures, formula.true, Fixed(moment.time, frozenset(), moment.conditions, complete=False)
+    )
+    formula.clauses += clauses_at(instant, law)
+    assumed = [instant.event(name) for name in sorted({*done, *([] if besides is None else [besides])})]
+    assumed += [] if but is None else [-instant.event(but)]
+    instant.settle()
+    with MiniSat(formula.clauses) as solver:
+        return solver.solve(assumed) is not False
 
 
 def _covers(due: Due, time: int) -> bool:
@@ -62,7 +103,7 @@ class _Here:
             grew = False
             for name, law in laws:
                 for event in sorted(set(events_of(law)) - self._done):
-                    if self._follows(law, event, self._done):
+                    if self._allows(law, self._done) and not self._allows(law, self._done, but=event):
                         grew = True
                         self._done.add(event)
                         yield self._said(name, law, event, event)
@@ -83,34 +124,22 @@ class _Here:
         if isinstance(law, EventRelation) and law.relation == "happenBefore":
             came = any(law.left in moment.events for moment in self._before)
             return event == law.right and not came
-        return self._follows(law, event, set(self._moment.events), negated=True)
+        events = self._moment.events
+        return self._allows(law, events) and not self._allows(law, events, besides=event)
 
     def _excluded(self, law: Law) -> list[str]:
         """A minimal set of events that are due at once, and that a law forbids together."""
         due = sorted((self._done - set(self._moment.events)).intersection(events_of(law)))
-        if self._possible(law, self._done):
+        if self._allows(law, self._done):
             return []
         kept = set(due)
         for event in due:
-            if not self._possible(law, {*self._moment.events, *(kept - {event})}):
+            if not self._allows(law, {*self._moment.events, *(kept - {event})}):
                 kept.discard(event)
         return sorted(kept)
 
-    def _follows(self, law: Law, event: str, done: set[str], negated: bool = False) -> bool:
-        return self._possible(law, done) and not self._possible(law, done, -1 if not negated else 1, event)
-
-    def _possible(self, law: Law, done: set[str], sign: int = 1, event: str | None = None) -> bool:
-        """Whether a law allows what is done here, with an event besides (`sign` -1: without it)."""
-        formula = Formula()
-        fixed = Fixed(self._moment.time, frozenset(), self._moment.conditions, complete=False)
-        instant = Instant(formula, self._measures, formula.true, fixed)
-        formula.clauses += clauses_at(instant, law)
-        assumed = [instant.event(name) for name in sorted(done)]
-        if event is not None:
-            assumed.append(sign * instant.event(event))
-        instant.settle()
-        with MiniSat(formula.clauses) as solver:
-            return solver.solve(assumed) is not False
+    def _allows(self, law: Law, done: Collection[str], besides: str | None = None, but: str | None = None) -> bool:
+        return _possible(law, self._moment, self._measures, done, besides, but)
 
     def _said(self, name: str, law: Law, event: str, words: str) -> Due:
         time = self._moment.time

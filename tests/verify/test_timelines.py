@@ -40,7 +40,7 @@ def test_what_falls_due_in_place_of_what_was_not_done_is_told_with_its_time():
         "  r calls for B within 2 minutes, otherwise C",
         "  s forbids C within 5 minutes",
         "  t forbids B within 10 minutes",
-        "after 2 minutes, r calls for C in place of B",
+        "after 2 minutes, in place of B, r calls for C",
         "and then there is no way to keep every rule",
     ]
     assert heads.split() == ["0", "s", "now", "2", "min"]
@@ -51,7 +51,7 @@ def test_what_falls_due_in_place_of_what_was_not_done_is_told_with_its_time():
 
 def test_what_falls_due_has_a_window_of_its_own():
     words, heads, rows = told(OTHERWISE.replace("{otherwise}", "C WITHIN 1 minute"), "r")
-    assert "after 2 minutes, r calls for C within 1 minute in place of B" in words
+    assert "after 2 minutes, in place of B, r calls for C within 1 minute" in words
     assert rows["C"][heads.index("2 min") :].startswith("!!")
 
 
@@ -59,7 +59,7 @@ def test_what_falls_due_has_a_window_of_its_own():
 def test_the_hedges_of_what_falls_due_are_decided_by_the_moment(given, due):
     text = OTHERWISE.replace("{otherwise}", "(C UNLESS p IN WHICH CASE E)").replace("WHEN A", f"WHEN A AND {given}")
     words, _, rows = told(text.replace("NOT C", f"NOT {due}"), "r")
-    assert f"after 2 minutes, r calls for {due} in place of B" in words
+    assert f"after 2 minutes, in place of B, r calls for {due}" in words
     assert {"C", "E"} & rows.keys() == {due}
 
 
@@ -77,7 +77,7 @@ RULE s WHEN F THEN NOT C WITHIN 10 seconds
 RULE t WHEN C THEN NOT F
 """
     words, _, _ = told(text, "s")
-    assert words[2].startswith("after 2 minutes, r calls for C")
+    assert words[2].startswith("after 2 minutes, in place of B, r calls for C")
     assert words[3].startswith("after 4 minutes 50 seconds, F occurs")
 
 
@@ -87,12 +87,12 @@ RULE s WHEN D THEN B WITHIN 1 minute
 RULE t WHEN D THEN NOT C WITHIN 5 minutes
 """
     words, _, _ = told(text, "r")
-    assert "after 2 minutes, r calls for C in place of NOT B" in words
+    assert "after 2 minutes, in place of NOT B, r calls for C" in words
 
 
 def test_the_steps_to_the_finding_tell_of_it_too():
     ruleset, finding = conflict(OTHERWISE.replace("{otherwise}", "C"), "r")
-    assert "after 2 minutes, r calls for C in place of B" in [step.words for step in steps(ruleset, finding)]
+    assert "after 2 minutes, in place of B, r calls for C" in [step.words for step in steps(ruleset, finding)]
 
 
 RELATED = {
@@ -132,6 +132,30 @@ def test_what_a_relation_forbids_or_calls_for_is_told_and_marked(text):
     assert any(words.endswith(says) for words in there)
 
 
+def test_what_must_not_occur_without_what_is_forbidden_is_told_for_as_long():
+    text = """RELATION Give WITNESSES Wake
+RELATION Wake WITNESSES Noise
+RULE r WHEN Due THEN Give WITHIN 30 minutes
+RULE s WHEN Sleeps THEN NOT Noise WITHIN 1 hour
+"""
+    words, heads, rows = told(text, "r")
+    assert "  the relation in line 2 forbids Wake without Noise" in words
+    assert "  the relation in line 1 forbids Give without Wake" in words
+    assert rows["Give"][heads.index("0 s") :].startswith("!!!!")
+
+
+def test_a_rule_that_meets_what_it_called_for_before():
+    text = "RULE r WHEN A THEN B WITHIN 10 minutes UNLESS p IN WHICH CASE NOT B WITHIN 2 hours\n"
+    _, finding = conflict(text, "r")
+    assert finding.message == "r can be triggered where it cannot be kept together with what it called for before"
+    assert finding.help == "decide which should give way, and say so with a hedge"
+
+
+def test_a_relation_gives_way_to_nothing():
+    _, finding = conflict("RELATION A EXCLUDES B\nRULE q WHEN A THEN C EVENTUALLY\nRULE r WHEN T THEN B\n", "r")
+    assert finding.help == "give r a hedge for this case, or mend what it cannot be kept with"
+
+
 @pytest.mark.parametrize("seed", range(150))
 def test_what_is_told_of_a_law_is_so(seed):
     """The evaluator of traces, which knows nothing of timelines, finds the law broken where it is not heeded."""
@@ -146,7 +170,10 @@ def test_what_is_told_of_a_law_is_so(seed):
             called = [d for d in called if d.law is None and (d.overdue or d.instead_of is None)]
             done = {*moment.events, *(d.event for d in called)}
             for due in (due for due in moment.due if due.law is not None):
-                if due.negated:
+                spread = " without " in due.words
+                if spread:
+                    events = frozenset({due.event})
+                elif due.negated:
                     together = {d.event for d in moment.due if (d.law, d.words) == (due.law, due.words)}
                     events = frozenset({*moment.events, *together})
                 else:
@@ -154,5 +181,5 @@ def test_what_is_told_of_a_law_is_so(seed):
                     done.add(due.event)
                 trace = Trace((*before, Instant(moment.time, events, moment.conditions)))
                 # More may occur at the same time, but for what is called for.
-                found = broken_so_far(ruleset, trace) if due.negated else broken(ruleset, trace)
+                found = broken_so_far(ruleset, trace) if due.negated and not spread else broken(ruleset, trace)
                 assert due.law in [one.statement.span for one in found]

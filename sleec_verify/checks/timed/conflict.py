@@ -15,6 +15,8 @@ from sleec_verify.timed.conflicts import conflict
 from sleec_verify.timed.ruled import ruled
 from sleec_verify.timed.traces import Traces
 
+_BEFORE = "what it called for before"
+
 
 def _conflicts(cones: Cones) -> Iterator[Finding]:
     """A finding for each rule that, triggered now after a history that breaks nothing, leaves no way to go on that
@@ -27,6 +29,8 @@ def _conflicts(cones: Cones) -> Iterator[Finding]:
             return
         others = [name for name in history.matter if name != rule.label]
         words = in_words(known, others)
+        if not others and sum(rule.trigger in moment.events for moment in history.timeline.moments) > 1:
+            words = [_BEFORE]
         laws = laws_in(known, others)
         now = history.timeline.moments[-1]
         unasked = sorted(_unasked(known, history.matter) & (set(now.events) - {rule.trigger}))
@@ -38,7 +42,7 @@ def _conflicts(cones: Cones) -> Iterator[Finding]:
             obligations=tuple(sorted(_contested(known, history.matter))),
             witness=Witness(now.events, now.conditions),
             timeline=ruled(history.timeline, laws, known.ruleset.measures),
-            help=_help(bool(words), unasked),
+            help=_help(rule, words, rules_in(known, others), unasked),
             related=tuple((span, "with this one") for span in _places(known, others)),
         )
 
@@ -54,8 +58,11 @@ def _places(cones: Traces, matter: Sequence[str]) -> list[Span]:
     ]
 
 
-def _help(others: bool, unasked: list[str]) -> str:
-    mend = "decide which should give way, and say so with a hedge" if others else "mend the response"
+def _help(rule: Rule, words: list[str], rules: tuple[str, ...], unasked: list[str]) -> str:
+    if words and not rules and words != [_BEFORE]:
+        mend = f"give {rule.label} a hedge for this case, or mend what it cannot be kept with"
+    else:
+        mend = "decide which should give way, and say so with a hedge" if words else "mend the response"
     if not unasked:
         return mend
     they = "it is" if len(unasked) == 1 else "they are"
