@@ -34,6 +34,7 @@ class TokenReader:
         self.source = source
         self.problems = problems
         self.text = source.text
+        self.tokens = tokens
         self.kinds = tokens.kinds
         self.starts = tokens.starts
         self.ends = tokens.ends

@@ -16,15 +16,19 @@ class DefinitionParser(FormulaParser):
 
     constants: dict[str, tuple[Side, Constant]]
 
-    def definition(self) -> Declaration | Measure | Constant:
-        kind = self.kinds[self.at]
-        if kind == "event":
-            return self._event()
-        return self._measure() if kind == "measure" else self._constant()
-
-    def _event(self) -> Declaration:
+    def definition(self, has_keyword: bool = True) -> Declaration | Measure | Constant:
+        """The definition at hand, which may lack its keyword."""
         first = self.at
-        self.at += 1
+        kind = self.kinds[first]
+        if has_keyword:
+            self.at += 1
+        else:
+            self.kinds[first] = "word"
+        if kind == "event":
+            return self._event(first)
+        return self._measure(first) if kind == "measure" else self._constant(first)
+
+    def _event(self, first: int) -> Declaration:
         name = self.name("the name of an event")
         span = self.token_span(self.at - 1)
         agent: Agent | None = None
@@ -39,9 +43,7 @@ class DefinitionParser(FormulaParser):
         self.names.define("event", name, span)
         return Declaration("event", (name,), self.span(first), (span,), self.comments_of(first), agent)
 
-    def _measure(self) -> Declaration | Measure:
-        first = self.at
-        self.at += 1
+    def _measure(self, first: int) -> Declaration | Measure:
         name = self.name("the name of a measure")
         name_span = self.token_span(self.at - 1)
         self.require(":", "a colon after the name of the measure", f"as in: measure {name}: boolean")
@@ -90,9 +92,7 @@ class DefinitionParser(FormulaParser):
             )
         return values, spans
 
-    def _constant(self) -> Constant:
-        first = self.at
-        self.at += 1
+    def _constant(self, first: int) -> Constant:
         name = self.name("the name of a constant")
         name_span = self.token_span(self.at - 1)
         if self.kinds[self.at] != "operator" or self.token_text(self.at) != "=":

@@ -6,10 +6,12 @@ Definitions are read first, wherever their block stands; then everything in the 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TypeVar, cast
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.dsl.cursor import ITEM_STARTS
+from sleec_runtime.language.dsl.misspelt import misspelt
 from sleec_runtime.language.dsl.names import Names
 from sleec_runtime.language.dsl.relations import RelationParser
 from sleec_runtime.language.dsl.scanner import BLOCKS, DEFINITIONS, UNNAMED, scan, sniff
@@ -98,13 +100,18 @@ class DslParser(RelationParser):
     def _definitions(self) -> dict[int, tuple[Statement | None, int]]:
         """The definitions by the token they start at, each with the token behind it."""
         defined: dict[int, tuple[Statement | None, int]] = {}
+        wrong = {one.token: one for one in misspelt(self.source.text, self.tokens)}
+        for token, one in wrong.items():
+            self.kinds[token] = one.keyword
+            self.problems.append(Problem(one.message, self.token_span(token), one.hint))
         inside = False
         for token, kind in enumerate(self.kinds):
             if kind in BLOCKS or kind in BLOCKS.values():
                 inside = kind == "def_start"
             elif inside and kind in DEFINITIONS:
                 self.at = token
-                statement = self._read(self.definition, "the next definition")
+                has_keyword = token not in wrong or wrong[token].has_keyword
+                statement = self._read(partial(self.definition, has_keyword), "the next definition")
                 self.names.complete = self.names.complete and statement is not None
                 defined[token] = statement, self.at
         self.names.define_constants(self.constants)

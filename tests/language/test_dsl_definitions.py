@@ -1,0 +1,55 @@
+"""Definitions in the DSL: what is wrong with one keeps nobody from reading the others."""
+
+from __future__ import annotations
+
+import pytest
+
+from sleec_runtime.errors import LanguageError
+from sleec_runtime.language import parse
+
+RULES = """
+rule_start
+  R1 when A and m then B within K minutes
+rule_end
+"""
+
+
+def problems_of(definitions: str) -> list[tuple[int, str]]:
+    """The line and the message of each problem."""
+    with pytest.raises(LanguageError) as caught:
+        parse(f"def_start\n{definitions}\ndef_end{RULES}")
+    return [(caught.value.source.place(p.span).line, p.message) for p in caught.value.problems]
+
+
+def misspellings(word: str) -> list[str]:
+    """`word` with a letter left out, doubled, in capitals, or changed places with the next."""
+    cut = [word[:i] + word[i + 1 :] for i in range(len(word))]
+    doubled = [word[:i] + word[i] + word[i:] for i in range(len(word))]
+    swapped = [word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in range(len(word) - 1) if word[i] != word[i + 1]]
+    return [*cut, *doubled, *swapped, word.upper(), word.capitalize()]
+
+
+@pytest.mark.parametrize("separator", ["\n", " "])
+@pytest.mark.parametrize("word", ["event", "measure", "constant"])
+def test_each_misspelt_keyword_is_told_and_its_definition_read(word: str, separator: str) -> None:
+    for misspelling in misspellings(word):
+        right = ["event A", "event B", "measure m: boolean", "constant K = 5"]
+        written = [line.replace(word, misspelling) for line in right]
+        wrong = sum(line != other for line, other in zip(right, written))
+        problems = problems_of(separator.join(written))
+        assert [message for _, message in problems] == [f"no definition begins with `{misspelling}`"] * wrong
+
+
+def test_a_keyword_that_is_left_out_is_told_and_the_definition_read() -> None:
+    definitions = "event A\nevent B\nm: boolean\nK = 5"
+    assert problems_of(definitions) == [
+        (4, "`m` is defined without a keyword"),
+        (5, "`K` is defined without a keyword"),
+    ]
+
+
+def test_a_definition_of_several_lines_is_no_misspelt_one() -> None:
+    parse(
+        "def_start event\nA as\nsystem\nevent\nB as environment measure m\n: boolean measure s: scale(\nlow,\nhigh) "
+        f"constant K =\nL constant L = 5 def_end{RULES}"
+    )
