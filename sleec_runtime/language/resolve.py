@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from sleec_runtime.errors import Problem
+from sleec_runtime.language.circles import circular
 from sleec_runtime.language.suggest import Suggester
 from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import (
@@ -114,13 +115,8 @@ class Names:
                 self.constants[name] = constant
         if name in chain and name not in self.constants:
             side, _ = written[name]
-            circle = list(chain)[list(chain).index(name) :]
-            self.problem(
-                f"the constant {quoted(name)} is defined by itself"
-                + (f", by way of {', '.join(quoted(other) for other in circle[1:4])}" if len(circle) > 1 else ""),
-                side.span,
-                "give one of them a number",
-            )
+            message, hint = circular(list(chain)[list(chain).index(name) :], "CONSTANT")
+            self.problem(message, side.span, hint)
             self.constants[name] = written[name][1]
         value = self.constants[name].value
         for link in chain:

@@ -195,9 +195,15 @@ def test_a_measure_without_a_definition_that_is_compared_with_a_value_of_a_scale
     with pytest.raises(LanguageError) as caught:
         rules("R1 when A and {m} = low then B unless rism = low unless ({x} = low)")
     assert [(problem.message, problem.hint) for problem in caught.value.problems] == [
-        ("`m` is no scale, and `low` is a value of `risk`: they cannot be compared", SCALE_OR_NUMBER),
+        (
+            "`m` is a boolean measure (line 5), true or false, and not compared with `low`",
+            "write m alone, or not m; `risk` can be low < middle < high",
+        ),
         ("there is no measure `rism`", "did you mean `risk`?"),
-        ("`x` is no scale, and `low` is a value of `risk`: they cannot be compared", SCALE_OR_NUMBER),
+        (
+            "`x` is a numeric measure (line 7), and `low` is a value of `risk` (line 8): they cannot be compared",
+            SCALE_OR_NUMBER,
+        ),
     ]
 
 
@@ -458,7 +464,7 @@ def test_what_is_no_value_of_a_scale_is_read_by_its_place(written, rank, said):
 
 def test_neither_a_constant_in_braces_nor_a_measure_is_a_place_in_a_scale():
     for written in ("{K}", "{n}", "n"):
-        with pytest.raises(LanguageError, match="is no value of `one`"):
+        with pytest.raises(LanguageError, match="no value of `one`"):
             parse(
                 "def_start\nevent A\nmeasure one: scale(a, b)\nmeasure n: numeric\nconstant K = 1\ndef_end\n"
                 f"rule_start\nR1 when A and ({{one}} > {written}) then A\nrule_end\n"

@@ -53,3 +53,27 @@ def test_a_definition_of_several_lines_is_no_misspelt_one() -> None:
         "def_start event\nA as\nsystem\nevent\nB as environment measure m\n: boolean measure s: scale(\nlow,\nhigh) "
         f"constant K =\nL constant L = 5 def_end{RULES}"
     )
+
+
+@pytest.mark.parametrize(
+    ("definitions", "message"),
+    [
+        ("constant L = L", "the constant `L` is defined as itself, so it has no value"),
+        ("constant L = -> L", "the constant `L` is defined as itself, so it has no value"),
+        (
+            "constant L = M constant M = L",
+            "constants that are defined in a circle, `L` = `M` = `L`, have no value",
+        ),
+        (
+            "constant L = M constant M = N constant N = O constant O = N",
+            "constants that are defined in a circle, `N` = `O` = `N`, have no value",
+        ),
+        (
+            "".join(f"constant L{n} = L{(n + 1) % 9} " for n in range(9)),
+            "constants that are defined in a circle, `L0` = `L1` = `L2` = `L3` = ... = `L0`, have no value",
+        ),
+    ],
+)
+def test_a_circle_of_constants_is_named_once(definitions: str, message: str) -> None:
+    others = "event A event B measure m: boolean constant K = 5"
+    assert problems_of(f"{others} {definitions}") == [(2, message)]

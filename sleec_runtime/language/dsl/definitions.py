@@ -6,6 +6,7 @@ from sleec_runtime.language.dsl.formulas import FormulaParser
 from sleec_runtime.language.dsl.operands import Side
 from sleec_runtime.language.suggest import nearest
 from sleec_runtime.language.token_reader import quoted
+from sleec_runtime.language.units import UNITS
 from sleec_runtime.model import Agent, Constant, Declaration, Measure, Span
 
 _TYPES = ("boolean", "numeric", "scale")
@@ -98,10 +99,30 @@ class DefinitionParser(FormulaParser):
         if self.kinds[self.at] != "operator" or self.token_text(self.at) != "=":
             self.expected("= after the name of the constant", f"as in: constant {name} = 18")
         self.at += 1
-        side = self._side("a whole number or the name of another constant")
+        what = "a whole number or the name of another constant"
+        if self.kinds[self.at] in ("true", "false"):
+            self.expected(what, f"what is true or false is a measure: measure {name}: boolean")
+        side = self._side(what)
+        self._refuse_more_than_number(name)
         alias = side.written if isinstance(side.written, str) else None
         value = 0 if isinstance(side.written, str) else side.written
         constant = Constant(name, value, alias, self.span(first), self.comments_of(first))
         if self.names.define("constant", name, name_span):
             self.constants[name] = (side, constant)
         return constant
+
+    def _refuse_more_than_number(self, name: str) -> None:
+        """A constant has neither a unit nor a calculation behind its number."""
+        written = self.token_text(self.at)
+        if written in UNITS:
+            self.fail(
+                f"a constant is a number, without {quoted(written)}",
+                self.token_span(self.at),
+                f"the unit stands where the constant is used, as in: within {name} {written}",
+            )
+        if self.kinds[self.at] in ("+", "-", "*"):
+            self.fail(
+                "a constant is a number, and not calculated",
+                self.token_span(self.at),
+                f"write what it comes to, as in: constant {name} = 18",
+            )

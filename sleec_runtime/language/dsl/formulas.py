@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.dsl.cursor import Cursor
-from sleec_runtime.language.dsl.names import Names
 from sleec_runtime.language.dsl.operands import Calculation, Operand, Side
+from sleec_runtime.language.dsl.terms import Terms
 from sleec_runtime.language.formulas import MAX_DIGITS, OPERATORS
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.token_reader import quoted
@@ -21,7 +21,7 @@ MAX_CALCULATION = 400
 class FormulaParser(Cursor):
     """Reads conditions."""
 
-    def __init__(self, source: Source, tokens: Tokens, dialect: Dialect, problems: list[Problem], names: Names) -> None:
+    def __init__(self, source: Source, tokens: Tokens, dialect: Dialect, problems: list[Problem], names: Terms) -> None:
         super().__init__(source, tokens, dialect, problems)
         self.names = names
 
@@ -78,7 +78,7 @@ class FormulaParser(Cursor):
         left = self.operand("a condition")
         if self.kinds[self.at] != "operator":
             if isinstance(left, Calculation) or not isinstance(left.written, str):
-                self.expected("a comparison such as < or >= after the number", "as in: (({x} + 1) > 3)")
+                self.expected("a comparison such as < or >= after the number", self._compared(left))
             if not self.hurt:
                 self.names.boolean(left.written, left.span)
             return Atom("condition", left.written, left.span)
@@ -110,12 +110,22 @@ class FormulaParser(Cursor):
         value = self.kinds[self.at] == "true"
         self.at += 1
         span = self.span(first)
-        if operator not in ("=", "!=") or not (isinstance(left, Side) and isinstance(left.written, str)):
-            self.fail("true and false have no order", span, "write the measure alone, or not and the measure")
+        if not (isinstance(left, Side) and isinstance(left.written, str)):
+            self.fail("a number is neither true nor false", span, self._compared(left))
         if not self.hurt:
+            before = len(self.problems)
             self.names.boolean(left.written, left.span)
+            self.hurt = len(self.problems) > before
+        if operator not in ("=", "!="):
+            self.fail("true and false have no order", span, f"write {left.written} alone, or not {left.written}")
         atom = Atom("condition", left.written, left.span)
         return atom if value == (operator == "=") else Not(atom, span)
+
+    def _compared(self, number: Operand) -> str:
+        """How to compare a number that stands where a condition must."""
+        if isinstance(number, Side):
+            return f"as in: {self.names.numeric_example()} > {number.written}"
+        return f"as in: {self.text[number.span.start : number.span.end]} > 3"
 
     # Calculations ---------------------------------------------------------------------------------------------
 

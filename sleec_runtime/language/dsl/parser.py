@@ -12,9 +12,9 @@ from typing import TypeVar, cast
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.dsl.cursor import ITEM_STARTS
 from sleec_runtime.language.dsl.misspelt import misspelt
-from sleec_runtime.language.dsl.names import Names
 from sleec_runtime.language.dsl.relations import RelationParser
 from sleec_runtime.language.dsl.scanner import BLOCKS, DEFINITIONS, UNNAMED, scan, sniff
+from sleec_runtime.language.dsl.terms import Terms
 from sleec_runtime.language.garbage import uncollected
 from sleec_runtime.language.resolve import first_problems
 from sleec_runtime.language.token_reader import Abandon
@@ -41,7 +41,7 @@ def parse_dsl(source: Source) -> Ruleset:
     with uncollected():
         tokens = scan(source.text)
         dialect = sniff(tokens)
-        names = Names(source, problems, "def_start" in tokens.kinds)
+        names = Terms(source, problems, "def_start" in tokens.kinds)
         statements = DslParser(source, tokens, dialect, problems, names).statements()
     if problems:
         names.count_uses()
