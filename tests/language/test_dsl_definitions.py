@@ -77,3 +77,20 @@ def test_a_definition_of_several_lines_is_no_misspelt_one() -> None:
 def test_a_circle_of_constants_is_named_once(definitions: str, message: str) -> None:
     others = "event A event B measure m: boolean constant K = 5"
     assert problems_of(f"{others} {definitions}") == [(2, message)]
+
+
+OTHERS = "event A event B measure m: boolean measure n: numeric constant K = 5"
+
+
+@pytest.mark.parametrize(
+    ("name", "what"), [("A", "an event"), ("m", "a boolean measure"), ("n", "a measure"), ("K", "a constant")]
+)
+def test_a_value_of_a_scale_is_called_like_nothing_else(name: str, what: str) -> None:
+    scale = f"measure s: scale(low, {name})"
+    of_scale = "a value of the scale of `s`"
+    assert problems_of(f"{OTHERS}\n{scale}") == [(3, f"`{name}` is {of_scale} here, and {what} in line 2")]
+    assert problems_of(f"{scale}\n{OTHERS}") == [(3, f"`{name}` is {what} here, and {of_scale} in line 2")]
+
+
+def test_scales_may_share_values() -> None:
+    parse(f"def_start {OTHERS} measure s: scale(low, high) measure t: scale(low, middle, high) def_end{RULES}")

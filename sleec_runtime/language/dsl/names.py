@@ -41,6 +41,8 @@ class Names:
         self._problems = problems
         self._spans: dict[str, Span] = {}
         self._owners: dict[str, str] = {}
+        self._values: dict[str, tuple[str, Span]] = {}
+        """Each value of a scale with the first measure that has it, and the place of that."""
         self._labels: dict[str, tuple[Span, int]] = {}
         self._refs: dict[str, MeasureRef] = {}
         self._defined = defined
@@ -82,8 +84,22 @@ class Names:
                     "each value of a scale has one place in it",
                 )
             seen.add(value)
+            self._values.setdefault(value, (measure.name, value_span))
             # As in the tools of others, a literal of the wrong scale counts by its place in the last scale with it.
             self._owners[value] = measure.name
+
+    def check_values(self) -> None:
+        """A value of a scale is called like nothing else: a comparison could mean either. Scales may share values."""
+        for value in self._values.keys() & self.kinds.keys():
+            owner, span = self._values[value]
+            of_scale, other = f"a value of the scale of {quoted(owner)}", _ARTICLE[self.kinds[value]]
+            first = self._spans[value]
+            here, there, place = (of_scale, other, first) if span > first else (other, of_scale, span)
+            self.problem(
+                f"{quoted(value)} is {here} here, and {there} in line {self.line(place)}",
+                max(span, first),
+                "rename one of them",
+            )
 
     def define_constants(self, written: dict[str, tuple[Side, Constant]]) -> None:
         """The constants with their values: each is a number or the value of another, wherever that stands."""

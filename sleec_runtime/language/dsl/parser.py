@@ -114,6 +114,7 @@ class DslParser(RelationParser):
                 statement = self._read(partial(self.definition, has_keyword), "the next definition")
                 self.names.complete = self.names.complete and statement is not None
                 defined[token] = statement, self.at
+        self.names.check_values()
         self.names.define_constants(self.constants)
         return defined
 

@@ -207,6 +207,9 @@ class Terms(Names):
         for side, other in ((left, right), (right, left)):
             if not isinstance(side.written, str) or self.kinds.get(side.written) != "boolean":
                 continue
+            scale = self._scale(other)
+            if scale is not None and side.written in scale.values:
+                return False
             self.problem(
                 f"{self.described(side.written)}, true or false, and not compared with {quoted(str(other.written))}",
                 side.span,
