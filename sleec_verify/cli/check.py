@@ -14,7 +14,7 @@ from sleec_verify.cli.inputs import files, rulesets
 from sleec_verify.cli.output import complain, report
 from sleec_verify.finding import SEVERITIES, Severity
 from sleec_verify.report import FORMATS
-from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, tally
+from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, tally, told_of
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset
@@ -147,7 +147,7 @@ def _realizability(
 def _exit_code(outcomes: Sequence[Outcome], fail_level: Severity) -> int:
     if any(isinstance(outcome, Unusable) for outcome in outcomes):
         return exits.UNUSABLE
-    counts = tally(outcomes)
+    counts = tally(told_of(outcomes))
     if any(counts[severity] for severity in SEVERITIES[: SEVERITIES.index(fail_level) + 1]):
         return exits.FINDINGS
     return exits.UNKNOWN if any(outcome.undecided for outcome in checked(outcomes)) else exits.HOLDS

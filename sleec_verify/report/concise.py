@@ -16,7 +16,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """A line for each finding and each check without a verdict, in the order of the rulesets and their texts."""
     for outcome in checked(outcomes):
         rules = outcome.ruleset.source
-        for finding in outcome.findings:
+        for finding in outcome.told:
             source = finding.source or rules
             place = source.place(finding.span)
             label = palette(finding.severity, f"{finding.severity}[{finding.code}]")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from sleec_verify.finding import SEVERITIES
 from sleec_verify.report.excerpt import Mark, excerpt
-from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, counted, tally
+from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, counted, tally, told_of
 from sleec_verify.report.words import listed, witness_text
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """The findings of each ruleset and a line on it; at the end, if there are several, a line on all."""
     for outcome in checked(outcomes):
         source = outcome.ruleset.source
-        for finding in outcome.findings:
+        for finding in outcome.told:
             yield from (line + "\n" for line in finding_lines(finding, finding.source or source, palette))
             yield "\n"
         for name, why in outcome.unlisted:
@@ -106,4 +106,4 @@ def _gravest(outcome: Checked) -> str:
 
 
 def _counts(outcomes: Sequence[Outcome]) -> str:
-    return ", ".join(counted(number, severity) for severity, number in tally(outcomes).items())
+    return ", ".join(counted(number, severity) for severity, number in tally(told_of(outcomes)).items())

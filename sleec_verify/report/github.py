@@ -25,7 +25,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             for path, message, place in troubles(outcome):
                 yield _annotation("error", path, place, "not a usable ruleset", message)
             continue
-        for finding in outcome.findings:
+        for finding in outcome.told:
             source = finding.source or outcome.ruleset.source
             text = "\n".join([finding.message, *described(finding)])
             title = f"{finding.code} {finding.check}"

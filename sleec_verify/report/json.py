@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Union
 
 from sleec_verify import __version__
 from sleec_verify.finding import Proved, Refuted, Unknown
-from sleec_verify.report.outcome import Outcome, Unusable, counted, tally
+from sleec_verify.report.outcome import Outcome, Unusable, checked, counted, tally
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
@@ -24,7 +24,7 @@ Json = Union[None, bool, int, float, str, "list[Json]", "dict[str, Json]"]
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """The object of the design: tool, rulesets, summary."""
     del palette  # a program reads this
-    counts = tally(outcomes)
+    counts = tally(finding for outcome in checked(outcomes) for finding in outcome.findings)
     yield dump(
         {
             "tool": {"name": "sleec-verify", "version": __version__},

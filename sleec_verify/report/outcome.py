@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Union
 
 from sleec_verify.finding import SEVERITIES, Unknown
+from sleec_verify.report.told import told_once
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
@@ -27,6 +28,11 @@ class Checked(NamedTuple):
         """All findings, in the order of the texts, that of the rules first; at one place, the gravest first."""
         found = (finding for result in self.results for finding in result.findings)
         return sorted(found, key=lambda f: (_path(f), f.span, SEVERITIES.index(f.severity), f.code))
+
+    @property
+    def told(self) -> list[Finding]:
+        """The findings as people are told of them: once, where two checks find the same."""
+        return told_once(self.findings)
 
     @property
     def undecided(self) -> list[tuple[str, str]]:
@@ -63,19 +69,22 @@ def checked(outcomes: Sequence[Outcome]) -> Iterator[Checked]:
     return (outcome for outcome in outcomes if isinstance(outcome, Checked))
 
 
-def tally(outcomes: Sequence[Outcome]) -> dict[Severity, int]:
+def tally(findings: Iterable[Finding]) -> dict[Severity, int]:
     """How many findings there are of each severity."""
     counts: dict[Severity, int] = dict.fromkeys(SEVERITIES, 0)
-    for outcome in checked(outcomes):
-        for result in outcome.results:
-            for finding in result.findings:
-                counts[finding.severity] += 1
+    for finding in findings:
+        counts[finding.severity] += 1
     return counts
+
+
+def told_of(outcomes: Sequence[Outcome]) -> list[Finding]:
+    """All that people are told."""
+    return [finding for outcome in checked(outcomes) for finding in outcome.told]
 
 
 def in_short(outcomes: Sequence[Outcome]) -> str:
     """``2 rulesets: 1 error, no warnings, no notes, 1 unknown, 1 unusable``; the last two where there are any."""
-    parts = [counted(number, severity) for severity, number in tally(outcomes).items()]
+    parts = [counted(number, severity) for severity, number in tally(told_of(outcomes)).items()]
     undecided = sum(len(outcome.undecided) for outcome in checked(outcomes))
     unusable = sum(isinstance(outcome, Unusable) for outcome in outcomes)
     parts += [f"{number} {word}" for number, word in ((undecided, "unknown"), (unusable, "unusable")) if number]
