@@ -4,8 +4,8 @@ The printer writes lines that start with a keyword, so a comment belongs to the 
 of its own to the next, one behind rules, or in the middle of them, to the one before it. Nothing is lost by printing.
 
 An empty string among the comments above a line stands for an empty line, so that a file's heading stays apart from its
-first rule. DOMAIN and READING are no statements of the model; a comment above them is kept, with such a gap, for the
-statement after them.
+first rule. Below the begin of a block, a line break does: what stands above it is no heading. DOMAIN and READING are no
+statements of the model; a comment above them is kept, with a gap, for the statement after them.
 """
 
 from __future__ import annotations
@@ -16,6 +16,9 @@ from typing import NamedTuple
 
 from sleec_runtime.language.keywords import LINE_STARTS, SETTINGS
 from sleec_runtime.model import NO_COMMENTS, Comments
+
+INNER_GAP = "\n"
+"""An empty line among comments below the begin of a block."""
 
 
 class Remark(NamedTuple):
@@ -40,7 +43,7 @@ def attach(
     """The comments of each token that starts a line of rules, and those that come after the last one.
 
     `line_starts` are the kinds of the tokens that start a line; those of `settings` among them keep no comments. What
-    stands right below one of `openings` is not divided by empty lines, so that all of it stays there.
+    stands right below one of `openings` is not divided by empty lines into a heading and the rest.
     """
     attached: dict[int, Comments] = {}
     pending: list[str] = []
@@ -50,8 +53,10 @@ def attach(
 
     def hand_over(token: int) -> None:
         """The pending comments stand above `token`, which starts a line of rules."""
-        if kinds[token] in settings or is_divided(starts[token]):
+        if kinds[token] in settings:
             _leave_gap(pending)
+        elif is_divided(starts[token]):
+            _leave_gap(pending, gap())
         if kinds[token] not in settings:
             before = attached.get(token, NO_COMMENTS)
             attached[token] = Comments(before.above + tuple(pending), before.behind)
@@ -59,7 +64,10 @@ def attach(
 
     def is_divided(start: int) -> bool:
         """Whether an empty line before this place tells comments apart."""
-        return text.count("\n", end_before, start) > 1 and (line < 0 or kinds[line] not in openings)
+        return text.count("\n", end_before, start) > 1
+
+    def gap() -> str:
+        return INNER_GAP if line >= 0 and kinds[line] in openings else ""
 
     for remark in remarks:
         while seen < remark.token:
@@ -80,7 +88,7 @@ def attach(
                 attached[owner] = Comments((*before.above, words), before.behind)
         else:
             if pending and is_divided(remark.start):
-                _leave_gap(pending)
+                _leave_gap(pending, gap())
             pending.append(words)
             if behind:
                 _leave_gap(pending)
@@ -97,6 +105,6 @@ def _words(text: str, remark: Remark) -> str:
     return text[remark.start + marker : remark.end].strip()
 
 
-def _leave_gap(pending: list[str]) -> None:
-    if pending[-1]:
-        pending.append("")
+def _leave_gap(pending: list[str], gap: str = "") -> None:
+    if pending[-1].strip():
+        pending.append(gap)

@@ -4,26 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from sleec_runtime.language.comments import INNER_GAP
+
 
 def split_heading(above: Sequence[str], has_settings: bool) -> tuple[Sequence[str], Sequence[str]]:
     """The comments above a statement: those above the DOMAIN or READING line before it, and those below that.
 
     An empty string is an empty line; the last one divides the two.
     """
-    above = _without_leading(above)
-    if not has_settings or "" not in above:
-        return (), above
-    gap = len(above) - 1 - above[::-1].index("")
-    return above[:gap], above[gap + 1 :]
+    gaps = [n for n, comment in enumerate(above) if not comment.strip() and comment != INNER_GAP]
+    if not has_settings or not gaps:
+        return (), _without_leading(above)
+    return trimmed(above[: gaps[-1]]), _without_leading(above[gaps[-1] + 1 :])
 
 
-def _without_leading(comments: Sequence[str]) -> list[str]:
+def with_gaps(comments: Sequence[str]) -> list[str]:
+    """Comments with an empty line wherever there are some, at the beginning and at the end, too."""
     found: list[str] = []
     for comment in comments:
         text = " ".join(comment.splitlines()).strip()
-        if text or (found and found[-1]):
+        if text or not found or found[-1]:
             found.append(text)
     return found
+
+
+def _without_leading(comments: Sequence[str]) -> list[str]:
+    found = with_gaps(comments)
+    return found[1:] if found and not found[0] else found
 
 
 def trimmed(comments: Sequence[str]) -> list[str]:

@@ -1,7 +1,8 @@
 """From values back to text in the DSL, in one canonical form: what is printed parses to the same ruleset.
 
-A definition, rule, hedge, claim or relation a line. LEGOS's dialect has measures in braces and every operation in
-parentheses; SLEEC-TK's has as few parentheses as it can be read with.
+A definition, rule, hedge, claim or relation a line, and an empty one between two statements where the author left some.
+LEGOS's dialect has measures in braces and every operation in parentheses; SLEEC-TK's has as few parentheses as it can
+be read with.
 """
 
 from __future__ import annotations
@@ -11,14 +12,13 @@ from collections.abc import Iterator, Sequence
 
 from sleec_runtime.errors import Unsayable
 from sleec_runtime.language.formula_printer import print_number
-from sleec_runtime.language.line_printer import behind, comment_lines, split_heading, trimmed
+from sleec_runtime.language.line_printer import behind, comment_lines, split_heading, trimmed, with_gaps
 from sleec_runtime.language.token_reader import MAX_DEPTH
 from sleec_runtime.model import (
     And,
     Atom,
     Calculated,
     Clause,
-    Comments,
     Comparison,
     Constant,
     Declaration,
@@ -66,7 +66,7 @@ class _Printer:
         block: str | None = None
         for statement in ruleset.statements:
             own = _block(statement)
-            above: Sequence[str] = trimmed(statement.comments.above)
+            above: Sequence[str] = with_gaps(statement.comments.above)
             if own != block:
                 heading, above = split_heading(statement.comments.above, True)
                 if block is not None:
@@ -75,7 +75,7 @@ class _Printer:
                 yield from comment_lines(heading)
                 yield f"{own}_start"
                 block = own
-            self._begin(_INDENT, "", Comments(tuple(above), statement.comments.behind))
+            self._begin(_INDENT, "", above, statement.comments.behind)
             self._statement(statement)
             self._end()
             yield from self._done
@@ -90,12 +90,12 @@ class _Printer:
 
     # Lines ----------------------------------------------------------------------------------------------------
 
-    def _begin(self, indent: str, text: str, comments: Comments) -> None:
-        """A new line, with the comments above it."""
+    def _begin(self, indent: str, text: str, above: Sequence[str], remark: str | None) -> None:
+        """A new line, with the comments above it, and the one behind."""
         self._end()
-        self._done += [indent + line if line else line for line in comment_lines(trimmed(comments.above))]
+        self._done += [indent + line if line else line for line in comment_lines(above)]
         self._line = indent + text
-        self._remark = comments.behind
+        self._remark = remark
 
     def _end(self) -> None:
         if self._line:
@@ -167,7 +167,8 @@ class _Printer:
 
     def _hedge(self, hedge: Clause, indent: str) -> None:
         assert hedge.condition is not None, "a hedge has a condition"
-        self._begin(indent, f"unless {self.formula(hedge.condition)}", hedge.comments)
+        comments = hedge.comments
+        self._begin(indent, f"unless {self.formula(hedge.condition)}", trimmed(comments.above), comments.behind)
         if hedge.obligations or hedge.hedges:
             self._line += " then "
             self._response(hedge, indent)

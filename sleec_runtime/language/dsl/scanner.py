@@ -6,6 +6,7 @@ import re
 from array import array
 
 from sleec_runtime.language.comments import Remark, attach
+from sleec_runtime.language.dsl.gaps import keep_gaps
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.units import UNITS
 from sleec_runtime.model import Dialect
@@ -35,6 +36,8 @@ _UNFINISHED = DEFINITIONS | {
 
 LINE_STARTS = BLOCK_MARKS | DEFINITIONS | {"label", "relation", "unless"}
 """The kinds of token that begin a line where the printer writes one."""
+
+_STATEMENTS = DEFINITIONS | {"label", "relation"}
 
 _TOKEN = re.compile(
     r"\s+|//[^\n]*|/\*(?s:.*?)\*/|[^\W\d]\w*|[0-9]+(?:\.[0-9]+)?(?!\w)|\d\w*"
@@ -79,6 +82,7 @@ def scan(text: str) -> Tokens:
         ends.append(len(text))
     _mark_relations(text, kinds, starts, ends)
     comments, closing = attach(remarks, text, kinds, starts, ends, LINE_STARTS, BLOCK_MARKS, BLOCKS)
+    keep_gaps(text, kinds, starts, ends, comments, _STATEMENTS, BLOCK_MARKS)
     return Tokens(kinds, starts, ends, comments, closing)
 
 
