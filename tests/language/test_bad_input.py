@@ -29,6 +29,11 @@ def test_problems_are_as_written_down(path: Path) -> None:
     assert problems_of(path) == path.with_suffix(".txt").read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize("path", sorted(BAD.glob("dsl-plain-*.txt")), ids=lambda path: path.stem)
+def test_what_people_write_in_plain_words_is_told_with_what_helps(path: Path) -> None:
+    assert "(no hint)" not in path.read_text(encoding="utf-8")
+
+
 if __name__ == "__main__":
     for bad in sorted(BAD.glob("*.sleec")):
         bad.with_suffix(".txt").write_text(problems_of(bad), encoding="utf-8")

@@ -6,6 +6,7 @@ from typing import NoReturn
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.dsl.scanner import BLOCK_MARKS, BLOCKS, DEFINITIONS, KEYWORDS, UNNAMED
+from sleec_runtime.language.dsl.slips import MEANT, WHEN, Found, help_with
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.suggest import nearest
 from sleec_runtime.language.token_reader import MAX_DEPTH, MAX_NAME, TokenReader, composed, quoted
@@ -21,16 +22,17 @@ _INSTEAD = {
     "|": "write or",
     "||": "write or",
     "!": "write not, or <> between two values",
-    "=>": "write >=",
+    "=>": "write >= to compare, or then before a response",
     "=<": "write <=",
-    ";": "rules need no punctuation between them; leave it out",
-    ".": "whole numbers only; leave out the full stop",
+    ";": "there is no punctuation between rules or definitions; leave it out",
+    ".": "there is no punctuation between rules or definitions, and no dot in a name; leave it out",
     "#": "comments start with //",
     "/": "comments start with //",
     "/*": "close this comment with */",
     '"': "write names without quotation marks",
-    "'": "write names without quotation marks",
+    **dict.fromkeys("'`\u2018\u2019\u201c\u201d\u00ab\u00bb", "write names without quotation marks"),
 }
+_DEFINE = "a definition begins with event, measure or constant, as in: event SmokeDetected"
 
 
 class Cursor(TokenReader):
@@ -57,13 +59,14 @@ class Cursor(TokenReader):
         written = self.token_text(at)
         if kind in ("strange", "/*") and written in _INSTEAD:
             self.fail(f"unexpected {quoted(written)}", self.token_span(at), _INSTEAD[written])
+        hint = self._help_with(what) or hint
         if kind == "word":
             meant = written.lower() if written.lower() in KEYWORDS else nearest(written, _SUGGESTED)
-            if meant is not None and meant in what.split():
+            if meant is not None and meant in MEANT.get(what, what.split()):
                 self.fail(
                     f"{quoted(written)} is no keyword; did you mean {meant}?",
                     self.token_span(at),
-                    "keywords are written in small letters",
+                    "keywords are written in small letters" if written.lower() == meant else f"write {meant}",
                 )
         if kind in ITEM_STARTS:
             end = self.ends[at - 1] if at else 0
@@ -74,6 +77,16 @@ class Cursor(TokenReader):
                 hint or self._unsaid(kind),
             )
         self.fail(f"expected {what}, but found {quoted(written)}", self.token_span(at), hint)
+
+    def _help_with(self, what: str) -> str | None:
+        """What to do about the token at hand where `what` is expected, if that can be told."""
+        at = self.at
+        if at == 0 or self.kinds[at] == "end":
+            return None
+        begins_line = "\n" in self.text[self.ends[at - 1] : self.starts[at]]
+        return help_with(
+            what, Found(begins_line, self.kinds[at - 1], self.kinds[at], self.token_text(at), self.token_text(at + 1))
+        )
 
     def _unsaid(self, kind: str) -> str | None:
         name = "R1" if self.item == "rule" else f"{self.item[0]}1"
@@ -100,13 +113,13 @@ class Cursor(TokenReader):
             self.fail(
                 f"expected {what}, but found {quoted(self.token_text(at))}: a name begins with a letter",
                 self.token_span(at),
-                hint,
+                self._help_with(what) or hint,
             )
         if kind in KEYWORDS and kind not in ITEM_STARTS:
             self.fail(
                 f"expected {what}, but found the keyword {kind}",
                 self.token_span(at),
-                hint or "a keyword cannot be a name",
+                hint if hint and not hint.startswith("as in") else "a keyword cannot be a name",
             )
         if kind != "word":
             self.expected(what, hint)
@@ -147,17 +160,44 @@ class Cursor(TokenReader):
             return
         if kind in (")", "}", "]"):
             self.fail(f"this closing {quoted(kind)} has no opening one", self.token_span(self.at), "delete it")
+        if "rule" in what and "\n" in self.text[self.ends[self.at - 1] : self.starts[self.at]]:
+            self.refuse_begin_of_rule()
         self.expected(what, self._begins_wrong(what))
 
-    def _begins_wrong(self, what: str) -> str | None:
-        """What to do about a line that begins with a word that begins nothing."""
+    def refuse_begin_of_rule(self) -> None:
+        """Gives up where the line at hand begins nearly as a rule does."""
         at = self.at
-        if self.kinds[at] != "word" or "\n" not in self.text[self.ends[at - 1] : self.starts[at]]:
+        first, second = self.token_text(at), self.token_text(at + 1)
+        example = "a rule looks like this: R1 when Event then Response"
+        if self.kinds[at] in ("number", "digits"):
+            self.fail("the name of a rule begins with a letter", self.token_span(at), example)
+        if self.kinds[at] != "word":
+            return
+        if first.lower() in ("rule", "rules"):
+            self.fail(f"{quoted(first)} does not stand before the name of a rule", self.token_span(at), example)
+        for token in (at, at + 1):
+            word = self.token_text(token).lower()
+            if self.kinds[token] == "word" and (word in WHEN or word == "when" or nearest(word, ("when",))):
+                said = f"{quoted(self.token_text(token))} is no keyword; did you mean when?"
+                self.fail(said, self.token_span(token), example)
+        if self.kinds[at + 1] == "word" and self.kinds[at + 2] in ("then", "and"):
+            self.fail(f"when is missing before {quoted(second)}", self.token_span(at + 1), example)
+        if self.kinds[at + 1] in ("number", "strange", ",", ")", "-") and "\n" not in second:
+            said = f"the name of a rule has letters, digits and _ only, and here comes {quoted(second)}"
+            self.fail(said, self.token_span(at + 1), example)
+
+    def _begins_wrong(self, what: str) -> str | None:
+        """What to do about a word, or a line of them, that begins nothing."""
+        at = self.at
+        begins_line = "\n" in self.text[self.ends[at - 1] : self.starts[at]]
+        if "definition" in what:
+            meant = nearest(self.token_text(at).lower(), sorted(DEFINITIONS)) if begins_line else None
+            return f"did you mean {meant}?" if meant is not None else _DEFINE
+        if "rule" not in what:
             return None
-        if "rule" in what:
+        if begins_line and self.kinds[at] == "word":
             return "a rule begins with its name and when: R1 when Event then Response"
-        meant = nearest(self.token_text(at).lower(), sorted(DEFINITIONS)) if "definition" in what else None
-        return f"did you mean {meant}?" if meant is not None else None
+        return "behind a response comes within, otherwise, else, unless or the next rule"
 
     def end_of_block(self, opened: int) -> None:
         """Reads the keyword that closes the block of token `opened`, or says that it is missing."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sleec_runtime.language.dsl.formulas import FormulaParser
 from sleec_runtime.language.dsl.operands import Side
+from sleec_runtime.language.dsl.slips import type_meant
 from sleec_runtime.language.suggest import nearest
 from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.language.units import UNITS
@@ -30,7 +31,7 @@ class DefinitionParser(FormulaParser):
         return self._measure(first) if kind == "measure" else self._constant(first)
 
     def _event(self, first: int) -> Declaration:
-        name = self.name("the name of an event")
+        name = self.name("the name of an event", "as in: event SmokeDetected")
         span = self.token_span(self.at - 1)
         agent: Agent | None = None
         if self.kinds[self.at] == "word" and self.token_text(self.at) == "as":
@@ -47,14 +48,14 @@ class DefinitionParser(FormulaParser):
     def _measure(self, first: int) -> Declaration | Measure:
         name = self.name("the name of a measure")
         name_span = self.token_span(self.at - 1)
-        self.require(":", "a colon after the name of the measure", f"as in: measure {name}: boolean")
+        self.require(":", "a colon after the name of the measure", self._without_colon(name))
         at_type = self.at
         written = self.token_text(at_type)
         if self.kinds[at_type] != "word" or written not in _TYPES:
-            near = nearest(written, _TYPES) if self.kinds[at_type] == "word" else None
+            near = type_meant(written) or nearest(written, _TYPES) if self.kinds[at_type] == "word" else None
             self.expected(
                 "boolean, numeric or scale(...)",
-                f"did you mean {near}?" if near else "as in: measure riskLevel: scale(low, medium, high)",
+                f"did you mean {near}?" if near else f"as in: measure {name}: scale(low, medium, high)",
             )
         self.at += 1
         comments = self.comments_of(first)
@@ -68,17 +69,27 @@ class DefinitionParser(FormulaParser):
         self.names.define_measure(measure, name_span, spans)
         return measure
 
+    def _without_colon(self, name: str) -> str:
+        """What to do where no colon stands behind the name of a measure."""
+        if self.token_text(self.at) == ",":
+            return f"define each by itself, as in: measure {name}: boolean"
+        written = self.token_text(self.at + (self.kinds[self.at] != "word"))
+        its = {"numeric": "numeric", "scale": "scale(low, medium, high)"}.get(type_meant(written) or written, "boolean")
+        return (
+            f"as in: measure {self.token_text(self.at) if name in _TYPES else name}: {name if name in _TYPES else its}"
+        )
+
     def _scale(self) -> tuple[list[str], list[Span]]:
         opened = self.at
         self.require("(", "the values of the scale in parentheses", "as in: scale(low, medium, high)")
         values: list[str] = []
         spans: list[Span] = []
         while True:
-            values.append(self.name("a value of the scale"))
+            values.append(self.name("a value of the scale", "as in: scale(low, medium, high)"))
             spans.append(self.token_span(self.at - 1))
             if not self.accept(","):
                 break
-        if self.kinds[self.at] == "word" or self.token_text(self.at) == ";":
+        if self.kinds[self.at] in ("word", "operator") or self.token_text(self.at) == ";":
             self.fail(
                 f"expected a comma between the values of the scale, but found {quoted(self.token_text(self.at))}",
                 self.token_span(self.at),
@@ -94,7 +105,7 @@ class DefinitionParser(FormulaParser):
         return values, spans
 
     def _constant(self, first: int) -> Constant:
-        name = self.name("the name of a constant")
+        name = self.name("the name of a constant", "as in: constant LIMIT = 18")
         name_span = self.token_span(self.at - 1)
         if self.kinds[self.at] != "operator" or self.token_text(self.at) != "=":
             self.expected("= after the name of the constant", f"as in: constant {name} = 18")

@@ -8,6 +8,8 @@ from __future__ import annotations
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.dsl.cursor import Cursor
 from sleec_runtime.language.dsl.operands import Calculation, Operand, Side
+from sleec_runtime.language.dsl.scanner import KEYWORDS
+from sleec_runtime.language.dsl.slips import COMPARING, before_measure
 from sleec_runtime.language.dsl.terms import Terms
 from sleec_runtime.language.formulas import MAX_DIGITS, OPERATORS
 from sleec_runtime.language.scanner import Tokens
@@ -79,10 +81,32 @@ class FormulaParser(Cursor):
         if self.kinds[self.at] != "operator":
             if isinstance(left, Calculation) or not isinstance(left.written, str):
                 self.expected("a comparison such as < or >= after the number", self._compared(left))
+            self._refuse_plain_words(left)
             if not self.hurt:
                 self.names.boolean(left.written, left.span)
             return Atom("condition", left.written, left.span)
         return self._comparison(first, left)
+
+    def _refuse_plain_words(self, left: Side) -> None:
+        """Gives up where a name is a keyword in capitals, or is a word before or behind a measure that says in plain
+        words what an operator would: that it is no condition is not what is wrong."""
+        self._refuse_capitals(left)
+        name, kind, written = str(left.written), self.kinds[self.at], self.token_text(self.at)
+        unknown = kind in ("strange", "digits", "number", ":") or (
+            written.lower() in COMPARING and written not in self.names.kinds
+        )
+        if unknown and self.names.kinds.get(name) in ("measure", "constant"):
+            self.expected("then and a response")
+        hint = before_measure(name) if name not in self.names.kinds and kind == "word" else None
+        if hint is not None:
+            self.fail(f"expected a condition, but found {quoted(name)}", left.span, hint)
+
+    def _refuse_capitals(self, side: Side) -> None:
+        """Gives up where a name without a definition is a keyword in another case."""
+        word = str(side.written)
+        if word not in self.names.kinds and word not in KEYWORDS and word.lower() in KEYWORDS:
+            said = f"{quoted(word)} is no keyword; did you mean {word.lower()}?"
+            self.fail(said, side.span, "keywords are written in small letters")
 
     def _comparison(self, first: int, left: Operand) -> Formula:
         operator = OPERATORS[self.token_text(self.at)]
@@ -90,6 +114,8 @@ class FormulaParser(Cursor):
         if self.kinds[self.at] in ("true", "false"):
             return self._truth_of(first, left, operator)
         right = self.operand("a number or a name to compare with")
+        if isinstance(right, Side):
+            self._refuse_capitals(right)
         span = self.span(first)
         if self.kinds[self.at] == "operator":
             self.fail(
@@ -190,6 +216,8 @@ class FormulaParser(Cursor):
         if kind == "{":
             self.at += 1
             name = self.name("the name of a measure", "braces hold one measure: {riskLevel}")
+            if self.kinds[self.at] in ("and", "or", "operator"):
+                self.expected("a closing brace", f"braces hold one measure: {{{name}}} {self.token_text(self.at)} ...")
             self.close("}", first)
             return Side(name, self.span(first), True)
         if kind == "->":
@@ -198,7 +226,7 @@ class FormulaParser(Cursor):
         if kind == "number" or kind == "-":
             return Side(self.number(), self.span(first))
         if kind in ("and", "or", "then"):
-            self.expected(what, f"there is nothing before {kind}")
+            self.expected(what, f"something is missing before {kind}")
         return Side(self.name(what), self.span(first))
 
     def number(self) -> int:

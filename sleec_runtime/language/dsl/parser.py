@@ -160,6 +160,8 @@ class DslParser(RelationParser):
                     self.token_span(keyword),
                     "write when, or move it to the concerns or purposes",
                 )
+            if block == "rule_start":
+                self.refuse_begin_of_rule()
             self.expected(f"{what}", hint)
         except Abandon:
             self.at += 1

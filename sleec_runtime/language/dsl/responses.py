@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
+from sleec_runtime.language.dsl.cursor import ITEM_STARTS
 from sleec_runtime.language.dsl.definitions import DefinitionParser
 from sleec_runtime.language.dsl.operands import Side
+from sleec_runtime.language.dsl.slips import before_event, number_for, unit_for
 from sleec_runtime.language.token_reader import ALTERNATIVE_LEVELS, Abandon, quoted
 from sleec_runtime.language.units import UNITS, unit_meant
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Number, Obligation, Span
@@ -71,6 +73,7 @@ class ResponseParser(DefinitionParser):
         if self.kinds[at_name] == "{":
             self.expected("the name of an event", "a response is an event; braces hold a measure or a whole chain")
         name = self.name("the name of an event", self._hint_at_response())
+        self._refuse_word_before_event(at_name)
         if not self.hurt:
             self.names.event(name, self.token_span(at_name), "a response")
         kind = self.kinds[self.at]
@@ -92,7 +95,19 @@ class ResponseParser(DefinitionParser):
         return Obligation(name, negated, self.span(first), self._timing(window, alternatives))
 
     def _hint_at_response(self) -> str | None:
-        return "say what is to be done" if self.kinds[self.at] in ("unless", "within", "otherwise") else None
+        kind = self.kinds[self.at]
+        if kind in ("within", "eventually"):
+            return f"first comes the event: Response {kind}{' 5 minutes' if kind == 'within' else ''}"
+        return "say what is to be done, as in: then Response" if kind in ITEM_STARTS | {"unless", "otherwise"} else None
+
+    def _refuse_word_before_event(self, at_name: int) -> None:
+        """Gives up where `at_name`, which was read as the name of an event, is a word before one."""
+        word = self.token_text(at_name)
+        if word in self.names.kinds or self.kinds[self.at] not in ("word", "strange"):
+            return
+        hint = "write not in small letters" if word.lower() == "not" else before_event(word)
+        if hint is not None:
+            self.fail(f"expected the name of an event, but found {quoted(word)}", self.token_span(at_name), hint)
 
     def _timing(self, window: Window | None, alternatives: dict[str, Clause]) -> Timing | None:
         if window is None and not alternatives:
@@ -143,6 +158,7 @@ class ResponseParser(DefinitionParser):
         first = self.at
         if self.kinds[first] == "[" or (self.token_text(first) in UNITS and self.kinds[first + 1] != "word"):
             self.expected("a number before the unit", "as in: within 5 minutes")
+        self._refuse_plain_numbers()
         side = self.operand("a length of time, such as 5 minutes")
         amount = None if self.hurt else self.names.amount(side)
         if isinstance(side, Side) and isinstance(side.written, int) and side.written < 0:
@@ -166,9 +182,23 @@ class ResponseParser(DefinitionParser):
             )
         return Length(amount, unit, span)
 
+    def _refuse_plain_numbers(self) -> None:
+        """Gives up where a number is written as a word, or a window with two ends has no brackets."""
+        at, what = self.at, "a length of time, such as 5 minutes"
+        word = self.token_text(at)
+        hint = number_for(word, self.token_text(at + 1)) if word not in self.names.kinds else None
+        if hint is not None:
+            self.expected(what, hint)
+        if self.kinds[at] == "(" and self.kinds[at + 2] == ",":
+            self.expected(what, "a window with two ends has brackets, as in: within [1, 5] minutes")
+        if self.kinds[at] in ITEM_STARTS:
+            self.expected(what, "as in: within 5 minutes")
+
     def _unit(self) -> Unit:
         if self.kinds[self.at] != "word" or self.token_text(self.at) not in UNITS:
             written = self.token_text(self.at)
+            if self.kinds[self.at] == "number":
+                self.expected("a comma or a unit after the number", "as in: within [1, 5] minutes")
             if self.kinds[self.at] != "word":
                 self.expected("a unit after the number: seconds, minutes, hours or days", "as in: within 5 minutes")
             if "\n" in self.text[self.ends[self.at - 1] : self.starts[self.at]]:
@@ -178,7 +208,8 @@ class ResponseParser(DefinitionParser):
             self.fail(
                 f"there is no unit {quoted(written)}",
                 self.token_span(self.at),
-                f"did you mean {near}?" if near else "the units are seconds, minutes, hours and days",
+                unit_for(written)
+                or (f"did you mean {near}?" if near else "the units are seconds, minutes, hours and days"),
             )
         unit = self.token_text(self.at)
         self.at += 1
