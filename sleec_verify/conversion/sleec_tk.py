@@ -6,9 +6,6 @@ from collections.abc import Iterable, Iterator
 
 from sleec_runtime.model import (
     Clause,
-    Constant,
-    Declaration,
-    Measure,
     Obligation,
     Rule,
     Ruleset,
@@ -18,7 +15,7 @@ from sleec_runtime.model import (
 )
 from sleec_runtime.model_time import RELATIONS, Claim
 from sleec_verify.calculations import refuse_unsayable_calculations
-from sleec_verify.conversion.to_dsl import refuse
+from sleec_verify.conversion.to_dsl import defined_by, refuse
 from sleec_verify.timed.program import responses_of
 
 
@@ -46,12 +43,7 @@ def has_untimed(statements: Iterable[Statement]) -> bool:
 
 def taken_names(statements: Iterable[Statement]) -> list[str]:
     """The names that SLEEC-TK's editor refuses, as the processes that it makes of rules have them."""
-    names: set[str] = set()
-    for statement in statements:
-        if isinstance(statement, Declaration):
-            names.update(statement.names)
-        elif isinstance(statement, (Measure, Constant)):
-            names.add(statement.name)
+    names = {name for statement in statements for name in defined_by(statement)[:1]}
     return sorted(names & _TAKEN)
 
 

@@ -8,9 +8,11 @@ from dataclasses import replace
 from typing import NoReturn
 
 from sleec_runtime.errors import Unsayable
+from sleec_runtime.language.dsl.dialects import NAMES_OF_SLEEC_TK
 from sleec_runtime.language.dsl.scanner import KEYWORDS
 from sleec_runtime.model import (
     NO_COMMENTS,
+    NOWHERE,
     Agent,
     And,
     Atom,
@@ -35,6 +37,7 @@ from sleec_verify.conversion.rules import narrow, split
 from sleec_verify.report.words import listed
 from sleec_verify.timed.names import beside_rules
 
+_RENAME = "rename it first, everywhere in the rules"
 _NAME = re.compile(r"[^\W\d]\w*")
 
 
@@ -57,6 +60,7 @@ def in_dsl(ruleset: Ruleset, dialect: Dialect) -> tuple[Ruleset, list[str]]:
         if ruleset.dialect != "sleec-tk" and has_untimed(statements):
             notes.append("a response without a window is due at once here, and for SLEEC-TK at some time from then on")
     else:
+        _refuse_keywords_of_legos(ruleset, statements)
         statements = [with_formulas(s, _in_pairs) for s in statements]
     converted = replace(
         ruleset, statements=tuple(statements), syntax="dsl", dialect=dialect, inferred=(), reading_stated=False
@@ -93,10 +97,10 @@ def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
             if statement.domains is not None:
                 said = f"the DSL has no domains, and {statement.label} has one"
                 refuse(ruleset, said, statement.span, "pick one with --domain")
-            _name(ruleset, statement.label, statement.label_span)
+            _label(ruleset, statement.label, statement.label_span)
             yield from split(replace(statement, comments=_comments(statement), labelled=True), labels)
         elif isinstance(statement, Claim):
-            _name(ruleset, statement.label, statement.label_span)
+            _label(ruleset, statement.label, statement.label_span)
             yield narrow(statement)
         elif isinstance(statement, RELATIONS):
             yield statement
@@ -140,10 +144,40 @@ def _comments(rule: Rule) -> Comments:
     return Comments((*own.above, *default.above, *one_too_many), own.behind or default.behind)
 
 
+def _refuse_keywords_of_legos(ruleset: Ruleset, statements: Iterable[Statement]) -> None:
+    for statement in statements:
+        for name in defined_by(statement):
+            if name in NAMES_OF_SLEEC_TK:
+                span = statement.span if statement.span != NOWHERE else None
+                refuse(
+                    ruleset,
+                    f"\u201c{name}\u201d is a keyword of LEGOS",
+                    span,
+                    _RENAME,
+                )
+
+
+def defined_by(statement: Statement) -> tuple[str, ...]:
+    """The names that a statement defines, values of scales among them."""
+    if isinstance(statement, Declaration):
+        return statement.names
+    if isinstance(statement, Measure):
+        return (statement.name, *statement.values)
+    return (statement.name,) if isinstance(statement, Constant) else ()
+
+
+def _label(ruleset: Ruleset, label: str, span: Span) -> None:
+    if label in NAMES_OF_SLEEC_TK:
+        refuse(ruleset, f"\u201c{label}\u201d is a keyword of the DSL", span, _RENAME)
+    _name(ruleset, label, span)
+
+
 def _name(ruleset: Ruleset, name: str, span: Span | None = None) -> str:
-    if _NAME.fullmatch(name) is None or name in KEYWORDS:
-        what = "is a keyword of the DSL" if name in KEYWORDS else "is no name of the DSL: letters, digits and _ only"
-        refuse(ruleset, f"\u201c{name}\u201d {what}", span, "rename it first, everywhere in the rules")
+    """A name that SLEEC-TK can say; LEGOS has more keywords."""
+    is_keyword = name in KEYWORDS - NAMES_OF_SLEEC_TK
+    if _NAME.fullmatch(name) is None or is_keyword:
+        what = "is a keyword of the DSL" if is_keyword else "is no name of the DSL: letters, digits and _ only"
+        refuse(ruleset, f"\u201c{name}\u201d {what}", span, _RENAME)
     return name
 
 

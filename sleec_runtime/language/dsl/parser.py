@@ -11,9 +11,10 @@ from typing import TypeVar, cast
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.dsl.cursor import ITEM_STARTS
+from sleec_runtime.language.dsl.dialects import dialect_of
 from sleec_runtime.language.dsl.misspelt import misspelt
 from sleec_runtime.language.dsl.relations import RelationParser
-from sleec_runtime.language.dsl.scanner import BLOCKS, DEFINITIONS, UNNAMED, scan, sniff
+from sleec_runtime.language.dsl.scanner import BLOCKS, DEFINITIONS, UNNAMED, scan
 from sleec_runtime.language.dsl.terms import Terms
 from sleec_runtime.language.garbage import uncollected
 from sleec_runtime.language.resolve import first_problems
@@ -40,7 +41,7 @@ def parse_dsl(source: Source) -> Ruleset:
     problems: list[Problem] = []
     with uncollected():
         tokens = scan(source.text)
-        dialect = sniff(tokens)
+        dialect = dialect_of(source.text, tokens)
         names = Terms(source, problems, "def_start" in tokens.kinds)
         statements = DslParser(source, tokens, dialect, problems, names).statements()
     if problems:

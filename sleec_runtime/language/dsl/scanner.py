@@ -9,7 +9,6 @@ from sleec_runtime.language.comments import Remark, attach
 from sleec_runtime.language.dsl.gaps import keep_gaps
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.units import UNITS
-from sleec_runtime.model import Dialect
 
 BLOCKS = {f"{name}_start": f"{name}_end" for name in ("def", "rule", "concern", "purpose", "relation")}
 """The keywords that open a block, each with the one that closes it."""
@@ -156,36 +155,3 @@ def _mark_relations(text: str, kinds: list[str], starts: array[int], ends: array
                 kind == "word" and not of_measures and text[starts[token] : ends[token]] in EVENT_RELATIONS | EFFECTS
             ):
                 kinds[token] = "relation"
-
-
-def sniff(tokens: Tokens) -> Dialect:
-    """The dialect of a text: LEGOS's has measures in braces and constructs of its own, SLEEC-TK's has conditions
-    without braces. A text that has neither is taken for one of LEGOS."""
-    kinds = tokens.kinds
-    bare = False
-    for token, kind in enumerate(kinds):
-        if kind in _LEGOS_ONLY:
-            return "legos"
-        if kind == "{" and kinds[token + 1] == "word" and kinds[token + 2] == "}":
-            if kinds[token - 1] not in ("then", "otherwise"):
-                return "legos"
-        elif kind == "word" and not bare:
-            before = kinds[token - 2] if kinds[token - 1] == "not" else kinds[token - 1]
-            bare = before in ("and", "or", "unless")
-    return "sleec-tk" if bare else "legos"
-
-
-_LEGOS_ONLY = frozenset(
-    {
-        "concern_start",
-        "purpose_start",
-        "relation_start",
-        "exists",
-        "while",
-        "meanwhile",
-        "eventually",
-        "else",
-        "->",
-        "[",
-    }
-)

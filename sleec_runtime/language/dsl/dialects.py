@@ -1,0 +1,73 @@
+"""Which dialect a text is in, and the words that are keywords of one and names in the other."""
+
+from __future__ import annotations
+
+from sleec_runtime.language.dsl.scanner import DEFINITIONS, UNNAMED
+from sleec_runtime.language.scanner import Tokens
+from sleec_runtime.model import Dialect
+
+NAMES_OF_SLEEC_TK = frozenset({"exists", "while", "meanwhile", "until", "for"})
+"""Keywords that only claims and relations have, so that without these they can be names."""
+
+_LEGOS_ONLY = frozenset({"concern_start", "purpose_start", "relation_start", "eventually", "else", "->", "["})
+
+
+def dialect_of(text: str, tokens: Tokens) -> Dialect:
+    """The dialect of a text: LEGOS's has measures in braces and constructs of its own, SLEEC-TK's has conditions
+    without braces. A text that has neither is taken for one of LEGOS.
+
+    Where nothing is of LEGOS, what is defined with one of its keywords for a name is a name in all of `tokens`, which
+    only SLEEC-TK can say.
+    """
+    kinds = tokens.kinds
+    if not _LEGOS_ONLY.isdisjoint(kinds) or _has_measures_in_braces(kinds):
+        return "legos"
+    names = set() if NAMES_OF_SLEEC_TK.isdisjoint(kinds) else _defined(text, tokens)
+    if names:
+        for token, kind in enumerate(kinds):
+            if (kind in NAMES_OF_SLEEC_TK or kind == UNNAMED) and _text(text, tokens, token) in names:
+                kinds[token] = "word"
+        return "sleec-tk"
+    # A claim outside of its block is a mistake of someone who writes LEGOS's dialect.
+    claims = any(kind in ("exists", "while", "meanwhile") for kind in kinds)
+    return "sleec-tk" if not claims and _has_bare_measures(kinds) else "legos"
+
+
+def _defined(text: str, tokens: Tokens) -> set[str]:
+    """The keywords of LEGOS that stand where a definition has a name, or a value of its scale."""
+    kinds = tokens.kinds
+    return {
+        kind
+        for token, kind in enumerate(kinds)
+        if kind in NAMES_OF_SLEEC_TK
+        and token
+        and (
+            kinds[token - 1] in DEFINITIONS
+            or kinds[token - 1] == ","
+            or (kinds[token - 1] == "(" and _text(text, tokens, token - 2) == "scale")
+        )
+    }
+
+
+def _has_measures_in_braces(kinds: list[str]) -> bool:
+    return any(
+        kind == "{"
+        and kinds[token + 1] == "word"
+        and kinds[token + 2] == "}"
+        and kinds[token - 1] not in ("then", "otherwise")
+        for token, kind in enumerate(kinds)
+    )
+
+
+def _has_bare_measures(kinds: list[str]) -> bool:
+    return any(
+        kind == "word" and (kinds[token - 2] if kinds[token - 1] == "not" else kinds[token - 1]) in _JOINING
+        for token, kind in enumerate(kinds)
+    )
+
+
+_JOINING = ("and", "or", "unless")
+
+
+def _text(text: str, tokens: Tokens, token: int) -> str:
+    return text[tokens.starts[token] : tokens.ends[token]]
