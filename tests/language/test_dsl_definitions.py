@@ -1,4 +1,4 @@
-"""Definitions in the DSL: what is wrong with one keeps nobody from reading the others."""
+"""Definitions and rules in the DSL: what is wrong with one keeps nobody from reading the others."""
 
 from __future__ import annotations
 
@@ -94,3 +94,12 @@ def test_a_value_of_a_scale_is_called_like_nothing_else(name: str, what: str) ->
 
 def test_scales_may_share_values() -> None:
     parse(f"def_start {OTHERS} measure s: scale(low, high) measure t: scale(low, middle, high) def_end{RULES}")
+
+
+@pytest.mark.parametrize("word", [*(word for word in misspellings("when") if word != "hen"), "if", "whenever"])
+def test_each_misspelt_when_is_told_and_its_rule_read(word: str) -> None:
+    rules = f"R1 {word} A then B\nR2 when B then A\n  unless m\nR3 {word} B and m then C"
+    with pytest.raises(LanguageError) as caught:
+        parse(f"def_start {OTHERS} def_end\nrule_start\n{rules}\nrule_end")
+    said = f"`{word}` is no keyword; did you mean when?"
+    assert [p.message for p in caught.value.problems] == [said, said, "there is no event `C`"]

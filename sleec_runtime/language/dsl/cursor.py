@@ -6,7 +6,7 @@ from typing import NoReturn
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.dsl.scanner import BLOCK_MARKS, BLOCKS, DEFINITIONS, KEYWORDS, UNNAMED
-from sleec_runtime.language.dsl.slips import MEANT, WHEN, Found, help_with
+from sleec_runtime.language.dsl.slips import MEANT, Found, help_with, means_when
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.suggest import nearest
 from sleec_runtime.language.token_reader import MAX_DEPTH, MAX_NAME, TokenReader, composed, quoted
@@ -160,7 +160,7 @@ class Cursor(TokenReader):
             return
         if kind in (")", "}", "]"):
             self.fail(f"this closing {quoted(kind)} has no opening one", self.token_span(self.at), "delete it")
-        if "rule" in what and "\n" in self.text[self.ends[self.at - 1] : self.starts[self.at]]:
+        if what in MEANT and "\n" in self.text[self.ends[self.at - 1] : self.starts[self.at]]:
             self.refuse_begin_of_rule()
         self.expected(what, self._begins_wrong(what))
 
@@ -176,9 +176,9 @@ class Cursor(TokenReader):
         if first.lower() in ("rule", "rules"):
             self.fail(f"{quoted(first)} does not stand before the name of a rule", self.token_span(at), example)
         for token in (at, at + 1):
-            word = self.token_text(token).lower()
-            if self.kinds[token] == "word" and (word in WHEN or word == "when" or nearest(word, ("when",))):
-                said = f"{quoted(self.token_text(token))} is no keyword; did you mean when?"
+            word = self.token_text(token)
+            if self.kinds[token] == "word" and means_when(word):
+                said = f"{quoted(word)} is no keyword; did you mean when?"
                 self.fail(said, self.token_span(token), example)
         if self.kinds[at + 1] == "word" and self.kinds[at + 2] in ("then", "and"):
             self.fail(f"when is missing before {quoted(second)}", self.token_span(at + 1), example)

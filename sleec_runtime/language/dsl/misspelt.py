@@ -1,6 +1,7 @@
-"""Definitions whose keyword is misspelt, or left out: what was meant can be told by the shape of what follows.
+"""Definitions whose keyword is misspelt, or left out, and rules whose `when` is misspelt: what was meant can be told by
+the shape of the line.
 
-They are read as what they are meant to be, so that the problem is told once, and no name is missing because of it.
+They are read as what they are meant to be, so that the problem is told once, and nothing else is hidden by it.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from sleec_runtime.language.dsl.scanner import BLOCK_MARKS, DEFINITIONS
+from sleec_runtime.language.dsl.slips import means_when
 from sleec_runtime.language.scanner import Tokens
 from sleec_runtime.language.suggest import nearest
 from sleec_runtime.language.token_reader import quoted
@@ -46,6 +48,21 @@ def misspelt(text: str, tokens: Tokens) -> Iterator[Misspelt]:
             found = _at(token, text, tokens)
             if found is not None:
                 yield found
+
+
+def misspelt_whens(text: str, tokens: Tokens) -> Iterator[int]:
+    """The words between the name of a rule, at the begin of a line, and its event that stand for `when`."""
+    kinds = tokens.kinds
+    inside = False
+    for token, kind in enumerate(kinds):
+        if kind in BLOCK_MARKS:
+            inside = kind == "rule_start"
+        elif inside and kind == "word" and kinds[token + 1] == "word" == kinds[token + 2]:
+            line = text[tokens.ends[token - 1] : tokens.starts[token]]
+            one_line = "\n" in line and "\n" not in text[tokens.ends[token] : tokens.starts[token + 1]]
+            name, word = _text(token, text, tokens), _text(token + 1, text, tokens)
+            if one_line and means_when(word) and not means_when(name):
+                yield token + 1
 
 
 def _at(token: int, text: str, tokens: Tokens) -> Misspelt | None:

@@ -12,13 +12,13 @@ from typing import TypeVar, cast
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.dsl.cursor import ITEM_STARTS
 from sleec_runtime.language.dsl.dialects import dialect_of
-from sleec_runtime.language.dsl.misspelt import misspelt
+from sleec_runtime.language.dsl.misspelt import misspelt, misspelt_whens
 from sleec_runtime.language.dsl.relations import RelationParser
 from sleec_runtime.language.dsl.scanner import BLOCKS, DEFINITIONS, UNNAMED, scan
 from sleec_runtime.language.dsl.terms import Terms
 from sleec_runtime.language.garbage import uncollected
 from sleec_runtime.language.resolve import first_problems
-from sleec_runtime.language.token_reader import Abandon
+from sleec_runtime.language.token_reader import Abandon, quoted
 from sleec_runtime.model import Clause, Constant, Formula, Rule, Ruleset, Source, Span, Statement
 from sleec_runtime.model_time import ClaimKind
 
@@ -69,6 +69,7 @@ class DslParser(RelationParser):
         """Everything in the text, in its order; what could not be read is among the problems instead."""
         self.constants = {}
         defined = self._definitions()
+        self._read_misspelt_whens()
         found: list[Statement] = []
         self.at = 0
         rules = 0
@@ -119,6 +120,13 @@ class DslParser(RelationParser):
         self.names.define_constants(self.constants)
         return defined
 
+    def _read_misspelt_whens(self) -> None:
+        for token in misspelt_whens(self.text, self.tokens):
+            self.kinds[token - 1], self.kinds[token] = "label", "when"
+            said = f"{quoted(self.token_text(token))} is no keyword; did you mean when?"
+            hint = "a rule looks like this: R1 when Event then Response"
+            self.problems.append(Problem(said, self.token_span(token), hint))
+
     def _open(self) -> int | None:
         """Reads the keyword that opens a block; None at the end."""
         if self.kinds[self.at] not in BLOCKS:
@@ -145,7 +153,7 @@ class DslParser(RelationParser):
             return self._read(self.relation, "the next relation")
         begins = kind in ("label", UNNAMED)
         keyword = self._keyword() if begins else self.at
-        if block == "rule_start" and begins and self.token_text(keyword) == "when":
+        if block == "rule_start" and begins and (self.kinds[keyword] == "when" or self.token_text(keyword) == "when"):
             return self._rule()
         if block in ("concern_start", "purpose_start") and begins:
             of = cast("ClaimKind", self.item)

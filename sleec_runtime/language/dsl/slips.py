@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from sleec_runtime.language.dsl.scanner import KEYWORDS
+from sleec_runtime.language.suggest import nearest
 from sleec_runtime.language.units import UNITS
 
 COMPARING = frozenset(
@@ -15,8 +17,7 @@ COMPARING = frozenset(
 )
 """Words that people write for a comparison."""
 
-WHEN = frozenset({"if", "whenever", "once", "on"})
-"""Words that people write for the `when` of a rule."""
+_WHEN = frozenset({"when", "if", "whenever", "once", "on"})
 
 _WORDS = ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
 _NUMBERS: Mapping[str, int] = {
@@ -103,6 +104,12 @@ def help_with(what: str, found: Found) -> str | None:
     if what.startswith("a length of time") and written[:1].isdigit() and found.kind == "digits":
         return "write a blank between the number and the unit, as in: within 5 minutes"
     return None
+
+
+def means_when(word: str) -> bool:
+    """Whether a word that is no keyword stands for the `when` of a rule."""
+    plain = word.lower()
+    return plain in _WHEN or (plain not in KEYWORDS and nearest(plain, ("when",)) is not None)
 
 
 def type_meant(written: str) -> str | None:
