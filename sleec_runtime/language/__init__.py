@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 __all__ = ["load", "parse", "parse_source", "print_formula", "print_rule", "print_ruleset", "read_source"]
 
-_DSL_BLOCK = re.compile(r"^[ \t]*(?:def|rule|concern|purpose|relation)_(?:start|end)\b", re.MULTILINE)
+_DSL_BLOCK = re.compile(r"^[ \t]*(?:def|rule|concern|purpose|relation)_(?:start|end)\b", re.MULTILINE | re.IGNORECASE)
+_OPENS = ("_start", "_START", "_Start")
+"""What a text in the DSL has somewhere; in capitals it is a slip, which is told."""
 
 
 def parse(text: str, path: str = "<memory>", sha256: str | None = None) -> Ruleset:
@@ -45,7 +47,7 @@ def load(path: str | Path) -> Ruleset:
 def parse_source(source: Source) -> Ruleset:
     """As `parse`, of a text that has been read already."""
     # In structured English no statement begins with a word in small letters.
-    if "_start" in source.text and _DSL_BLOCK.search(source.text):
+    if any(mark in source.text for mark in _OPENS) and _DSL_BLOCK.search(source.text):
         from sleec_runtime.language.dsl import parse_dsl
 
         return parse_dsl(source)

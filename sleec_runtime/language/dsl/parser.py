@@ -10,19 +10,37 @@ from functools import partial
 from typing import TypeVar, cast
 
 from sleec_runtime.errors import LanguageError, Problem
+from sleec_runtime.language.dsl.blocks import misspelt_marks
 from sleec_runtime.language.dsl.cursor import ITEM_STARTS
 from sleec_runtime.language.dsl.dialects import dialect_of
 from sleec_runtime.language.dsl.misspelt import misspelt, misspelt_whens
-from sleec_runtime.language.dsl.relations import RelationParser
-from sleec_runtime.language.dsl.scanner import BLOCKS, DEFINITIONS, UNNAMED, scan
+from sleec_runtime.language.dsl.relations import OF_MEASURES, RelationParser
+from sleec_runtime.language.dsl.scanner import (
+    BLOCKS,
+    DEFINITIONS,
+    EFFECTS,
+    EVENT_RELATIONS,
+    UNNAMED,
+    mark_relations,
+    scan,
+)
 from sleec_runtime.language.dsl.terms import Terms
 from sleec_runtime.language.garbage import uncollected
 from sleec_runtime.language.resolve import first_problems
+from sleec_runtime.language.scanner import Tokens
+from sleec_runtime.language.suggest import nearest
 from sleec_runtime.language.token_reader import Abandon, quoted
 from sleec_runtime.model import Clause, Constant, Formula, Rule, Ruleset, Source, Span, Statement
 from sleec_runtime.model_time import ClaimKind
 
 _Read = TypeVar("_Read")
+_WHAT = {
+    "def": "definitions",
+    "rule": "rules",
+    "concern": "concerns",
+    "purpose": "purposes",
+    "relation": "relations",
+}
 _BELONGS = {
     "def_start": ("an event, a measure or a constant", "define something, as in: event SmokeDetected"),
     "rule_start": ("a rule", "a rule looks like this: R1 when Event then Response"),
@@ -41,6 +59,7 @@ def parse_dsl(source: Source) -> Ruleset:
     problems: list[Problem] = []
     with uncollected():
         tokens = scan(source.text)
+        _read_misspelt_marks(source, tokens, problems)
         dialect = dialect_of(source.text, tokens)
         names = Terms(source, problems, "def_start" in tokens.kinds)
         statements = DslParser(source, tokens, dialect, problems, names).statements()
@@ -57,6 +76,17 @@ def parse_dsl(source: Source) -> Ruleset:
         source=source,
         closing_comments=tokens.closing,
     )
+
+
+def _read_misspelt_marks(source: Source, tokens: Tokens, problems: list[Problem]) -> None:
+    """Reports the misspelt keywords of blocks, and makes of them in `tokens` what they are meant to be."""
+    for token, mark in misspelt_marks(source.text, tokens):
+        span = Span(tokens.starts[token], tokens.ends[token])
+        written = quoted(source.text[span.start : span.end])
+        problems.append(Problem(f"{written} is no keyword; did you mean {mark}?", span, f"write {mark}"))
+        tokens.kinds[token] = mark
+    if problems:
+        mark_relations(source.text, tokens.kinds, tokens.starts, tokens.ends)
 
 
 class DslParser(RelationParser):
@@ -134,7 +164,10 @@ class DslParser(RelationParser):
             try:
                 if self.kinds[self.at] in BLOCKS.values():
                     self.fail(f"this {self.token_text(self.at)} closes no block", self.token_span(self.at), "delete it")
-                what, block = ("definitions", "def") if self.kinds[self.at] in DEFINITIONS else ("rules", "rule")
+                block, what = next(
+                    ((name, what) for name, what in _WHAT.items() if self.token_text(self.at).lower().startswith(name)),
+                    ("def", "definitions") if self.kinds[self.at] in DEFINITIONS else ("rule", "rules"),
+                )
                 hint = f"{what} stand between {block}_start and {block}_end"
                 self.expected(f"the start of a block, such as {block}_start", hint)
             except Abandon:
@@ -171,11 +204,24 @@ class DslParser(RelationParser):
                 )
             if block == "rule_start":
                 self.refuse_begin_of_rule()
-            self.expected(f"{what}", hint)
+            self.expected(f"{what}", self._hint_at_claim(block) or hint)
         except Abandon:
             self.at += 1
             self.skip(ITEM_STARTS)
             return None
+
+    def _hint_at_claim(self, block: str) -> str | None:
+        """What a claim or relation that begins with the token at hand may be meant to be."""
+        word, second = self.token_text(self.at), self.token_text(self.at + 1)
+        if block == "relation_start":
+            if word in OF_MEASURES:
+                return f"as in: measure {word} ..."
+            near = nearest(word, sorted(EVENT_RELATIONS | EFFECTS))
+            return f"did you mean {near}?" if near is not None else None
+        if block in ("concern_start", "purpose_start") and self.kinds[self.at + 1] == "word":
+            near = nearest(second, ("when", "exists"))
+            return f"did you mean {near} for {quoted(second)}?" if near is not None else None
+        return None
 
     def _keyword(self) -> int:
         """The ``when`` or ``exists`` of the rule or claim that begins here."""

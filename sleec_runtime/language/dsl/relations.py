@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from sleec_runtime.model_time import ClaimForm, ClaimKind, EffectKind, EventRelationKind, MeasureRelationKind
 
 _EVENT_RELATIONS = ("witness", "equal", "mutualExclusive", "happenBefore")
-_MEASURE_RELATIONS = ("imply", "iff", "mutualExclusive", "opposite", "invariant")
+OF_MEASURES = ("imply", "iff", "mutualExclusive", "opposite", "invariant")
+"""The relations of measures, as they are called behind the keyword `measure`."""
 
 
 _NAMED = {
@@ -144,12 +145,12 @@ class RelationParser(ResponseParser):
 
     def _of_measures(self, first: int) -> MeasureRelation:
         word = self.token_text(self.at)
-        if word not in _MEASURE_RELATIONS:
-            near = nearest(word, _MEASURE_RELATIONS)
+        if word not in OF_MEASURES:
+            near = nearest(word, OF_MEASURES)
             self.fail(
                 f"there is no relation measure {quoted(word)}",
                 self.token_span(self.at),
-                f"did you mean {near}?" if near else f"there are {', '.join(_MEASURE_RELATIONS)}",
+                f"did you mean {near}?" if near else f"behind measure comes one of {', '.join(OF_MEASURES)}",
             )
         self.at += 1
         left = self.formula()

@@ -27,7 +27,7 @@ KEYWORDS = (
 EVENT_RELATIONS = frozenset({"witness", "equal", "mutualExclusive", "happenBefore"})
 EFFECTS = frozenset({"causation", "includes", "forbid"})
 
-_UNFINISHED = DEFINITIONS | {
+UNFINISHED = DEFINITIONS | {
     *("when", "exists", UNNAMED, "then", "while", "until", "otherwise", "else", "unless", "within"),
     *("and", "or", "not", "operator", "+", "-", "*", "->", "(", "[", "{", ","),
 }
@@ -79,7 +79,7 @@ def scan(text: str) -> Tokens:
         kinds.append("end")
         starts.append(len(text))
         ends.append(len(text))
-    _mark_relations(text, kinds, starts, ends)
+    mark_relations(text, kinds, starts, ends)
     comments, closing = attach(remarks, text, kinds, starts, ends, LINE_STARTS, BLOCK_MARKS, BLOCKS)
     keep_gaps(text, kinds, starts, ends, comments, _STATEMENTS, BLOCK_MARKS)
     return Tokens(kinds, starts, ends, comments, closing)
@@ -106,7 +106,7 @@ def _ends_response(at: int, text: str, start: int, kinds: list[str], starts: arr
         return False
     before = kinds[at - 1]
     unit = before in ("number", "word", "}", ")", "]") and text[starts[at] : ends[at]] in UNITS
-    if before not in _UNFINISHED and not unit:
+    if before not in UNFINISHED and not unit:
         return False
     return "\n" not in text[ends[at - 1] : starts[at]] or "\n" in text[ends[at] : start]
 
@@ -134,7 +134,7 @@ def _remarks(comment: str, start: int, token: int) -> list[Remark]:
     return found
 
 
-def _mark_relations(text: str, kinds: list[str], starts: array[int], ends: array[int]) -> None:
+def mark_relations(text: str, kinds: list[str], starts: array[int], ends: array[int]) -> None:
     """Marks what begins a relation, which only a block of relations has words of its own for."""
     try:
         at = kinds.index("relation_start")

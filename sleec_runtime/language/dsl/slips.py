@@ -87,6 +87,8 @@ def help_with(what: str, found: Found) -> str | None:
         return "comments start with //"
     if "definition" in what:
         return _in_definitions(found)
+    if found.kind == "{" and what in ("the next concern", "the next purpose"):
+        return "a condition stands behind and: c1 exists Event and {condition}"
     if what in ("unless or the next rule", "the next concern", "the next purpose"):
         if found.before == "word" and found.kind in ("number", "digits"):
             return "write one length of time, in the smaller unit, as in: within 90 minutes"
