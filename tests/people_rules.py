@@ -1,4 +1,4 @@
-"""Random rulesets in the form that people's have: events of the environment, acts of the robot that follow from them and
+"""Random rulesets in the form that people's have: events of the environment, and acts that follow from them and from
 each other, few of them forbidden. Nothing leads back to itself."""
 
 from __future__ import annotations

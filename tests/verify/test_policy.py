@@ -196,6 +196,8 @@ def played(monkeypatch):
             yield plan
 
     monkeypatch.setattr(Search, "_ways", all_played)
+    # What has an answer without a search is played as well.
+    monkeypatch.setattr(Brought, "is_free_now", Brought.is_free)
 
     def run(text, untimed="at"):
         program = Program(parse(text), untimed)
@@ -267,7 +269,7 @@ def test_what_many_policies_do_keeps_all(first, played):
 def without_policies(monkeypatch):
     """Conflicts are looked for without any policy: by instants that each history is continued with."""
     monkeypatch.setattr(Policies, "suiting", lambda *_: None)
-    monkeypatch.setattr(Brought, "_comes_late", lambda *_: False)
+    monkeypatch.setattr(Brought, "comes_late", lambda *_: False)
     monkeypatch.setattr(conflicts, "MOST_PAST", 2)
 
     def no_few_plans(*args):
