@@ -293,7 +293,8 @@ class Lean:
         forbidden: list[_Added],
     ) -> bool:
         program, late, number = self._program, second == inf, len(added)
-        if any(one[:2] == (event, second) and path[: len(one.path)] == one.path for one in added):
+        # Of two that come after all else, the one may come after the other.
+        if not late and any(one[:2] == (event, second) and path[: len(one.path)] == one.path for one in added):
             return True
         if number >= _MOST_ADDED or second <= self._forbidden_until(event, late):
             return False
