@@ -171,6 +171,14 @@ class Brought:
     def _lean(self) -> Lean:
         return Lean(self._program)
 
+    @cached_property
+    def reading(self) -> list[str]:
+        """The events at whose instants it may matter how the measures are."""
+        program = self._program
+        found = {rule.trigger for rule in program.rules if rule.guard is not None or len(list(rule.clauses())) > 1}
+        found.update(law.event for law in program.laws if isinstance(law, Effect))
+        return sorted(found)
+
     def has_measures(self, event: str) -> bool:
         """Whether the laws of the measures leave any at an instant of an event, of which no rule is asked for."""
         known = self._measured.get(event)

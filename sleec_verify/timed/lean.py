@@ -75,9 +75,9 @@ class Lean:
         late = what.end is None or second == inf
         return what.start is not None and second + what.start > self.latest(what.event, late)
 
-    def has_room(self, what: Occurs, second: float = 0) -> bool:
-        """Whether what is called for so many seconds after now can be done at its last second."""
-        end = inf if what.end is None else second + what.end
+    def has_room(self, what: Occurs) -> bool:
+        """Whether what is called for now can be done at its last second."""
+        end = inf if what.end is None else what.end
         return not what.is_empty and end > self.blocked(what.event, end == inf)
 
     # When an event is needed ----------------------------------------------------------------------------------
@@ -255,10 +255,8 @@ class Lean:
 
     def _measured_until(self, event: str, late: bool) -> float:
         """The last second after now at which it may matter to some other event how the measures are."""
-        program = self._program
-        reading = {rule.trigger for rule in program.rules if rule.guard is not None or len(list(rule.clauses())) > 1}
-        reading.update(law.event for law in program.laws if isinstance(law, Effect))
-        return max((self.latest(other, late) for other in sorted(reading - {event})), default=-1.0)
+        others = (other for other in self._brought.reading if other != event)
+        return max((self.latest(other, late) for other in others), default=-1.0)
 
     def _deeper(self, look: Callable[[], float]) -> float:
         if self._depth >= _DEEPEST:
