@@ -26,7 +26,7 @@ class Brought:
         self._due: dict[str, set[Occurs]] = {}
         self._harmless: dict[str, bool] = {}
         self._late: dict[str, bool] = {}
-        self._measured: dict[str, bool] = {}
+        self._measured: dict[tuple[str, bool], bool] = {}
         self.parts: dict[str, list[tuple[Occurs, Occurs | None]]] = {}
         """What each rule demands, and what may be done instead, once a lean way to go on has been looked for."""
 
@@ -179,20 +179,31 @@ class Brought:
         found.update(law.event for law in program.laws if isinstance(law, Effect))
         return sorted(found)
 
-    def has_measures(self, event: str) -> bool:
-        """Whether the laws of the measures leave any at an instant of an event, of which no rule is asked for."""
-        known = self._measured.get(event)
+    def has_measures(self, event: str, calm: bool = False) -> bool:
+        """Whether the laws leave any measures at an instant of an event; `calm`, such that it calls for nothing that
+        cannot be met whatever else is the case."""
+        key = event, calm
+        known = self._measured.get(key)
         if known is None:
-            from sleec_verify.timed.unfolding import Unfolding
-
-            unfolding = Unfolding(self._program, rules={})
-            here = unfolding.instants[unfolding.instant(unfolding.formula.true)]
             try:
-                known = unfolding.ask(here.event(event))
+                known = self._look_for_measures(event, calm)
             except Undecided:
                 known = False
-            self._measured[event] = known
+            self._measured[key] = known
         return known
+
+    def _look_for_measures(self, event: str, calm: bool) -> bool:
+        from sleec_verify.timed.unfolding import Unfolding
+
+        unfolding = Unfolding(self._program, rules={})
+        number = unfolding.instant(unfolding.formula.true)
+        required = [unfolding.instants[number].event(event)]
+        for rule in self._program.by_trigger.get(event, ()) if calm else ():
+            guards = (guard for _, guard in unfolding.guards(number, rule))
+            for guard, demands in zip(guards, self._program.demands_of_clauses(rule)):
+                if not all(map(self.is_free, demands)):
+                    required.append(-guard)
+        return unfolding.ask(*required)
 
     def _can_wait(self, way: Sequence[Occurs]) -> bool:
         """Whether something of it has no end, and can be done after all else."""

@@ -42,12 +42,13 @@ class _Part(NamedTuple):
 
 class _Added(NamedTuple):
     """An event that is added at a time, or may not occur from one time to another, because of the clauses of rules of
-    this path: which of the events added triggers it, the rule, and its clause."""
+    this path: which of the events added triggers it, the rule, and its clause. It may need measures of its own."""
 
     event: str
     start: float
     end: float
     path: tuple[tuple[int, str, int], ...]
+    is_measured: bool = False
 
     def goes_with(self, other: _Added) -> bool:
         """Whether one clause of each rule decides for both."""
@@ -65,6 +66,7 @@ class Lean:
         self._latest: dict[tuple[str, bool], float] = {}
         self._blocked: dict[tuple[str, bool], float] = {}
         self._depth = 0
+        self._makes_way: str | None = None
 
     @property
     def _brought(self) -> Brought:
@@ -192,10 +194,15 @@ class Lean:
         times = [-1.0, self._forbidden_until(event, late)]
         for law in program.laws_of_event.get(event, ()):
             times.append(self._blocked_by(law, event, late))
+        return max(*times, min(self._demanding_until(event, late), self._calm_after(event, late)))
+
+    def _demanding_until(self, event: str, late: bool) -> float:
+        """The last second after now at which something that an event calls for may not be met."""
         try:
-            demands = [d for rule in program.by_trigger.get(event, ()) for d in program.demands(rule)]
+            demands = [d for rule in self._program.by_trigger.get(event, ()) for d in self._program.demands(rule)]
         except Undecided:
             return inf
+        times = [-1.0]
         for demand in demands:
             ways = ways_of(demand)
             if ways is None:
@@ -204,6 +211,12 @@ class Lean:
                 if not self._brought.is_free_way(way):
                     times.append(min(self._kept_after(what, late) for what in way))
         return max(times)
+
+    def _calm_after(self, event: str, late: bool) -> float:
+        """The last second after now at which the measures may not be such that an event calls for nothing."""
+        if event not in self._brought.reading or not self._brought.has_measures(event, calm=True):
+            return inf
+        return max(0.0, self._measured_until(event, late))
 
     def _kept_after(self, what: Occurs, late: bool) -> float:
         """The last second at which a response may not be met by what is triggered then."""
@@ -270,16 +283,40 @@ class Lean:
     # What comes of an event that is added ---------------------------------------------------------------------
 
     def can_add(self, what: Occurs) -> bool:
-        """Whether what is called for now, and is absent, can be done at its last second, with all that comes of it."""
+        """Whether what is called for now, and is absent, can be done at its last second, with all that comes of it; or
+        a second before that, where what may not come with it can make way."""
+        if what.is_empty or self._any_instant_is_bound:
+            return False
+        if what.end is None:
+            return self._can_add(what.event, inf, slides=False)
+        is_long = what.end >= 3 and what.end - (what.start or 0) >= 2
+        return self._can_add(what.event, what.end, slides=False) or (
+            is_long and self._can_add(what.event, what.end - 1, slides=True)
+        )
+
+    def _can_add(self, event: str, second: float, slides: bool) -> bool:
         added: list[_Added] = []
         forbidden: list[_Added] = []
-        end = inf if what.end is None else float(what.end)
+        self._makes_way = event if slides else None
         return (
-            not what.is_empty
-            and not self._any_instant_is_bound
-            and self._add(what.event, end, (), added, forbidden)
+            self._add(event, second, (), added, forbidden)
             and not any(_clash(one, other) for one in added for other in forbidden)
             and not any(self._exclude(one, other) for one in added for other in added if one is not other)
+        )
+
+    def _slides(self, other: str, event: str) -> bool:
+        """Whether an event that a law keeps from one that is absent around the time at which it is added can be moved
+        by a second."""
+        program = self._program
+        if other in program.by_trigger or other in program.forbidding:
+            return False
+        if any({*pair} != {event, other} for law in program.laws_of_event[other] for pair in excluding(law)):
+            return False
+        if not all(any(True for _ in excluding(law)) for law in program.laws_of_event[other]):
+            return False
+        called = (part.what for rule in program.obliging.get(other, ()) for part in self._parts(rule))
+        return all(
+            what.event != other or what.negated or what.end is None or what.end > (what.start or 0) for what in called
         )
 
     def _add(
@@ -296,18 +333,14 @@ class Lean:
             return True
         if number >= _MOST_ADDED or second <= self._forbidden_until(event, late):
             return False
-        added.append(_Added(event, second, second, path))
-        for law in program.laws_of_event.get(event, ()):
-            if isinstance(law, EventRelation) and law.relation == "happenBefore":
-                if event == law.right and not self._add(law.left, second - 1, path, added, forbidden):
-                    return False
-            elif isinstance(law, Effect) or any(True for _ in excluding(law)):
-                if second <= self._blocked_by(law, event, late):
-                    return False
-            elif not all(
-                self._add(other, second, path, added, forbidden) for one, other in together(law) if one == event
-            ):
-                return False
+        is_calm = second > self._calm_after(event, late)
+        laws = program.laws_of_event.get(event, ())
+        is_measured = is_calm or any(isinstance(law, Effect) for law in laws)
+        added.append(_Added(event, second, second, path, is_measured))
+        if not all(self._let_in(law, event, second, path, added, forbidden) for law in laws):
+            return False
+        if is_calm:
+            return True
         try:
             rules = [(rule, program.demands_of_clauses(rule)) for rule in program.by_trigger.get(event, ())]
         except Undecided:
@@ -318,6 +351,30 @@ class Lean:
             for clause, demands in enumerate(clauses)
             for demand in demands
         )
+
+    def _let_in(
+        self,
+        law: Law,
+        event: str,
+        second: float,
+        path: tuple[tuple[int, str, int], ...],
+        added: list[_Added],
+        forbidden: list[_Added],
+    ) -> bool:
+        """Whether a law lets an event be added, with what the law has come with it, or before it."""
+        late = second == inf
+        if isinstance(law, EventRelation) and law.relation == "happenBefore":
+            if event != law.right:
+                return True
+            soonest = max(self.blocked(law.left, late) + 1, 1)
+            return self._add(law.left, min(soonest, second - 1), path, added, forbidden)
+        pairs = list(excluding(law))
+        if isinstance(law, Effect) or pairs:
+            others = {other for pair in pairs for other in pair if event in pair} - {event}
+            if others and self._makes_way == event and all(self._slides(other, event) for other in others):
+                return all(one != other for one, other in pairs)
+            return second > self._blocked_by(law, event, late)
+        return all(self._add(other, second, path, added, forbidden) for one, other in together(law) if one == event)
 
     def _meet(
         self,
@@ -352,11 +409,10 @@ class Lean:
         """Whether a law may keep two events that are added from one instant."""
         if one.start != other.start or not one.goes_with(other):
             return False
+        if one.is_measured and other.event in self._brought.reading:
+            return True
         laws: Iterable[Law] = self._program.laws_of_event.get(one.event, ())
-        return any(
-            isinstance(law, Effect) or any({one.event, other.event} == set(pair) for pair in excluding(law))
-            for law in laws
-        )
+        return any({one.event, other.event} == set(pair) for law in laws for pair in excluding(law))
 
 
 def _clash(added: _Added, forbidden: _Added) -> bool:

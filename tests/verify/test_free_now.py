@@ -126,6 +126,42 @@ RULE asked WHEN Hear THEN """
     assert is_free("Open WITHIN [5, 61] seconds", rules) == free
 
 
+@pytest.mark.parametrize(
+    ("dim", "asked", "free"),
+    [
+        ("Dim WITHIN 1 minute", "Open WITHIN 2 seconds", True),
+        # Who dims at that second may as well do so a second later.
+        ("Dim WITHIN [20, 60] seconds", "Open WITHIN 3 seconds", True),
+        ("Dim WITHIN [20, 60] seconds", "Open WITHIN 2 seconds", False),
+        ("Dim WITHIN [20, 20] seconds", "Open WITHIN 3 seconds", False),
+        ("Dim WITHIN [20, 60] seconds\nRULE no WHEN No THEN NOT Dim WITHIN 1 day", "Open WITHIN 3 seconds", False),
+        ("Dim WITHIN [20, 60] seconds\nRELATION Dim EXCLUDES Dusk", "Open WITHIN 3 seconds", False),
+    ],
+)
+def test_what_may_not_come_with_it_can_make_way(dim, asked, free):
+    rules = f"RELATION Open EXCLUDES Dim\nRULE dim WHEN Knock THEN {dim}\nRULE asked WHEN Hear THEN "
+    assert is_free(asked, rules) == free
+
+
+@pytest.mark.parametrize(
+    ("more", "free"),
+    [
+        ("RULE more WHEN Knock AND dark THEN Light", True),
+        # Then it may matter to another one whether it is dark.
+        ("RULE more WHEN Ring AND dark THEN Light", False),
+        ("ASSUME dark", False),
+        ("RULE more WHEN Open THEN Ring WITHIN 1 second", False),
+        ("RELATION Open INCLUDES dark", False),
+    ],
+)
+def test_at_a_time_of_its_own_the_measures_may_ask_for_nothing(more, free):
+    rules = f"""{more}
+RULE open WHEN Open AND dark THEN NOT Ring WITHIN 5 seconds
+RULE ring WHEN Knock THEN Ring WITHIN [20, 40] seconds
+RULE asked WHEN Hear THEN """
+    assert is_free("Open WITHIN 8 seconds", rules) == free
+
+
 def differing(text, monkeypatch):
     """How many rules have no conflict by this alone."""
     program = Program(parse(text))
