@@ -26,11 +26,11 @@ from sleec_verify.timed.responses import Demand, Occurs, occurrences, ways_of
 if TYPE_CHECKING:
     from sleec_verify.timed.brought import Brought
 
-_DEEPEST = 60
+_DEEPEST = 40
 """Steps from one time to another that it is derived from; what takes more is not known."""
 
-_MOST_ADDED = 30
-"""Events that may come of one that is added."""
+_MOST_STEPS = 50
+"""Events that are tried to be added for one that is."""
 
 
 class _Part(NamedTuple):
@@ -67,6 +67,7 @@ class Lean:
         self._blocked: dict[tuple[str, bool], float] = {}
         self._depth = 0
         self._makes_way: str | None = None
+        self._steps = 0
 
     @property
     def _brought(self) -> Brought:
@@ -298,6 +299,7 @@ class Lean:
         added: list[_Added] = []
         forbidden: list[_Added] = []
         self._makes_way = event if slides else None
+        self._steps = 0
         return (
             self._add(event, second, (), added, forbidden)
             and not any(_clash(one, other) for one in added for other in forbidden)
@@ -331,7 +333,8 @@ class Lean:
         # Of two that come after all else, the one may come after the other.
         if not late and any(one[:2] == (event, second) and path[: len(one.path)] == one.path for one in added):
             return True
-        if number >= _MOST_ADDED or second <= self._forbidden_until(event, late):
+        self._steps += 1
+        if self._steps > _MOST_STEPS or second <= self._forbidden_until(event, late):
             return False
         is_calm = second > self._calm_after(event, late)
         laws = program.laws_of_event.get(event, ())

@@ -8,6 +8,7 @@ import pytest
 from sleec_runtime.language import parse
 from sleec_verify.timed.brought import Brought
 from sleec_verify.timed.conflicts import conflict
+from sleec_verify.timed.lean import Lean
 from sleec_verify.timed.program import Program
 from tests.people_rules import peoples_rules
 from tests.timed_agreement import SIZES, answered
@@ -160,6 +161,18 @@ RULE open WHEN Open AND dark THEN NOT Ring WITHIN 5 seconds
 RULE ring WHEN Knock THEN Ring WITHIN [20, 40] seconds
 RULE asked WHEN Hear THEN """
     assert is_free("Open WITHIN 8 seconds", rules) == free
+
+
+@pytest.mark.parametrize(("seed", "untimed"), [(34, "eventually"), (64, "eventually"), (158, "at"), (208, "at")])
+def test_what_comes_back_to_itself_takes_few_steps(seed, untimed, monkeypatch):
+    steps = []
+    add = Lean._add
+    monkeypatch.setattr(Lean, "_add", lambda *given: steps.append(given[1]) or add(*given))
+    program = Program(timed_ruleset(seed, **SIZES[seed % 3]), untimed)
+    for rule in program.rules:
+        for demand in program.demands(rule):
+            program.brought.is_free_now(demand)
+    assert 20 < len(steps) < 1000
 
 
 def differing(text, monkeypatch):
