@@ -167,7 +167,12 @@ RULE asked WHEN Hear THEN """
 def test_what_comes_back_to_itself_takes_few_steps(seed, untimed, monkeypatch):
     steps = []
     add = Lean._add
-    monkeypatch.setattr(Lean, "_add", lambda *given: steps.append(given[1]) or add(*given))
+
+    def counted(*given):
+        steps.append(given[1])
+        return add(*given)
+
+    monkeypatch.setattr(Lean, "_add", counted)
     program = Program(timed_ruleset(seed, **SIZES[seed % 3]), untimed)
     for rule in program.rules:
         for demand in program.demands(rule):
