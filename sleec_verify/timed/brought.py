@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from sleec_runtime.model import Assume, Never
 from sleec_runtime.model_time import Effect
 from sleec_verify.solver import Undecided
+from sleec_verify.timed.addition import can_be_added
 from sleec_verify.timed.lean import Lean
 from sleec_verify.timed.program import events_of, together
 from sleec_verify.timed.responses import Demand, Occurs, occurrences, ways_of
@@ -165,7 +166,7 @@ class Brought:
             return True
         # Without the demand of now, nothing of it is met.
         lean = Lean(self._program, way)
-        return any(not what.negated and lean.can_add(what) for what in way)
+        return any(not what.negated and can_be_added(self._program, lean, what) for what in way)
 
     @cached_property
     def _lean(self) -> Lean:

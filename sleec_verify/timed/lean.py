@@ -12,7 +12,7 @@ All times are in seconds after now. Up to some time to come, what can be done af
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, NamedTuple
@@ -21,7 +21,7 @@ from sleec_runtime.model import Assume, Never, Rule
 from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_verify.solver import Undecided
 from sleec_verify.timed.program import Law, Program, events_of, excluding, may_call, together
-from sleec_verify.timed.responses import Demand, Occurs, occurrences, ways_of
+from sleec_verify.timed.responses import Occurs, occurrences, ways_of
 
 if TYPE_CHECKING:
     from sleec_verify.timed.brought import Brought
@@ -29,31 +29,12 @@ if TYPE_CHECKING:
 _DEEPEST = 40
 """Steps from one time to another that it is derived from; what takes more is not known."""
 
-_MOST_STEPS = 50
-"""Events that are tried to be added for one that is."""
-
 
 class _Part(NamedTuple):
     """A part of what a rule demands, and what may as well be done in its place."""
 
     what: Occurs
     instead: Occurs | None
-
-
-class _Added(NamedTuple):
-    """An event that is added at a time, or may not occur from one time to another, because of the clauses of rules of
-    this path: which of the events added triggers it, the rule, and its clause. It may need measures of its own."""
-
-    event: str
-    start: float
-    end: float
-    path: tuple[tuple[int, str, int], ...]
-    is_measured: bool = False
-
-    def goes_with(self, other: _Added) -> bool:
-        """Whether one clause of each rule decides for both."""
-        mine = {step[:2]: step[2] for step in self.path}
-        return all(mine.get(step[:2], step[2]) == step[2] for step in other.path)
 
 
 class Lean:
@@ -66,8 +47,6 @@ class Lean:
         self._latest: dict[tuple[str, bool], float] = {}
         self._blocked: dict[tuple[str, bool], float] = {}
         self._depth = 0
-        self._makes_way: str | None = None
-        self._steps = 0
 
     @property
     def _brought(self) -> Brought:
@@ -107,7 +86,7 @@ class Lean:
         program = self._program
         times = [0.0]
         for rule in program.obliging.get(event, ()):
-            for part in self._parts(rule):
+            for part in self.parts(rule):
                 if part.what.event == event and not part.what.negated:
                     times.append(until(rule, part, late))
         plain = until == self._last_of
@@ -154,7 +133,7 @@ class Lean:
         # As long as there is room for what may be done instead, that is done at its last second.
         return min(last, self.blocked(instead.event, late) + what.end - instead.end)
 
-    def _parts(self, rule: Rule) -> list[_Part]:
+    def parts(self, rule: Rule) -> list[_Part]:
         """What a rule demands in any case, and instead of something else. Of each choice, one part is done whenever it
         can be, the first that calls for something."""
         found = self._brought.parts.get(rule.label)
@@ -190,12 +169,12 @@ class Lean:
 
     def _look_for_room(self, event: str, late: bool) -> float:
         program = self._program
-        if self._any_instant_is_bound:
+        if self.any_instant_is_bound:
             return inf
-        times = [-1.0, self._forbidden_until(event, late)]
+        times = [-1.0, self.forbidden_until(event, late)]
         for law in program.laws_of_event.get(event, ()):
-            times.append(self._blocked_by(law, event, late))
-        return max(*times, min(self._demanding_until(event, late), self._calm_after(event, late)))
+            times.append(self.blocked_by(law, event, late))
+        return max(*times, min(self._demanding_until(event, late), self.calm_after(event, late)))
 
     def _demanding_until(self, event: str, late: bool) -> float:
         """The last second after now at which something that an event calls for may not be met."""
@@ -213,7 +192,7 @@ class Lean:
                     times.append(min(self._kept_after(what, late) for what in way))
         return max(times)
 
-    def _calm_after(self, event: str, late: bool) -> float:
+    def calm_after(self, event: str, late: bool) -> float:
         """The last second after now at which the measures may not be such that an event calls for nothing."""
         if event not in self._brought.reading or not self._brought.has_measures(event, calm=True):
             return inf
@@ -231,20 +210,20 @@ class Lean:
             return inf if self.blocked(what.event, True) == inf else -1
         return self.blocked(what.event, late) - what.end
 
-    def _forbidden_until(self, event: str, late: bool) -> float:
+    def forbidden_until(self, event: str, late: bool) -> float:
         """The last second after now at which a rule may forbid an event."""
         return max(
             (
                 self._until(rule, part, late)
                 for rule in self._program.forbidding.get(event, ())
-                for part in self._parts(rule)
+                for part in self.parts(rule)
                 if part.what.event == event and part.what.negated
             ),
             default=-1.0,
         )
 
     @cached_property
-    def _any_instant_is_bound(self) -> bool:
+    def any_instant_is_bound(self) -> bool:
         """Whether a law may demand something of an instant that is there for another event."""
         return any(
             isinstance(law, Lasting)
@@ -253,7 +232,7 @@ class Lean:
             for law in self._program.laws
         )
 
-    def _blocked_by(self, law: Law, event: str, late: bool) -> float:
+    def blocked_by(self, law: Law, event: str, late: bool) -> float:
         """The last second after now at which a law that speaks of an event may not let it be added."""
         if isinstance(law, Effect):
             return max(0.0, self._measured_until(event, late)) if self._brought.has_measures(event) else inf
@@ -280,147 +259,3 @@ class Lean:
             return look()
         finally:
             self._depth -= 1
-
-    # What comes of an event that is added ---------------------------------------------------------------------
-
-    def can_add(self, what: Occurs) -> bool:
-        """Whether what is called for now, and is absent, can be done at its last second, with all that comes of it; or
-        a second before that, where what may not come with it can make way."""
-        if what.is_empty or self._any_instant_is_bound:
-            return False
-        if what.end is None:
-            return self._can_add(what.event, inf, slides=False)
-        is_long = what.end >= 3 and what.end - (what.start or 0) >= 2
-        return self._can_add(what.event, what.end, slides=False) or (
-            is_long and self._can_add(what.event, what.end - 1, slides=True)
-        )
-
-    def _can_add(self, event: str, second: float, slides: bool) -> bool:
-        added: list[_Added] = []
-        forbidden: list[_Added] = []
-        self._makes_way = event if slides else None
-        self._steps = 0
-        return (
-            self._add(event, second, (), added, forbidden)
-            and not any(_clash(one, other) for one in added for other in forbidden)
-            and not any(self._exclude(one, other) for one in added for other in added if one is not other)
-        )
-
-    def _slides(self, other: str, event: str) -> bool:
-        """Whether an event that a law keeps from one that is absent around the time at which it is added can be moved
-        by a second."""
-        program = self._program
-        if other in program.by_trigger or other in program.forbidding:
-            return False
-        if any({*pair} != {event, other} for law in program.laws_of_event[other] for pair in excluding(law)):
-            return False
-        if not all(any(True for _ in excluding(law)) for law in program.laws_of_event[other]):
-            return False
-        called = (part.what for rule in program.obliging.get(other, ()) for part in self._parts(rule))
-        return all(
-            what.event != other or what.negated or what.end is None or what.end > (what.start or 0) for what in called
-        )
-
-    def _add(
-        self,
-        event: str,
-        second: float,
-        path: tuple[tuple[int, str, int], ...],
-        added: list[_Added],
-        forbidden: list[_Added],
-    ) -> bool:
-        program, late, number = self._program, second == inf, len(added)
-        # Of two that come after all else, the one may come after the other.
-        if not late and any(one[:2] == (event, second) and path[: len(one.path)] == one.path for one in added):
-            return True
-        self._steps += 1
-        if self._steps > _MOST_STEPS or second <= self._forbidden_until(event, late):
-            return False
-        is_calm = second > self._calm_after(event, late)
-        laws = program.laws_of_event.get(event, ())
-        is_measured = is_calm or any(isinstance(law, Effect) for law in laws)
-        added.append(_Added(event, second, second, path, is_measured))
-        if not all(self._let_in(law, event, second, path, added, forbidden) for law in laws):
-            return False
-        if is_calm:
-            return True
-        try:
-            rules = [(rule, program.demands_of_clauses(rule)) for rule in program.by_trigger.get(event, ())]
-        except Undecided:
-            return False
-        return all(
-            self._meet(demand, second, (*path, (number, rule.label, clause)), added, forbidden)
-            for rule, clauses in rules
-            for clause, demands in enumerate(clauses)
-            for demand in demands
-        )
-
-    def _let_in(
-        self,
-        law: Law,
-        event: str,
-        second: float,
-        path: tuple[tuple[int, str, int], ...],
-        added: list[_Added],
-        forbidden: list[_Added],
-    ) -> bool:
-        """Whether a law lets an event be added, with what the law has come with it, or before it."""
-        late = second == inf
-        if isinstance(law, EventRelation) and law.relation == "happenBefore":
-            if event != law.right:
-                return True
-            soonest = max(self.blocked(law.left, late) + 1, 1)
-            return self._add(law.left, min(soonest, second - 1), path, added, forbidden)
-        pairs = list(excluding(law))
-        if isinstance(law, Effect) or pairs:
-            others = {other for pair in pairs for other in pair if event in pair} - {event}
-            if others and self._makes_way == event and all(self._slides(other, event) for other in others):
-                return all(one != other for one, other in pairs)
-            return second > self._blocked_by(law, event, late)
-        return all(self._add(other, second, path, added, forbidden) for one, other in together(law) if one == event)
-
-    def _meet(
-        self,
-        demand: Demand,
-        second: float,
-        path: tuple[tuple[int, str, int], ...],
-        added: list[_Added],
-        forbidden: list[_Added],
-    ) -> bool:
-        """Meet a demand of an event that is added."""
-        ways = ways_of(demand)
-        if ways is None:
-            return False
-        for way in ways:
-            if self._brought.is_free_way(way):
-                continue
-            for what in way:
-                so_far = len(added), len(forbidden)
-                end = inf if what.end is None else second + what.end
-                if what.negated:
-                    if self.is_over(what, second):
-                        forbidden.append(_Added(what.event, second + (what.start or 0), end, path))
-                        break
-                elif not what.is_empty and self._add(what.event, end, path, added, forbidden):
-                    break
-                del added[so_far[0] :], forbidden[so_far[1] :]
-            else:
-                return False
-        return True
-
-    def _exclude(self, one: _Added, other: _Added) -> bool:
-        """Whether a law may keep two events that are added from one instant."""
-        if one.start != other.start or not one.goes_with(other):
-            return False
-        if one.is_measured and other.event in self._brought.reading:
-            return True
-        laws: Iterable[Law] = self._program.laws_of_event.get(one.event, ())
-        return any({one.event, other.event} == set(pair) for law in laws for pair in excluding(law))
-
-
-def _clash(added: _Added, forbidden: _Added) -> bool:
-    return (
-        added.event == forbidden.event
-        and forbidden.start <= added.start <= forbidden.end
-        and added.goes_with(forbidden)
-    )

@@ -6,9 +6,9 @@ from __future__ import annotations
 import pytest
 
 from sleec_runtime.language import parse
+from sleec_verify.timed.addition import Addition
 from sleec_verify.timed.brought import Brought
 from sleec_verify.timed.conflicts import conflict
-from sleec_verify.timed.lean import Lean
 from sleec_verify.timed.program import Program
 from tests.people_rules import peoples_rules
 from tests.timed_agreement import SIZES, answered
@@ -166,13 +166,13 @@ RULE asked WHEN Hear THEN """
 @pytest.mark.parametrize(("seed", "untimed"), [(34, "eventually"), (64, "eventually"), (158, "at"), (208, "at")])
 def test_what_comes_back_to_itself_takes_few_steps(seed, untimed, monkeypatch):
     steps = []
-    add = Lean._add
+    add = Addition._add
 
     def counted(*given):
         steps.append(given[1])
         return add(*given)
 
-    monkeypatch.setattr(Lean, "_add", counted)
+    monkeypatch.setattr(Addition, "_add", counted)
     program = Program(timed_ruleset(seed, **SIZES[seed % 3]), untimed)
     for rule in program.rules:
         for demand in program.demands(rule):
