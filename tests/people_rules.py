@@ -10,11 +10,16 @@ ACTS = tuple(f"X{number}" for number in range(6))
 SHORT = ("", "", "1", "2", "2", "3", "4", "6", "[1, 2]", "[2, 5]", "eventually")
 """Windows of seconds; with none, at once."""
 
+LONG = ("", "2", "5", "15", "30", "60", "120", "300", "600", "3600", "172800", "[5, 60]", "[60, 300]")
+"""From seconds to days."""
+
 
 def peoples_rules(seed: int, rules: int = 5, windows: tuple[str, ...] = SHORT) -> str:
     """A text of the DSL."""
     random = Random(seed)
     condition = lambda: random.choice(("m0", "m1", "(not m0)", "(m0 and m1)", "(s > lo)", "(s = hi)", "(n < 20)"))  # noqa: E731
+
+    forbidden = [each for each in windows if each.isdigit()]
 
     def window() -> str:
         chosen = random.choice(windows)
@@ -22,7 +27,7 @@ def peoples_rules(seed: int, rules: int = 5, windows: tuple[str, ...] = SHORT) -
 
     def response(first: int, may_fail: bool = True) -> str:
         if random.randrange(4) == 0:
-            return f"not {random.choice(ACTS)} within {random.randrange(6)} seconds"
+            return f"not {random.choice(ACTS)} within {random.choice(forbidden)} seconds"
         text = random.choice(ACTS[first:]) + window()
         if may_fail and "within" in text and random.randrange(4) == 0:
             text += f" otherwise {response(first, may_fail=False)}"
