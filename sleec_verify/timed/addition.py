@@ -8,7 +8,7 @@ from typing import NamedTuple
 from sleec_runtime.model_time import Effect, EventRelation
 from sleec_verify.solver import Undecided
 from sleec_verify.timed.lean import Lean
-from sleec_verify.timed.program import Law, Program, excluding, together
+from sleec_verify.timed.program import Law, Program, kept_apart, together
 from sleec_verify.timed.responses import Demand, Occurs, ways_of
 
 MOST_STEPS = 50
@@ -37,7 +37,7 @@ class _Placed(NamedTuple):
 def can_be_added(program: Program, lean: Lean, what: Occurs) -> bool:
     """Whether what is called for now, and is absent from the lean ways to go on, can be done at its last second, with
     all that comes of it; or a second before that, where what may not come with it can make way."""
-    if what.is_empty or lean.any_instant_is_bound:
+    if what.is_empty or program.brought.binds_any_instant:
         return False
     if what.end is None:
         return Addition(program, lean).works(what.event, inf)
@@ -103,12 +103,11 @@ class Addition:
                 return True
             soonest = max(self._lean.blocked(law.left, late) + 1, 1)
             return self._add(law.left, min(soonest, second - 1), path)
-        pairs = list(excluding(law))
-        if isinstance(law, Effect) or pairs:
-            others = {other for pair in pairs for other in pair if event in pair} - {event}
-            slides = self._slides and self._first == (event, second)
-            if others and slides and all(self._makes_way(other, event) for other in others):
-                return all(one != other for one, other in pairs)
+        others = kept_apart(law, event)
+        if isinstance(law, Effect) or others:
+            slides = bool(others) and self._slides and self._first == (event, second)
+            if slides and event not in others and all(self._makes_way(other, event) for other in others):
+                return True
             return second > self._lean.blocked_by(law, event, late)
         return all(self._add(other, second, path) for one, other in together(law) if one == event)
 
@@ -118,12 +117,9 @@ class Addition:
         program = self._program
         if other in program.by_trigger or other in program.forbidding:
             return False
-        laws = program.laws_of_event[other]
-        if not all(any(True for _ in excluding(law)) for law in laws):
+        if any(kept_apart(law, other) != {event} for law in program.laws_of_event[other]):
             return False
-        if any({*pair} != {event, other} for law in laws for pair in excluding(law) if other in pair):
-            return False
-        called = (part.what for rule in program.obliging.get(other, ()) for part in self._lean.parts(rule))
+        called = (part.what for rule in program.obliging.get(other, ()) for part in program.parts(rule))
         return all(
             what.event != other or what.negated or what.end is None or what.end > (what.start or 0) for what in called
         )
@@ -140,7 +136,7 @@ class Addition:
                 so_far = len(self._added), len(self._forbidden)
                 end = inf if what.end is None else second + what.end
                 if what.negated:
-                    if self._lean.is_over(what, second):
+                    if self._lean.can_meet(what, second):
                         self._forbidden.append(_Placed(what.event, second + (what.start or 0), end, path))
                         break
                 elif not what.is_empty and self._add(what.event, end, path):
@@ -157,7 +153,7 @@ class Addition:
         if one.is_measured and other.event in self._program.brought.reading:
             return True
         laws = self._program.laws_of_event.get(one.event, ())
-        return any({one.event, other.event} == set(pair) for law in laws for pair in excluding(law))
+        return any(other.event in kept_apart(law, one.event) for law in laws)
 
 
 def _clash(added: _Placed, forbidden: _Placed) -> bool:

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume, Never
-from sleec_runtime.model_time import Effect
+from sleec_runtime.model_time import Effect, Lasting
 from sleec_verify.solver import Undecided
 from sleec_verify.timed.addition import can_be_added
 from sleec_verify.timed.lean import Lean
@@ -28,8 +28,6 @@ class Brought:
         self._harmless: dict[str, bool] = {}
         self._late: dict[str, bool] = {}
         self._measured: dict[tuple[str, bool], bool] = {}
-        self.parts: dict[str, list[tuple[Occurs, Occurs | None]]] = {}
-        """What each rule demands, and what may be done instead, once a lean way to go on has been looked for."""
 
     def instants(self, trigger: str, missing: Collection[str] = ()) -> int | None:
         """How many instants the deadlines take that an event brings with it, and those of what they call for; None
@@ -162,7 +160,7 @@ class Brought:
         return ways is not None and all(self.is_free_way(way) or self._has_lean(way) for way in ways)
 
     def _has_lean(self, way: Sequence[Occurs]) -> bool:
-        if any(self._lean.is_over(what) if what.negated else self._lean.has_room(what) for what in way):
+        if any(map(self._lean.can_meet, way)):
             return True
         # Without the demand of now, nothing of it is met.
         lean = Lean(self._program, way)
@@ -241,6 +239,11 @@ class Brought:
             for one, other in together(law):
                 found.setdefault(one, set()).add(other)
         return found
+
+    @cached_property
+    def binds_any_instant(self) -> bool:
+        """Whether a law may demand something of an instant that is there for another event."""
+        return bool(self._at_any_time) or any(isinstance(law, Lasting) for law in self._program.laws)
 
     @cached_property
     def _at_any_time(self) -> set[str]:

@@ -12,29 +12,21 @@ All times are in seconds after now. Up to some time to come, what can be done af
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from functools import cached_property
+from collections.abc import Callable, Sequence
 from math import inf
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from sleec_runtime.model import Assume, Never, Rule
-from sleec_runtime.model_time import Effect, EventRelation, Lasting
+from sleec_runtime.model import Rule
+from sleec_runtime.model_time import Effect, EventRelation
 from sleec_verify.solver import Undecided
-from sleec_verify.timed.program import Law, Program, events_of, excluding, may_call, together
-from sleec_verify.timed.responses import Occurs, occurrences, ways_of
+from sleec_verify.timed.program import Law, Program, kept_apart, may_call, together
+from sleec_verify.timed.responses import Occurs, Part, ways_of
 
 if TYPE_CHECKING:
     from sleec_verify.timed.brought import Brought
 
 _DEEPEST = 40
 """Steps from one time to another that it is derived from; what takes more is not known."""
-
-
-class _Part(NamedTuple):
-    """A part of what a rule demands, and what may as well be done in its place."""
-
-    what: Occurs
-    instead: Occurs | None
 
 
 class Lean:
@@ -52,15 +44,10 @@ class Lean:
     def _brought(self) -> Brought:
         return self._program.brought
 
-    def is_over(self, what: Occurs, second: float = 0) -> bool:
-        """Whether nothing that is needed breaks what is forbidden so many seconds after now."""
-        late = what.end is None or second == inf
-        return what.start is not None and second + what.start > self.latest(what.event, late)
-
-    def has_room(self, what: Occurs) -> bool:
-        """Whether what is called for now can be done at its last second."""
-        end = inf if what.end is None else what.end
-        return not what.is_empty and end > self.blocked(what.event, end == inf)
+    def can_meet(self, what: Occurs, second: float = 0) -> bool:
+        """Whether a response that is called for so many seconds after now can be met: by doing it at its last second,
+        or, if it forbids something, as nothing needs that."""
+        return second > self._unmet_until(what, second == inf)
 
     # When an event is needed ----------------------------------------------------------------------------------
 
@@ -70,7 +57,7 @@ class Lean:
         known = self._latest.get(key)
         if known is None:
             self._latest[key] = self._plainly(event, late)
-            known = self._latest[key] = self._deeper(lambda: self._look_for_latest(event, late, self._soonest))
+            known = self._latest[key] = self._deeper(lambda: self._look_for_latest(event, late, plain=False))
         return known
 
     def _plainly(self, event: str, late: bool) -> float:
@@ -79,17 +66,16 @@ class Lean:
         known = self._plain.get(key)
         if known is None:
             self._plain[key] = inf
-            known = self._plain[key] = self._deeper(lambda: self._look_for_latest(event, late, self._last_of))
+            known = self._plain[key] = self._deeper(lambda: self._look_for_latest(event, late, plain=True))
         return known
 
-    def _look_for_latest(self, event: str, late: bool, until: Callable[[Rule, _Part, bool], float]) -> float:
-        program = self._program
+    def _look_for_latest(self, event: str, late: bool, plain: bool) -> float:
+        program, until = self._program, self._last_of if plain else self._soonest
         times = [0.0]
         for rule in program.obliging.get(event, ()):
-            for part in self.parts(rule):
+            for part in program.parts(rule):
                 if part.what.event == event and not part.what.negated:
                     times.append(until(rule, part, late))
-        plain = until == self._last_of
         for law in program.laws_of_event.get(event, ()):
             if event in may_call(law):
                 if not isinstance(law, EventRelation):
@@ -105,13 +91,13 @@ class Lean:
             return (gap.start or 0) - 1
         return latest
 
-    def _last_of(self, rule: Rule, part: _Part, late: bool) -> float:
+    def _last_of(self, rule: Rule, part: Part, late: bool) -> float:
         """When it is called for at last, if its rule may be triggered as long as its trigger may be needed."""
         if part.what.end is None:
-            return inf if late or not self._brought.comes_late(part.what.event) else -1
+            return self._without_end(part.what, late)
         return self._plainly(rule.trigger, late) + part.what.end
 
-    def _soonest(self, rule: Rule, part: _Part, late: bool) -> float:
+    def _soonest(self, rule: Rule, part: Part, late: bool) -> float:
         """When it is done for all who have called for it."""
         last = self._until(rule, part, late)
         if last < 0:
@@ -120,40 +106,20 @@ class Lean:
         opens = self.latest(rule.trigger, late) + (what.start or 0)
         return min(last, max(self.blocked(what.event, late) + 1, opens))
 
-    def _until(self, rule: Rule, part: _Part, late: bool) -> float:
+    def _until(self, rule: Rule, part: Part, late: bool) -> float:
         """When the window of a part of what a rule demands ends at last."""
         what, instead = part
         if what.end is None:
-            if not what.negated and not late and self._brought.comes_late(what.event):
-                return -1
-            return inf
+            return self._without_end(what, late)
         last = self.latest(rule.trigger, late) + what.end
         if instead is None or instead.end is None or instead.is_empty:
             return last
         # As long as there is room for what may be done instead, that is done at its last second.
         return min(last, self.blocked(instead.event, late) + what.end - instead.end)
 
-    def parts(self, rule: Rule) -> list[_Part]:
-        """What a rule demands in any case, and instead of something else. Of each choice, one part is done whenever it
-        can be, the first that calls for something."""
-        found = self._brought.parts.get(rule.label)
-        if found is None:
-            found = self._brought.parts[rule.label] = list(dict.fromkeys(self._look_for_parts(rule)))
-        return [_Part(*part) for part in found]
-
-    def _look_for_parts(self, rule: Rule) -> Iterator[_Part]:
-        try:
-            demands = self._program.demands(rule)
-        except Undecided:
-            yield from (_Part(what, None) for what in self._program.windows_at_most(rule))
-            return
-        for demand in demands:
-            ways = ways_of(demand)
-            if ways is None:
-                yield from (_Part(what, None) for what in occurrences(demand))
-            for way in ways or ():
-                first = next((what for what in way if not what.negated), None)
-                yield from (_Part(what, None if what is first else first) for what in way)
+    def _without_end(self, what: Occurs, late: bool) -> float:
+        """As `_until`: before now, if it is done after all else."""
+        return -1 if not what.negated and not late and self._brought.comes_late(what.event) else inf
 
     # When an event can be done --------------------------------------------------------------------------------
 
@@ -169,7 +135,7 @@ class Lean:
 
     def _look_for_room(self, event: str, late: bool) -> float:
         program = self._program
-        if self.any_instant_is_bound:
+        if self._brought.binds_any_instant:
             return inf
         times = [-1.0, self.forbidden_until(event, late)]
         for law in program.laws_of_event.get(event, ()):
@@ -189,7 +155,7 @@ class Lean:
                 return inf
             for way in ways:
                 if not self._brought.is_free_way(way):
-                    times.append(min(self._kept_after(what, late) for what in way))
+                    times.append(min(self._unmet_until(what, late) for what in way))
         return max(times)
 
     def calm_after(self, event: str, late: bool) -> float:
@@ -198,7 +164,7 @@ class Lean:
             return inf
         return max(0.0, self._measured_until(event, late))
 
-    def _kept_after(self, what: Occurs, late: bool) -> float:
+    def _unmet_until(self, what: Occurs, late: bool) -> float:
         """The last second at which a response may not be met by what is triggered then."""
         if what.negated:
             if what.start is None:
@@ -216,20 +182,10 @@ class Lean:
             (
                 self._until(rule, part, late)
                 for rule in self._program.forbidding.get(event, ())
-                for part in self.parts(rule)
+                for part in self._program.parts(rule)
                 if part.what.event == event and part.what.negated
             ),
             default=-1.0,
-        )
-
-    @cached_property
-    def any_instant_is_bound(self) -> bool:
-        """Whether a law may demand something of an instant that is there for another event."""
-        return any(
-            isinstance(law, Lasting)
-            or (isinstance(law, (Assume, Never)) and any(events_of(law)))
-            or (isinstance(law, Effect) and law.relation == "causation")
-            for law in self._program.laws
         )
 
     def blocked_by(self, law: Law, event: str, late: bool) -> float:
@@ -238,11 +194,10 @@ class Lean:
             return max(0.0, self._measured_until(event, late)) if self._brought.has_measures(event) else inf
         if isinstance(law, EventRelation) and law.relation == "happenBefore":
             return self.blocked(law.left, late) + 1 if event == law.right else -1
-        times = [-1.0]
-        for pair in excluding(law):
-            if pair[0] == pair[1]:
-                return inf
-            times += (self.latest(other, late) for one, other in (pair, pair[::-1]) if one == event)
+        others = kept_apart(law, event)
+        if event in others:
+            return inf
+        times = [-1.0, *(self.latest(other, late) for other in sorted(others))]
         times += (self.blocked(other, late) for one, other in together(law) if one == event)
         return max(times)
 

@@ -28,7 +28,7 @@ from sleec_runtime.model import (
 )
 from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, Lasting, MeasureRelation, Relation
 from sleec_verify.solver import Recorder, Undecided
-from sleec_verify.timed.responses import Demand, Occurs, Responses, certain, occurrences
+from sleec_verify.timed.responses import Demand, Occurs, Part, Responses, certain, occurrences, parts_of
 from sleec_verify.timed.scope import Untimed
 
 if TYPE_CHECKING:
@@ -90,6 +90,11 @@ def excluding(law: Law) -> Iterator[tuple[str, str]]:
         yield law.left, law.right
     elif isinstance(law, Exclusive):
         yield from combinations(dict.fromkeys(law.names), 2)
+
+
+def kept_apart(law: Law, event: str) -> set[str]:
+    """The events that a law excludes from the instants of an event: itself, where it can never occur."""
+    return {right if event == left else left for left, right in excluding(law) if event in (left, right)}
 
 
 def formulas_of_law(law: Law) -> Iterator[Formula]:
@@ -182,6 +187,7 @@ class Program:
         self.responses = Responses(untimed)
         self._demands: dict[str, list[list[Demand]]] = {}
         self._windows: dict[str, list[Occurs]] = {}
+        self._parts: dict[str, list[Part]] = {}
         self._followers: dict[str, list[Follower]] = {}
         self._endless: dict[frozenset[str], frozenset[str]] = {}
 
@@ -366,6 +372,17 @@ class Program:
             return self.windows(rule)
         except Undecided:
             return [Occurs(response.name, 0, None, response.negated) for response in responses_of(rule)]
+
+    def parts(self, rule: Rule) -> list[Part]:
+        """As `windows_at_most`, each with what may as well be done in its place."""
+        found = self._parts.get(rule.label)
+        if found is None:
+            try:
+                parts = [part for demand in self.demands(rule) for part in parts_of(demand)]
+            except Undecided:
+                parts = [Part(what, None) for what in self.windows_at_most(rule)]
+            found = self._parts[rule.label] = list(dict.fromkeys(parts))
+        return found
 
     @cached_property
     def brought(self) -> Brought:

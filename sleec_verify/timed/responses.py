@@ -160,3 +160,20 @@ def ways_of(demand: Demand) -> list[tuple[Occurs, ...]] | None:
     if None in parts:
         return None
     return [tuple(chain.from_iterable(choice)) for choice in product(*(ways or () for ways in parts))]
+
+
+class Part(NamedTuple):
+    """A part of a demand, and what may as well be done in its place."""
+
+    what: Occurs
+    instead: Occurs | None
+
+
+def parts_of(demand: Demand) -> Iterator[Part]:
+    """The parts of a demand. Of each choice, the first that calls for something is not done instead of the others."""
+    ways = ways_of(demand)
+    if ways is None:
+        yield from (Part(what, None) for what in occurrences(demand))
+    for way in ways or ():
+        first = next((what for what in way if not what.negated), None)
+        yield from (Part(what, None if what is first else first) for what in way)

@@ -29,13 +29,12 @@ _NUMBERS: Mapping[str, int] = {
 _COMPARE = "compare with =, <>, <, <=, > or >=, as in: temperature > 30"
 _WINDOW = "by when a response is due is said by within, as in: within 5 minutes"
 _UNLESS = "an exception begins with unless, as in: unless userAsleep then Wait"
+_NO_UNIT = "numbers in conditions have no unit; leave it out"
 _AT_ONCE = "without a window, a response is due at once; leave it out"
 _BEHIND_RESPONSE: Mapping[str, str] = {
     **dict.fromkeys(("in", "after", "before", "by", "with", "withing", "during"), _WINDOW),
     **dict.fromkeys(("except", "if", "but", "when", "provided", "only"), _UNLESS),
-    **dict.fromkeys(
-        ("immediately", "now", "at", "directly"), "without a window, a response is due at once; leave it out"
-    ),
+    **dict.fromkeys(("immediately", "now", "at", "directly"), _AT_ONCE),
     "always": "leave it out",
     "other": "did you mean otherwise?",
     **dict.fromkeys(("until", "for"), f"a response happens at one time; {_WINDOW}"),
@@ -100,7 +99,7 @@ def help_with(what: str, found: Found) -> str | None:
     if what.startswith("the name of") and found.kind == "(":
         return "write the name without parentheses"
     if what.startswith("a number or a name") and found.kind == "digits":
-        return "numbers in conditions have no unit; leave it out"
+        return _NO_UNIT
     if what.startswith("a number or a name") and found.kind in ("operator", "strange"):
         return "write the sign without a blank inside, one of =, <>, <, <=, > or >="
     if what.startswith("a length of time") and written[:1].isdigit() and found.kind == "digits":
@@ -151,7 +150,7 @@ def _behind_condition(what: str, found: Found) -> str | None:
     if written.lower() in COMPARING:
         return _COMPARE
     if found.before == "number" and (found.kind in ("word", "strange") and written != "then"):
-        return "numbers in conditions have no unit; leave it out"
+        return _NO_UNIT
     if found.before == "number" and written in (",", ".") and found.after[:1].isdigit():
         return "write the number in digits only, as in: 1000"
     if found.kind in ("number", "digits"):
