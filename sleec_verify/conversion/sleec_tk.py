@@ -43,7 +43,7 @@ def has_untimed(statements: Iterable[Statement]) -> bool:
 
 def taken_names(statements: Iterable[Statement]) -> list[str]:
     """The names that SLEEC-TK's editor refuses, as the processes that it makes of rules have them."""
-    names = {name for statement in statements for name in defined_by(statement)[:1]}
+    names = {name for statement in statements for name in defined_by(statement)}
     return sorted(names & _TAKEN)
 
 

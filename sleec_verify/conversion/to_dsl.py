@@ -146,24 +146,18 @@ def _comments(rule: Rule) -> Comments:
 
 def _refuse_keywords_of_legos(ruleset: Ruleset, statements: Iterable[Statement]) -> None:
     for statement in statements:
-        for name in defined_by(statement):
+        values = statement.values if isinstance(statement, Measure) else ()
+        for name in (*defined_by(statement), *values):
             if name in NAMES_OF_SLEEC_TK:
                 span = statement.span if statement.span != NOWHERE else None
-                refuse(
-                    ruleset,
-                    f"\u201c{name}\u201d is a keyword of LEGOS",
-                    span,
-                    _RENAME,
-                )
+                refuse(ruleset, f"\u201c{name}\u201d is a keyword of LEGOS", span, _RENAME)
 
 
 def defined_by(statement: Statement) -> tuple[str, ...]:
-    """The names that a statement defines, values of scales among them."""
+    """The names that a statement defines, without the values of a scale."""
     if isinstance(statement, Declaration):
         return statement.names
-    if isinstance(statement, Measure):
-        return (statement.name, *statement.values)
-    return (statement.name,) if isinstance(statement, Constant) else ()
+    return (statement.name,) if isinstance(statement, (Measure, Constant)) else ()
 
 
 def _label(ruleset: Ruleset, label: str, span: Span) -> None:
