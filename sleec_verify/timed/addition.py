@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from sleec_runtime.model_time import Effect, EventRelation
 from sleec_verify.solver import Undecided
+from sleec_verify.timed.alone import Alone
 from sleec_verify.timed.lean import Lean
 from sleec_verify.timed.program import Law, Program, kept_apart, together
 from sleec_verify.timed.responses import Demand, Occurs, ways_of
@@ -41,23 +42,45 @@ def can_be_added(program: Program, lean: Lean, what: Occurs) -> bool:
         return False
     if what.end is None:
         return Addition(program, lean).works(what.event, inf)
-    is_long = what.end >= 3 and what.end - (what.start or 0) >= 2
-    return Addition(program, lean).works(what.event, what.end) or (
-        is_long and Addition(program, lean, slides=True).works(what.event, what.end - 1)
+    # There is no other one a second before it or after it.
+    sliding = what.end if lean.is_open(what.event, what.end) else what.end - 1
+    is_long = sliding >= 2 and sliding > (what.start or 0)
+    return (
+        Addition(program, lean).works(what.event, what.end)
+        or (is_long and Addition(program, lean, slides=True).works(what.event, sliding))
+        or any(_has_choice(program, lean, what, what.end, alone) for alone in lean.ways_alone)
+    )
+
+
+def _has_choice(program: Program, lean: Lean, what: Occurs, end: int, alone: Alone) -> bool:
+    """Whether what is called for can be done at one of its last seconds, which it has to itself."""
+    seconds = lean.spacing.seconds_for(what.event, alone)
+    if seconds is None or seconds > end - max(what.start or 0, alone.after + 1) + 1:
+        return False
+    first = end - seconds + 1
+    addition = Addition(program, lean, alone=alone)
+    # At a later one, all that comes of it is later by as much.
+    return addition.works(what.event, first) and (
+        not addition.has_first
+        or all(Addition(program, lean, alone=alone).works(what.event, second) for second in range(first + 1, end + 1))
     )
 
 
 class Addition:
-    """One try to add an event; if it `slides`, what a law keeps from it is moved by a second where it can be."""
+    """One try to add an event; if it `slides`, what a law keeps from it is moved by a second where it can be; if it
+    is `alone`, it has the second to itself."""
 
-    def __init__(self, program: Program, lean: Lean, slides: bool = False) -> None:
+    def __init__(self, program: Program, lean: Lean, slides: bool = False, alone: Alone | None = None) -> None:
         self._program = program
         self._lean = lean
         self._slides = slides
+        self._alone = alone
         self._added: list[_Placed] = []
         self._forbidden: list[_Placed] = []
         self._steps = 0
         self._first = ("", 0.0)
+        self.has_first = False
+        """Whether anything is added that has to come before something else: at a time of its own."""
 
     def works(self, event: str, second: float) -> bool:
         """Whether the event can be added so many seconds after now."""
@@ -71,14 +94,16 @@ class Addition:
     def _add(self, event: str, second: float, path: _Path) -> bool:
         program, late, number = self._program, second == inf, len(self._added)
         # Of two that come after all else, the one may come after the other.
-        if not late and any(one[:2] == (event, second) and path[: len(one.path)] == one.path for one in self._added):
+        if not late and any(one[:2] == (event, second) and _leads_to(one, path) for one in self._added):
             return True
         self._steps += 1
-        if self._steps > MOST_STEPS or second <= self._lean.forbidden_until(event, late):
+        alone = self._alone if self._first == (event, second) else None
+        if self._steps > MOST_STEPS or second <= self._lean.forbidden_until(event, late, alone):
             return False
-        is_calm = second > self._lean.calm_after(event, late)
+        is_calm = second > self._lean.calm_after(event, late, self._is_measured(event, second))
         laws = program.laws_of_event.get(event, ())
-        is_measured = is_calm or any(isinstance(law, Effect) for law in laws)
+        needs_measures = is_calm or any(isinstance(law, Effect) for law in laws)
+        is_measured = needs_measures and not self._lean.has_steady(second)
         self._added.append(_Placed(event, second, second, path, is_measured))
         if not all(self._let_in(law, event, second, path) for law in laws):
             return False
@@ -93,22 +118,29 @@ class Addition:
             for rule, clauses in rules
             for clause, demands in enumerate(clauses)
             for demand in demands
+            if self._lean.decides(rule, clause, second)
         )
+
+    def _is_measured(self, event: str, second: float) -> bool:
+        return self._alone is not None and self._alone.is_measured and self._first == (event, second)
 
     def _let_in(self, law: Law, event: str, second: float, path: _Path) -> bool:
         """Whether a law lets an event be added, with what the law has come with it, or before it."""
         late = second == inf
         if isinstance(law, EventRelation) and law.relation == "happenBefore":
-            if event != law.right:
+            if event != law.right or second > self._lean.blocked_by(law, event, late):
                 return True
+            if any(one.event == law.left and one.start < second and _leads_to(one, path) for one in self._added):
+                return True
+            self.has_first = True
             soonest = max(self._lean.blocked(law.left, late) + 1, 1)
             return self._add(law.left, min(soonest, second - 1), path)
         others = kept_apart(law, event)
         if isinstance(law, Effect) or others:
-            slides = bool(others) and self._slides and self._first == (event, second)
-            if slides and event not in others and all(self._makes_way(other, event) for other in others):
+            goes_first = bool(others) and event not in others and self._first == (event, second)
+            if goes_first and (self._alone or (self._slides and all(self._makes_way(one, event) for one in others))):
                 return True
-            return second > self._lean.blocked_by(law, event, late)
+            return second > self._lean.blocked_by(law, event, late, self._is_measured(event, second))
         return all(self._add(other, second, path) for one, other in together(law) if one == event)
 
     def _makes_way(self, other: str, event: str) -> bool:
@@ -121,7 +153,10 @@ class Addition:
             return False
         called = (part.what for rule in program.obliging.get(other, ()) for part in program.parts(rule))
         return all(
-            what.event != other or what.negated or what.end is None or what.end > (what.start or 0) for what in called
+            what.event != other
+            or what.negated
+            or (what.start is not None and (what.end is None or what.end > what.start))
+            for what in called
         )
 
     def _meet(self, demand: Demand, second: float, path: _Path) -> bool:
@@ -130,7 +165,7 @@ class Addition:
         if ways is None:
             return False
         for way in ways:
-            if self._program.brought.is_free_way(way):
+            if self._program.free.is_free_way(way):
                 continue
             for what in way:
                 so_far = len(self._added), len(self._forbidden)
@@ -150,10 +185,15 @@ class Addition:
         """Whether a law may keep two events that are added from one instant."""
         if one.start != other.start or not one.goes_with(other):
             return False
-        if one.is_measured and other.event in self._program.brought.reading:
+        if one.is_measured and other.event in self._program.free.reading:
             return True
         laws = self._program.laws_of_event.get(one.event, ())
         return any(other.event in kept_apart(law, one.event) for law in laws)
+
+
+def _leads_to(added: _Placed, path: _Path) -> bool:
+    """Whether an event is added whenever the clauses of a path decide."""
+    return path[: len(added.path)] == added.path
 
 
 def _clash(added: _Placed, forbidden: _Placed) -> bool:

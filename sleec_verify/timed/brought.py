@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume, Never
 from sleec_runtime.model_time import Effect, Lasting
-from sleec_verify.solver import Undecided
-from sleec_verify.timed.addition import can_be_added
-from sleec_verify.timed.lean import Lean
 from sleec_verify.timed.program import events_of, together
-from sleec_verify.timed.responses import Demand, Occurs, occurrences, ways_of
+from sleec_verify.timed.responses import Occurs, occurrences
 
 if TYPE_CHECKING:
     from sleec_verify.timed.program import Program
+
+MOST_LEAN = 24
+"""Lean ways to go on that are looked at for one response: of each choice, another response may stand by."""
 
 
 class Brought:
@@ -26,8 +26,6 @@ class Brought:
         self._found: dict[str, int | None] = {}
         self._due: dict[str, set[Occurs]] = {}
         self._harmless: dict[str, bool] = {}
-        self._late: dict[str, bool] = {}
-        self._measured: dict[tuple[str, bool], bool] = {}
 
     def instants(self, trigger: str, missing: Collection[str] = ()) -> int | None:
         """How many instants the deadlines take that an event brings with it, and those of what they call for; None
@@ -123,99 +121,6 @@ class Brought:
                         found.add(answer.event)
                         ahead.append(answer.event)
         return found
-
-    def can_be_done(self, leaves: Sequence[Occurs]) -> bool:
-        """Whether, as long as anything of it is pending, something of it can be done, at once or after all else,
-        whatever else is the case."""
-        if self._can_wait(leaves):
-            return True
-        reached = 0
-        harmless = [what for what in leaves if not what.negated and self.is_harmless(what.event)]
-        for what in sorted(harmless, key=lambda what: what.start or 0):
-            if (what.start or 0) > reached + 1:
-                return False
-            if what.end is None:
-                return True
-            reached = max(reached, what.end)
-        return all(what.end is not None and what.end <= reached for what in leaves)
-
-    def is_free(self, demand: Demand) -> bool:
-        """Whether a demand can be met whatever else is the case, when it is made and as long as it is pending."""
-        ways = ways_of(demand)
-        return ways is not None and all(map(self.is_free_way, ways))
-
-    def is_free_way(self, way: Sequence[Occurs]) -> bool:
-        """Whether one of several responses can be met whatever else is the case, when it is called for and as long as
-        it is pending."""
-        if self._can_wait(way):
-            return True
-        # A law may call for something else at an instant that is only there for this.
-        at_hand = (what for what in way if not what.negated and (not what.is_later or not self._program.laws))
-        pending = [what for what in way if what.end != 0]
-        return any(self.is_harmless(what.event) for what in at_hand) and (not pending or self.can_be_done(pending))
-
-    def is_free_now(self, demand: Demand) -> bool:
-        """Whether a demand of now can be met whatever else is the case: as `is_free`, or by a lean way to go on."""
-        ways = ways_of(demand)
-        return ways is not None and all(self.is_free_way(way) or self._has_lean(way) for way in ways)
-
-    def _has_lean(self, way: Sequence[Occurs]) -> bool:
-        if any(map(self._lean.can_meet, way)):
-            return True
-        # Without the demand of now, nothing of it is met.
-        lean = Lean(self._program, way)
-        return any(not what.negated and can_be_added(self._program, lean, what) for what in way)
-
-    @cached_property
-    def _lean(self) -> Lean:
-        return Lean(self._program)
-
-    @cached_property
-    def reading(self) -> list[str]:
-        """The events at whose instants it may matter how the measures are."""
-        program = self._program
-        found = {rule.trigger for rule in program.rules if rule.guard is not None or len(list(rule.clauses())) > 1}
-        found.update(law.event for law in program.laws if isinstance(law, Effect))
-        return sorted(found)
-
-    def has_measures(self, event: str, calm: bool = False) -> bool:
-        """Whether the laws leave any measures at an instant of an event; `calm`, such that it calls for nothing that
-        cannot be met whatever else is the case."""
-        key = event, calm
-        known = self._measured.get(key)
-        if known is None:
-            try:
-                known = self._look_for_measures(event, calm)
-            except Undecided:
-                known = False
-            self._measured[key] = known
-        return known
-
-    def _look_for_measures(self, event: str, calm: bool) -> bool:
-        from sleec_verify.timed.unfolding import Unfolding
-
-        unfolding = Unfolding(self._program, rules={})
-        number = unfolding.instant(unfolding.formula.true)
-        required = [unfolding.instants[number].event(event)]
-        for rule in self._program.by_trigger.get(event, ()) if calm else ():
-            guards = (guard for _, guard in unfolding.guards(number, rule))
-            for guard, demands in zip(guards, self._program.demands_of_clauses(rule)):
-                if not all(map(self.is_free, demands)):
-                    required.append(-guard)
-        return unfolding.ask(*required)
-
-    def _can_wait(self, way: Sequence[Occurs]) -> bool:
-        """Whether something of it has no end, and can be done after all else."""
-        return any(not what.negated and what.end is None and self.comes_late(what.event) for what in way)
-
-    def comes_late(self, event: str) -> bool:
-        """Whether an event can be done after all else (`can_come_late`)."""
-        known = self._late.get(event)
-        if known is None:
-            from sleec_verify.timed.policies import can_come_late
-
-            known = self._late[event] = can_come_late(self._program, event)
-        return known
 
     def _at_once_with(self, trigger: str, surely: bool = False) -> set[str]:
         """The events that may come at once with an event; `surely`, only those that do whatever the conditions."""

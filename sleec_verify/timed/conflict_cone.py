@@ -82,7 +82,7 @@ class Cone:
             rule = program.ruleset.by_label[what]
             demands = program.demands(rule)
             chosen = demands if step.how == "taken" else demands[step.number : step.number + 1]
-            concerned = [demand for demand in chosen if not program.brought.is_free(demand)]
+            concerned = [demand for demand in chosen if not program.free.is_free(demand)]
             if concerned:
                 yield from self._rule(rule)
             for one in (one for demand in concerned for one in occurrences(demand)):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 from sleec_runtime.model import Rule
 from sleec_verify.solver import Undecided
@@ -20,6 +21,7 @@ from sleec_verify.timed.policy import Style
 from sleec_verify.timed.program import Program
 from sleec_verify.timed.questions import decided, needed
 from sleec_verify.timed.timeline import Timeline, excerpt
+from sleec_verify.timed.turns import turns
 
 MOST_PAST = 8
 """Instants before now that are tried. Each more takes half as long again."""
@@ -34,7 +36,8 @@ MOST_PENDING = 12
 """Instants before now that are tried where those that matter only to these are left out."""
 
 MOST_SECONDS = 64
-"""Seconds before now that are tried one by one, where histories at any times take too many instants."""
+"""Seconds before now that are tried one by one, where histories at any times take too many instants: the last ones, or
+those from which what the rule calls for may be forbidden by turns."""
 
 SECONDS_FOR_ONE = 4
 """As many of them are as much work as one instant at any time."""
@@ -72,8 +75,8 @@ def _partial(needed: Past, by_seconds: bool) -> tuple[list[Tried], list[Tried]]:
     # To leave out the instants that nothing pending now needs rules out no history.
     pending = [Tried(needed.pending, True)] if needed.pending <= MOST_PENDING else []
     if by_seconds and needed.endless <= MOST_PENDING:
-        pending.append(Tried(needed.endless, True, needed.reach))
-    pending.sort(key=lambda tried: tried.instants * SECONDS_FOR_ONE + tried.seconds)
+        pending.append(Tried(needed.endless, True, range(needed.reach, 0, -1)))
+    pending.sort(key=lambda tried: tried.instants * SECONDS_FOR_ONE + len(tried.seconds))
     return [one, two, *pending[:1]], [*more, *pending[1:]]
 
 
@@ -82,10 +85,16 @@ def conflict(program: Program, rule: Rule) -> History | None:
 
     Raises Undecided where more instants could matter than are tried.
     """
-    if all(map(program.brought.is_free_now, program.demands(rule))):
+    if program.free.is_all_free_now(rule):
         return None
     found = _Searches(program, rule).find()
     return None if found is None else _shown(program, rule, found)
+
+
+class _Answer(NamedTuple):
+    """That a history cannot be continued, or that each can be."""
+
+    history: tuple[Fixed, ...] | None
 
 
 class _Searches:
@@ -108,11 +117,12 @@ class _Searches:
             # Where responses come back to their own trigger, each further try may take as long as the first.
             if not self._program.is_acyclic:
                 raise
-            if self._all_go_on(self._rest):
-                return None
+            answer = self._by_parts(self._rest)
+            if answer is not None:
+                return answer.history
             # Where few instants were too much work, they are with shorter windows, too.
-            if self._looked_at >= FEW and self._drawn_out is not None:
-                return self._drawn_out
+            if self._looked_at >= FEW and self._of_many is not None:
+                return self._of_many
             if not self._by_seconds:
                 raise
             return self._each_second(reason)
@@ -127,24 +137,29 @@ class _Searches:
 
         return decided(self._program, ask, frozenset(), frozenset({self._rule.label}))
 
-    def _all_go_on(self, tries: list[Tried]) -> bool:
-        """Whether one of the tries shows that all histories can be continued; those that do not are used up."""
+    def _by_parts(self, tries: list[Tried]) -> _Answer | None:
+        """The answer, where one of the tries shows that all histories can be continued, or finds a part that is a whole
+        history; None where that is not known. The tries are used up."""
         while tries:
             try:
-                if self._search(tries.pop(0)) is None:
-                    return True
+                part = self._search(tries.pop(0))
+                if part is None:
+                    return _Answer(None)
+                if _is_conflict(self._program, self._rule, part):
+                    return _Answer(self._less(part))
             except Undecided:
                 pass
-        return False
+        return None
 
     def _any_times(self) -> tuple[Fixed, ...] | None:
         most = self._needed.most
         tried = min(most, MOST_PAST)
         for instants in range(tried + 1):
-            if instants == FEW and self._all_go_on(self._early):
-                return None
-            if instants > MOST_DRAWN_OUT and self._program.is_acyclic and self._drawn_out is not None:
-                return self._drawn_out
+            answer = self._by_parts(self._early) if instants == FEW else None
+            if answer is not None:
+                return answer.history
+            if instants > MOST_DRAWN_OUT and self._program.is_acyclic and self._of_many is not None:
+                return self._of_many
             found = self._search(Tried(instants))
             if found is not None:
                 return self._less(found)
@@ -155,15 +170,16 @@ class _Searches:
                 break
         if self._needed.known and most <= tried:
             return None
-        if (tried < FEW and self._all_go_on(self._early)) or self._all_go_on(self._rest):
-            return None
+        answer = (self._by_parts(self._early) if tried < FEW else None) or self._by_parts(self._rest)
+        if answer is not None:
+            return answer.history
         raise Undecided(f"no conflict with up to {tried} instants before now, and more could matter")
 
     def _each_second(self, otherwise: Undecided) -> tuple[Fixed, ...] | None:
         # Times that are further from each other than any rule can tell may as well be near.
         enough = self._needed.most * (self._needed.reach + 1)
         for seconds in (self._needed.reach, min(enough, MOST_SECONDS)):
-            found = self._search(Tried(0, seconds=seconds))
+            found = self._search(Tried(0, seconds=range(seconds, 0, -1)))
             if found is not None:
                 return self._less(found)
         if self._needed.known and enough <= MOST_SECONDS:
@@ -171,6 +187,28 @@ class _Searches:
         raise otherwise
 
     @cached_property
+    def _of_many(self) -> tuple[Fixed, ...] | None:
+        """A conflict in which many instants matter, if one is found."""
+        for look in (self._drawn_out, self._by_turns):
+            try:
+                found = look()
+            except Undecided:
+                found = None
+            if found is not None:
+                return found
+        return None
+
+    def _by_turns(self) -> tuple[Fixed, ...] | None:
+        """A conflict in which what the rule calls for is kept off by one instant after the other."""
+        for ago in turns(self._program, self._rule, MOST_SECONDS):
+            try:
+                found = self._search(Tried(0, seconds=ago))
+            except Undecided:
+                continue
+            if found is not None:
+                return self._less(found)
+        return None
+
     def _drawn_out(self) -> tuple[Fixed, ...] | None:
         """A conflict drawn out from one of the same rules with shorter windows."""
         shorter = shortened(self._program.ruleset)
@@ -178,13 +216,10 @@ class _Searches:
             return None
         ruleset, unit = shorter
         searches = _Searches(Program(ruleset, self._program.untimed), ruleset.by_label[self._rule.label])
-        try:
-            found = searches._of_few(MOST_DRAWN_OUT)
-            for history in drawn_out(found, unit) if found is not None else ():
-                if _is_conflict(self._program, self._rule, history):
-                    return history
-        except Undecided:
-            pass
+        found = searches._of_few(MOST_DRAWN_OUT)
+        for history in drawn_out(found, unit) if found is not None else ():
+            if _is_conflict(self._program, self._rule, history):
+                return history
         return None
 
     def _of_few(self, most: int) -> tuple[Fixed, ...] | None:
@@ -214,13 +249,18 @@ def _smaller(program: Program, rule: Rule, history: tuple[Fixed, ...]) -> tuple[
         without = (*history[:place], *history[place + 1 :])
         if is_one(without):
             history = without
-    for place, instant in enumerate(history):
-        keep = rule.trigger if place == len(history) - 1 else None
-        for event in sorted(instant.events - {keep}):
-            less = replace(history[place], events=history[place].events - {event})
-            without = (*history[:place], less, *history[place + 1 :])
-            if is_one(without):
-                history = without
+    grew_less = True
+    while grew_less:
+        grew_less = False
+        for place, instant in enumerate(history):
+            keep = rule.trigger if place == len(history) - 1 else None
+            for event in sorted(instant.events - {keep}):
+                less = replace(history[place], events=history[place].events - {event})
+                without = (*history[:place], less, *history[place + 1 :])
+                if is_one(without):
+                    # What another one called for may go with it.
+                    history = without
+                    grew_less = True
     begins = history[0].time
     return tuple(replace(instant, time=instant.time - begins) for instant in history)
 

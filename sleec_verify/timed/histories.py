@@ -10,7 +10,7 @@ is a plan that the next history must defeat as well; if not, it is the conflict.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from functools import cached_property
 from typing import NamedTuple
 
@@ -36,20 +36,20 @@ MOST_CLAUSES_EACH = 400
 """As many clauses are for each instant of a long history."""
 
 _LONG_SINCE = 10**9
-"""Seconds before the first of those that are tried one by one, for what is before all of them."""
+"""The time now, where seconds are tried one by one: there is room for what is before all of them."""
 
 
 class Tried(NamedTuple):
     """What a search looks through: the histories with a number of instants before now, at any times; or with instants
-    at some of the last `seconds` as well; or, `in_part`, with as many instants at most that are part of a history,
-    where all that can have come about at the others may have.
+    at some of the times that are so many `seconds` before now as well, the first first; or, `in_part`, with as many
+    instants at most that are part of a history, where all that can have come about at the others may have.
 
     `from_now`, only plans that are reckoned from now count, and no more of them than these instants are enough for:
     then there is no other history either. Policies are of a `style`."""
 
     instants: int
     in_part: bool = False
-    seconds: int = 0
+    seconds: Sequence[int] = ()
     from_now: bool = False
     style: Style = "plain"
 
@@ -65,20 +65,20 @@ class Search:
         self._instants = instants
         # Seconds that are known are little work each.
         patience = PATIENCE if seconds else 1
-        self._times = {instants + second: _LONG_SINCE + second for second in range(seconds + 1)} if seconds else {}
+        self._times = {instants + n: _LONG_SINCE - ago for n, ago in enumerate((*seconds, 0))} if seconds else {}
         self.outer = Unfolding(
             program,
             impossible=program.impossible(frozenset({rule.label})),
             most=MOST_LATER * patience,
             most_clauses=MOST_CLAUSES * patience,
-            in_part=instants + seconds if in_part else 0,
+            in_part=instants + len(seconds) if in_part else 0,
             times=self._times,
         )
         self.true = self.outer.formula.true
         self.add = self.outer.add
         # Histories of fewer instants have been looked at before.
         needed = None if in_part or seconds else self.true
-        self.outer.now = self.now = instants + seconds
+        self.outer.now = self.now = instants + len(seconds)
         self.past = [self.outer.instant(needed) for _ in range(self.now)]
         # Now, the rule need not be kept.
         self.outer.instant(self.true)
@@ -101,12 +101,14 @@ class Search:
         }
         clauses = self.plans.deciding(rule)
         self.add([literal for _, literal in clauses])
-        for (clause, literal), demands in zip(clauses, program.demands_of_clauses(rule)):
+        for place, ((clause, literal), demands) in enumerate(zip(clauses, program.demands_of_clauses(rule))):
             if clause.obligations:
                 self.add([-literal, self._hopeful(self.outer.due(self.now, clause.obligations))])
             # What goes on without the rule's demand of now breaks it, and not only what could be done besides.
             at_stake = tuple(
-                one for one, demand in zip(clause.obligations, demands) if not program.brought.is_free_now(demand)
+                one
+                for one, demand in zip(clause.obligations, demands)
+                if not program.free.is_free_now(demand, rule, place)
             )
             self.add([-literal, self.outer.demand(self.now, self.outer.due(self.now, at_stake, kept=False))])
         self.plans.defeat(Plan(frozenset()))

@@ -126,7 +126,7 @@ class _Counting:
             return
         for way in ways:
             leaves = [o for o in way if o.end != 0 and not (o.negated and self._is_never_called(o.event))]
-            if not leaves or self._brought.can_be_done(leaves):
+            if not leaves or self._program.free.can_be_done(leaves):
                 continue
             shared, more = self._of_leaves(leaves)
             self._add(trigger, way, more)

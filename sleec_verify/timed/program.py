@@ -28,11 +28,12 @@ from sleec_runtime.model import (
 )
 from sleec_runtime.model_time import RELATIONS, Claim, Effect, EventRelation, Lasting, MeasureRelation, Relation
 from sleec_verify.solver import Recorder, Undecided
-from sleec_verify.timed.responses import Demand, Occurs, Part, Responses, certain, occurrences, parts_of
+from sleec_verify.timed.responses import Demand, Occurs, Part, Responses, certain, occurrences, parts_of, ways_of
 from sleec_verify.timed.scope import Untimed
 
 if TYPE_CHECKING:
     from sleec_verify.timed.brought import Brought
+    from sleec_verify.timed.free import Free
 
 Law = Union[Relation, Exclusive, Never, Assume]
 """What a ruleset demands besides its rules."""
@@ -187,7 +188,7 @@ class Program:
         self.responses = Responses(untimed)
         self._demands: dict[str, list[list[Demand]]] = {}
         self._windows: dict[str, list[Occurs]] = {}
-        self._parts: dict[str, list[Part]] = {}
+        self._parts: dict[tuple[str, int | None], list[Part]] = {}
         self._followers: dict[str, list[Follower]] = {}
         self._endless: dict[frozenset[str], frozenset[str]] = {}
 
@@ -373,16 +374,27 @@ class Program:
         except Undecided:
             return [Occurs(response.name, 0, None, response.negated) for response in responses_of(rule)]
 
-    def parts(self, rule: Rule) -> list[Part]:
-        """As `windows_at_most`, each with what may as well be done in its place."""
-        found = self._parts.get(rule.label)
+    def parts(self, rule: Rule, standby: int | None = None) -> list[Part]:
+        """As `windows_at_most`, each with what may as well be done in its place (`parts_of`). Where a measure says how
+        long, no bound is known."""
+        found = self._parts.get((rule.label, standby))
         if found is None:
             try:
-                parts = [part for demand in self.demands(rule) for part in parts_of(demand)]
+                parts = [
+                    part
+                    for clause, demands in enumerate(self.demands_of_clauses(rule))
+                    for demand in demands
+                    for part in parts_of(demand, clause, standby)
+                ]
             except Undecided:
-                parts = [Part(what, None) for what in self.windows_at_most(rule)]
-            found = self._parts[rule.label] = list(dict.fromkeys(parts))
+                parts = [Part(what._replace(start=None), None, -1) for what in self.windows_at_most(rule)]
+            found = self._parts[rule.label, standby] = list(dict.fromkeys(parts))
         return found
+
+    def ways(self, rule: Rule) -> list[tuple[Occurs, ...]]:
+        """For each way in which hedges inside responses may decide, those of which one has to be kept (`ways_of`); none
+        where several have to be. Raises Undecided for a window whose length a measure says."""
+        return [way for demand in self.demands(rule) for way in ways_of(demand) or ()]
 
     @cached_property
     def brought(self) -> Brought:
@@ -390,6 +402,13 @@ class Program:
         from sleec_verify.timed.brought import Brought
 
         return Brought(self)
+
+    @cached_property
+    def free(self) -> Free:
+        """What can be done whatever else is the case."""
+        from sleec_verify.timed.free import Free
+
+        return Free(self)
 
     @cached_property
     def is_acyclic(self) -> bool:

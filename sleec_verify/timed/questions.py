@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
 from sleec_runtime.model import Rule
@@ -14,6 +14,12 @@ from sleec_verify.timed.timeline import Timeline, timeline
 from sleec_verify.timed.unfolding import Unfolding
 
 _Found = TypeVar("_Found")
+
+
+_FEW = 4
+"""Instants that may be added by the way, and clauses with which no more are."""
+
+_FEW_CLAUSES = 2_000
 
 
 class Answer(NamedTuple):
@@ -92,6 +98,40 @@ def exchanging(program: Program, rule: Rule, other: Rule) -> Answer:
 def triggering(program: Program, rule: Rule) -> Answer:
     """A trace in which `rule` is triggered and its guard holds."""
     return _ask(program, lambda u, seed: [u.instants[seed].event(rule.trigger), u.condition(seed, rule.guard)])
+
+
+def can_occur(program: Program, event: str, without: frozenset[str] = frozenset()) -> bool:
+    """Whether an event occurs in any trace that keeps all but the rules `without`; True where that takes longer than
+    what is asked by the way may take."""
+    return _by_the_way(program, lambda u, seed: u.instants[seed].event(event), without)
+
+
+def can_decide(program: Program, rule: Rule, clause: int, without: frozenset[str] = frozenset()) -> bool:
+    """As `can_occur`, of a clause of a rule that decides."""
+    return _by_the_way(program, lambda u, seed: u.guards(seed, rule)[clause][1], without)
+
+
+def _by_the_way(program: Program, what: Callable[[Unfolding, int], int], without: frozenset[str]) -> bool:
+    unfolding = Unfolding(
+        program, without=without, impossible=program.impossible(without), most=_FEW, most_clauses=_FEW_CLAUSES
+    )
+    try:
+        return unfolding.ask(what(unfolding, unfolding.instant(unfolding.formula.true)))
+    except Undecided:
+        return True
+
+
+def together_at_once(program: Program, rule: Rule, clause: int, others: Iterable[Rule]) -> set[tuple[str, int]]:
+    """The clauses of other rules, by labels and places, that may decide at one instant with a clause of a rule."""
+    unfolding = Unfolding(program, rules={})
+    seed = unfolding.instant(unfolding.formula.true)
+    here = unfolding.guards(seed, rule)[clause][1]
+    return {
+        (other.label, place)
+        for other in others
+        for place, (_, guard) in enumerate(unfolding.guards(seed, other))
+        if unfolding.ask(here, guard)
+    }
 
 
 def reachable(program: Program, rule: Rule) -> list[bool]:

@@ -163,17 +163,20 @@ def ways_of(demand: Demand) -> list[tuple[Occurs, ...]] | None:
 
 
 class Part(NamedTuple):
-    """A part of a demand, and what may as well be done in its place."""
+    """A part of a demand, what may as well be done in its place, and the place of the clause that makes the demand."""
 
     what: Occurs
     instead: Occurs | None
+    clause: int
 
 
-def parts_of(demand: Demand) -> Iterator[Part]:
-    """The parts of a demand. Of each choice, the first that calls for something is not done instead of the others."""
+def parts_of(demand: Demand, clause: int, standby: int | None = None) -> Iterator[Part]:
+    """The parts of a demand of a clause. Of each choice, one is not done instead of the others, but they are left out
+    for it: the `standby`, by its place, or else the first that calls for something."""
     ways = ways_of(demand)
     if ways is None:
-        yield from (Part(what, None) for what in occurrences(demand))
+        yield from (Part(what, None, clause) for what in occurrences(demand))
     for way in ways or ():
         first = next((what for what in way if not what.negated), None)
-        yield from (Part(what, None if what is first else first) for what in way)
+        instead = first if standby is None else way[standby % len(way)]
+        yield from (Part(what, None if what is instead else instead, clause) for what in way)

@@ -16,9 +16,9 @@ from sleec_runtime.model import Context
 from sleec_runtime.model_time import Effect, EventRelation, Lasting
 from sleec_runtime.trace import Instant, Trace, _Replay, broken
 from sleec_verify.timed import conflicts
-from sleec_verify.timed.brought import Brought
 from sleec_verify.timed.conflict_cone import Cone
 from sleec_verify.timed.conflicts import FEW_PLANS, _partial, conflict
+from sleec_verify.timed.free import Free
 from sleec_verify.timed.histories import Search, Tried
 from sleec_verify.timed.plans import Plan
 from sleec_verify.timed.policies import Policies, can_come_late
@@ -197,7 +197,7 @@ def played(monkeypatch):
 
     monkeypatch.setattr(Search, "_ways", all_played)
     # What has an answer without a search is played as well.
-    monkeypatch.setattr(Brought, "is_free_now", Brought.is_free)
+    monkeypatch.setattr(Free, "is_free_now", lambda self, demand, *_: self.is_free(demand))
 
     def run(text, untimed="at"):
         program = Program(parse(text), untimed)
@@ -269,7 +269,7 @@ def test_what_many_policies_do_keeps_all(first, played):
 def without_policies(monkeypatch):
     """Conflicts are looked for without any policy: by instants that each history is continued with."""
     monkeypatch.setattr(Policies, "suiting", lambda *_: None)
-    monkeypatch.setattr(Brought, "comes_late", lambda *_: False)
+    monkeypatch.setattr(Free, "comes_late", lambda *_: False)
     monkeypatch.setattr(conflicts, "MOST_PAST", 2)
 
     def no_few_plans(*args):
@@ -285,7 +285,7 @@ def few_plans_decide(ruleset, monkeypatch):
     for rule in program.rules if program.is_acyclic else ():
         cone = Cone(program, rule)
         for instants, style in FEW_PLANS:
-            few = Search(program, rule, cone, Tried(instants, True, 0, True, style))
+            few = Search(program, rule, cone, Tried(instants, True, from_now=True, style=style))
             search = answered(lambda: (few.find(),))  # noqa: B023
             if search == (None,):
                 decided += 1
@@ -487,7 +487,8 @@ def test_few_plans_do_for(text):
     program = Program(parse(written(*text)))
     rule = program.ruleset.by_label["r"]
     searches = (
-        Search(program, rule, Cone(program, rule), Tried(few, True, 0, True, style)) for few, style in FEW_PLANS
+        Search(program, rule, Cone(program, rule), Tried(few, True, from_now=True, style=style))
+        for few, style in FEW_PLANS
     )
     assert (None,) in [answered(lambda: (search.find(),)) for search in searches]  # noqa: B023
 

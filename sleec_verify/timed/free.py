@@ -1,0 +1,231 @@
+"""What a robot is free to do whatever else is the case: demands that can be met after any history."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cached_property, partial
+from math import inf
+from typing import TYPE_CHECKING
+
+from sleec_runtime.model import Rule
+from sleec_runtime.model_time import Effect
+from sleec_verify.solver import Undecided
+from sleec_verify.timed.addition import can_be_added
+from sleec_verify.timed.lean import Known, Lean
+from sleec_verify.timed.responses import Demand, Occurs, ways_of
+
+if TYPE_CHECKING:
+    from sleec_verify.timed.program import Program
+    from sleec_verify.timed.steady import Steady
+
+MOST_LEAN = 24
+"""Lean ways to go on that are looked at for one response: of each choice, another response may stand by."""
+
+
+class Free:
+    """The demands of one program that can be met, each looked at once."""
+
+    def __init__(self, program: Program) -> None:
+        self._program = program
+        self._late: dict[str, bool] = {}
+        self._answers: dict[tuple[tuple[Occurs, ...], str, int], bool] = {}
+        self._leans: dict[tuple[object, ...], Lean] = {}
+        self._steady: dict[tuple[str, ...], Steady | None] = {}
+        self._can_be: dict[tuple[str, frozenset[str]], bool] = {}
+        self._measured: dict[tuple[str, bool], bool] = {}
+
+    def can_be_done(self, leaves: Sequence[Occurs]) -> bool:
+        """Whether, as long as anything of it is pending, something of it can be done, at once or after all else,
+        whatever else is the case."""
+        if self._can_wait(leaves):
+            return True
+        reached = 0
+        harmless = [what for what in leaves if not what.negated and self._program.brought.is_harmless(what.event)]
+        for what in sorted(harmless, key=lambda what: what.start or 0):
+            if (what.start or 0) > reached + 1:
+                return False
+            if what.end is None:
+                return True
+            reached = max(reached, what.end)
+        return all(what.end is not None and what.end <= reached for what in leaves)
+
+    def is_free(self, demand: Demand) -> bool:
+        """Whether a demand can be met whatever else is the case, when it is made and as long as it is pending."""
+        ways = ways_of(demand)
+        return ways is not None and all(map(self.is_free_way, ways))
+
+    def is_free_way(self, way: Sequence[Occurs]) -> bool:
+        """Whether one of several responses can be met whatever else is the case, when it is called for and as long as
+        it is pending."""
+        if self._can_wait(way):
+            return True
+        # A law may call for something else at an instant that is only there for this.
+        at_hand = (what for what in way if not what.negated and (not what.is_later or not self._program.laws))
+        pending = [what for what in way if what.end != 0]
+        return any(self._program.brought.is_harmless(what.event) for what in at_hand) and (
+            not pending or self.can_be_done(pending)
+        )
+
+    def is_free_now(self, demand: Demand, rule: Rule, clause: int) -> bool:
+        """Whether a demand of now that a clause of a rule makes can be met whatever else is the case: as `is_free`, or
+        by a lean way to go on."""
+        ways = ways_of(demand)
+        return ways is not None and all(self.is_free_way(way) or self._has_lean(way, rule, clause) for way in ways)
+
+    def is_all_free_now(self, rule: Rule) -> bool:
+        """As `is_free_now`, of all that a rule demands."""
+        return all(
+            self.is_free_now(demand, rule, clause)
+            for clause, demands in enumerate(self._program.demands_of_clauses(rule))
+            for demand in demands
+        )
+
+    def _has_lean(self, way: tuple[Occurs, ...], rule: Rule, clause: int) -> bool:
+        key = way, rule.label, clause
+        found = self._answers.get(key)
+        if found is None:
+            found = self._answers[key] = self._look_for_lean(way, rule, clause)
+        return found
+
+    def _look_for_lean(self, way: tuple[Occurs, ...], rule: Rule, clause: int) -> bool:
+        # In the order in which they come up, each once.
+        looked_at = dict.fromkeys(what.event for what in way)
+        if self._is_free_by_lean(way, Known(rule.trigger), looked_at):
+            return True
+        known = self._known(rule, clause, looked_at)
+        return known != Known(rule.trigger) and self._is_free_by_lean(way, known, looked_at)
+
+    def _known(self, rule: Rule, clause: int, events: Iterable[str]) -> Known:
+        """What is known where a clause of a rule decides now, of some events and the rules that they trigger."""
+        from sleec_verify.timed.questions import can_decide, can_occur, together_at_once
+
+        def never(what: str, ask: Callable[[frozenset[str]], bool]) -> bool:
+            """Where it is so in a trace that keeps all rules, it is in one that keeps all but this."""
+            for without in (frozenset[str](), frozenset({rule.label})):
+                key = what, without
+                known = self._can_be.get(key)
+                if known is None:
+                    known = self._can_be[key] = ask(without)
+                if known:
+                    return False
+            return True
+
+        program = self._program
+        rules = [one for event in events for one in program.by_trigger.get(event, ())]
+        clauses = [(one, place) for one in rules for place, _ in enumerate(one.clauses())]
+        try:
+            now = together_at_once(program, rule, clause, rules)
+        except Undecided:
+            now = {(one.label, place) for one, place in clauses}
+        return Known(
+            rule.trigger,
+            frozenset(event for event in events if never(event, partial(can_occur, program, event))),
+            frozenset(
+                (one.label, place)
+                for one, place in clauses
+                if never(f"{one.label} {place}", partial(can_decide, program, one, place))
+            ),
+            frozenset((one.label, place) for one, place in clauses) - now,
+        )
+
+    def _is_free_by_lean(self, way: tuple[Occurs, ...], known: Known, looked_at: dict[str, None]) -> bool:
+        def is_met(lean: Lean) -> bool:
+            return any(map(lean.can_meet, way)) or lean.is_left_out(way)
+
+        def is_added(lean: Lean) -> bool:
+            return any(not what.negated and can_be_added(self._program, lean, what) for what in way)
+
+        def is_free(steady: Steady | None = None, since: float = 0) -> bool:
+            # Without the demand of now, nothing of it is met.
+            for absent, is_one in (((), is_met), (way, is_added)):
+                for lean in self._lean_ways(known, absent, steady, since):
+                    if is_one(lean) and lean.is_steady():
+                        return True
+                    looked_at.update(dict.fromkeys(lean.looked_at))
+            return False
+
+        if is_free():
+            return True
+        if self._program.brought.binds_any_instant or any(what.end is None for what in way):
+            return False
+        measures = self._steady_for(tuple(event for event in looked_at if event in self.reading))
+        if measures is None:
+            return False
+        restless = Lean(self._program, known, way, None, measures).restless_until()
+        return is_free(measures) or (0 < restless < inf and is_free(measures, restless))
+
+    def _lean_ways(
+        self, known: Known, absent: tuple[Occurs, ...], steady: Steady | None, since: float
+    ) -> Iterator[Lean]:
+        """Lean ways to go on: the plain one, and those that have other responses stand by, as far as it mattered to
+        those before."""
+        ahead: deque[dict[str, int]] = deque([{}])
+        seen = [ahead[0]]
+        while ahead:
+            standbys = ahead.popleft()
+            key = known, absent, steady, since, frozenset(standbys.items())
+            lean = self._leans.get(key)
+            if lean is None:
+                lean = self._leans[key] = Lean(self._program, known, absent, standbys, steady, since)
+            yield lean
+            for label, places in sorted(lean.choosing.items()):
+                for place in range(places) if label not in standbys else ():
+                    more = {**standbys, label: place}
+                    if more not in seen and len(seen) < MOST_LEAN:
+                        seen.append(more)
+                        ahead.append(more)
+
+    def _steady_for(self, first: tuple[str, ...]) -> Steady | None:
+        from sleec_verify.timed.steady import steady
+
+        if first not in self._steady:
+            self._steady[first] = steady(self._program, first) if first else None
+        return self._steady[first]
+
+    @cached_property
+    def reading(self) -> list[str]:
+        """The events at whose instants it may matter how the measures are."""
+        program = self._program
+        found = {rule.trigger for rule in program.rules if rule.guard is not None or len(list(rule.clauses())) > 1}
+        found.update(law.event for law in program.laws if isinstance(law, Effect))
+        return sorted(found)
+
+    def has_measures(self, event: str, calm: bool = False) -> bool:
+        """Whether the laws leave any measures at an instant of an event; `calm`, such that it calls for nothing that
+        cannot be met whatever else is the case."""
+        key = event, calm
+        known = self._measured.get(key)
+        if known is None:
+            try:
+                known = self._look_for_measures(event, calm)
+            except Undecided:
+                known = False
+            self._measured[key] = known
+        return known
+
+    def _look_for_measures(self, event: str, calm: bool) -> bool:
+        from sleec_verify.timed.unfolding import Unfolding
+
+        unfolding = Unfolding(self._program, rules={})
+        number = unfolding.instant(unfolding.formula.true)
+        required = [unfolding.instants[number].event(event)]
+        for rule in self._program.by_trigger.get(event, ()) if calm else ():
+            guards = (guard for _, guard in unfolding.guards(number, rule))
+            for guard, demands in zip(guards, self._program.demands_of_clauses(rule)):
+                if not all(map(self.is_free, demands)):
+                    required.append(-guard)
+        return unfolding.ask(*required)
+
+    def _can_wait(self, way: Sequence[Occurs]) -> bool:
+        """Whether something of it has no end, and can be done after all else."""
+        return any(not what.negated and what.end is None and self.comes_late(what.event) for what in way)
+
+    def comes_late(self, event: str) -> bool:
+        """Whether an event can be done after all else (`can_come_late`)."""
+        known = self._late.get(event)
+        if known is None:
+            from sleec_verify.timed.policies import can_come_late
+
+            known = self._late[event] = can_come_late(self._program, event)
+        return known
