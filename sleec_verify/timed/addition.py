@@ -97,18 +97,18 @@ class Addition:
         if not late and any(one[:2] == (event, second) and _leads_to(one, path) for one in self._added):
             return True
         self._steps += 1
-        alone = self._alone if self._first == (event, second) else None
+        alone = self._alone if self._first[1] == second else None
         if self._steps > MOST_STEPS or second <= self._lean.forbidden_until(event, late, alone):
             return False
-        is_calm = second > self._lean.calm_after(event, late, self._is_measured(event, second))
+        own = self._lean.own_clauses(event)
+        if own is not None and second <= self._lean.settled_after(event, late, alone is not None and alone.is_measured):
+            own = None
         laws = program.laws_of_event.get(event, ())
-        needs_measures = is_calm or any(isinstance(law, Effect) for law in laws)
+        needs_measures = own is not None or any(isinstance(law, Effect) for law in laws)
         is_measured = needs_measures and not self._lean.has_steady(second)
         self._added.append(_Placed(event, second, second, path, is_measured))
-        if not all(self._let_in(law, event, second, path) for law in laws):
+        if not all(self._let_in(law, event, second, path, alone) for law in laws):
             return False
-        if is_calm:
-            return True
         try:
             rules = [(rule, program.demands_of_clauses(rule)) for rule in program.by_trigger.get(event, ())]
         except Undecided:
@@ -118,13 +118,10 @@ class Addition:
             for rule, clauses in rules
             for clause, demands in enumerate(clauses)
             for demand in demands
-            if self._lean.decides(rule, clause, second)
+            if (self._lean.decides(rule, clause, second) if own is None else own[rule.label] == clause)
         )
 
-    def _is_measured(self, event: str, second: float) -> bool:
-        return self._alone is not None and self._alone.is_measured and self._first == (event, second)
-
-    def _let_in(self, law: Law, event: str, second: float, path: _Path) -> bool:
+    def _let_in(self, law: Law, event: str, second: float, path: _Path, alone: Alone | None) -> bool:
         """Whether a law lets an event be added, with what the law has come with it, or before it."""
         late = second == inf
         if isinstance(law, EventRelation) and law.relation == "happenBefore":
@@ -137,10 +134,11 @@ class Addition:
             return self._add(law.left, min(soonest, second - 1), path)
         others = kept_apart(law, event)
         if isinstance(law, Effect) or others:
-            goes_first = bool(others) and event not in others and self._first == (event, second)
-            if goes_first and (self._alone or (self._slides and all(self._makes_way(one, event) for one in others))):
-                return True
-            return second > self._lean.blocked_by(law, event, late, self._is_measured(event, second))
+            if others and event not in others:
+                slides = self._slides and self._first == (event, second)
+                if alone is not None or (slides and all(self._makes_way(other, event) for other in others)):
+                    return True
+            return second > self._lean.blocked_by(law, event, late, alone is not None and alone.is_measured)
         return all(self._add(other, second, path) for one, other in together(law) if one == event)
 
     def _makes_way(self, other: str, event: str) -> bool:

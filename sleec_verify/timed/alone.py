@@ -53,14 +53,17 @@ class Spacing:
         return self._seconds[key]
 
     def _look_for_seconds(self, event: str, alone: Alone) -> int | None:
-        others = {other for law in self._program.laws_of_event.get(event, ()) for other in kept_apart(law, event)}
-        if event in others:
+        events = sorted(self._program.brought.at_once_with(event))
+        laws = ((law, one) for one in events for law in self._program.laws_of_event.get(one, ()))
+        others = {other for law, one in laws for other in kept_apart(law, one)}
+        if others.intersection(events):
             return None
         if alone.is_measured:
-            others |= {*self._program.free.reading} - {event}
+            others |= {*self._program.free.reading}.difference(events)
         forbidding = [
             (rule.trigger, _length(part.what))
-            for rule, part in self._lean.forbidding(event)
+            for one in events
+            for rule, part in self._lean.forbidding(one)
             if self.is_short(rule, part, alone)
         ]
         if not others and not forbidding:

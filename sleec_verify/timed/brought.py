@@ -60,7 +60,7 @@ class Brought:
 
     def may_come(self, trigger: str, event: str) -> bool:
         """Whether an event may come at once with another one."""
-        return event in self._at_once_with(trigger)
+        return event in self.at_once_with(trigger)
 
     def _due_after(self, trigger: str) -> set[Occurs]:
         found = self._due.get(trigger)
@@ -72,8 +72,8 @@ class Brought:
         """What is due later once an event occurs, all that comes at once with it included. What an event may do from
         then on, it does for all rules; what happens at once has been done."""
         found: set[Occurs] = set()
-        happens = self._at_once_with(trigger, surely=True)
-        events = self._at_once_with(trigger)
+        happens = self.at_once_with(trigger, surely=True)
+        events = self.at_once_with(trigger)
         for rule in (rule for event in events for rule in self._program.by_trigger.get(event, ())):
             for demand in self._program.demands(rule):
                 leaves = list(occurrences(demand))
@@ -122,7 +122,7 @@ class Brought:
                         ahead.append(answer.event)
         return found
 
-    def _at_once_with(self, trigger: str, surely: bool = False) -> set[str]:
+    def at_once_with(self, trigger: str, surely: bool = False) -> set[str]:
         """The events that may come at once with an event; `surely`, only those that do whatever the conditions."""
         found, ahead = {trigger}, [trigger]
         if not surely:

@@ -14,10 +14,11 @@ from sleec_verify.solver import Undecided
 from sleec_verify.timed.addition import can_be_added
 from sleec_verify.timed.lean import Known, Lean
 from sleec_verify.timed.responses import Demand, Occurs, ways_of
+from sleec_verify.timed.windows import allows, inside
 
 if TYPE_CHECKING:
     from sleec_verify.timed.program import Program
-    from sleec_verify.timed.steady import Steady
+    from sleec_verify.timed.steady import Measured
 
 MOST_LEAN = 24
 """Lean ways to go on that are looked at for one response: of each choice, another response may stand by."""
@@ -31,9 +32,9 @@ class Free:
         self._late: dict[str, bool] = {}
         self._answers: dict[tuple[tuple[Occurs, ...], str, int], bool] = {}
         self._leans: dict[tuple[object, ...], Lean] = {}
-        self._steady: dict[tuple[str, ...], Steady | None] = {}
+        self._met: dict[tuple[str, str], frozenset[tuple[int, Occurs]]] = {}
         self._can_be: dict[tuple[str, frozenset[str]], bool] = {}
-        self._measured: dict[tuple[str, bool], bool] = {}
+        self._measured: dict[str, bool] = {}
 
     def can_be_done(self, leaves: Sequence[Occurs]) -> bool:
         """Whether, as long as anything of it is pending, something of it can be done, at once or after all else,
@@ -91,10 +92,10 @@ class Free:
     def _look_for_lean(self, way: tuple[Occurs, ...], rule: Rule, clause: int) -> bool:
         # In the order in which they come up, each once.
         looked_at = dict.fromkeys(what.event for what in way)
-        if self._is_free_by_lean(way, Known(rule.trigger), looked_at):
+        if self._is_free_by_lean(way, Known(rule.label, rule.trigger), looked_at):
             return True
         known = self._known(rule, clause, looked_at)
-        return known != Known(rule.trigger) and self._is_free_by_lean(way, known, looked_at)
+        return known != Known(rule.label, rule.trigger) and self._is_free_by_lean(way, known, looked_at)
 
     def _known(self, rule: Rule, clause: int, events: Iterable[str]) -> Known:
         """What is known where a clause of a rule decides now, of some events and the rules that they trigger."""
@@ -119,6 +120,7 @@ class Free:
         except Undecided:
             now = {(one.label, place) for one, place in clauses}
         return Known(
+            rule.label,
             rule.trigger,
             frozenset(event for event in events if never(event, partial(can_occur, program, event))),
             frozenset(
@@ -130,16 +132,18 @@ class Free:
         )
 
     def _is_free_by_lean(self, way: tuple[Occurs, ...], known: Known, looked_at: dict[str, None]) -> bool:
+        from sleec_verify.timed.steady import steady
+
         def is_met(lean: Lean) -> bool:
             return any(map(lean.can_meet, way)) or lean.is_left_out(way)
 
         def is_added(lean: Lean) -> bool:
             return any(not what.negated and can_be_added(self._program, lean, what) for what in way)
 
-        def is_free(steady: Steady | None = None, since: float = 0) -> bool:
+        def is_free(measures: Measured | None = None, since: float = 0) -> bool:
             # Without the demand of now, nothing of it is met.
             for absent, is_one in (((), is_met), (way, is_added)):
-                for lean in self._lean_ways(known, absent, steady, since):
+                for lean in self._lean_ways(known, absent, measures, since):
                     if is_one(lean) and lean.is_steady():
                         return True
                     looked_at.update(dict.fromkeys(lean.looked_at))
@@ -149,14 +153,14 @@ class Free:
             return True
         if self._program.brought.binds_any_instant or any(what.end is None for what in way):
             return False
-        measures = self._steady_for(tuple(event for event in looked_at if event in self.reading))
-        if measures is None:
+        measures = steady(self._program, Lean(self._program, known, way), looked_at)
+        if measures is None or not measures.clauses:
             return False
         restless = Lean(self._program, known, way, None, measures).restless_until()
         return is_free(measures) or (0 < restless < inf and is_free(measures, restless))
 
     def _lean_ways(
-        self, known: Known, absent: tuple[Occurs, ...], steady: Steady | None, since: float
+        self, known: Known, absent: tuple[Occurs, ...], measures: Measured | None, since: float
     ) -> Iterator[Lean]:
         """Lean ways to go on: the plain one, and those that have other responses stand by, as far as it mattered to
         those before."""
@@ -164,10 +168,10 @@ class Free:
         seen = [ahead[0]]
         while ahead:
             standbys = ahead.popleft()
-            key = known, absent, steady, since, frozenset(standbys.items())
+            key = known, absent, measures, since, frozenset(standbys.items())
             lean = self._leans.get(key)
             if lean is None:
-                lean = self._leans[key] = Lean(self._program, known, absent, standbys, steady, since)
+                lean = self._leans[key] = Lean(self._program, known, absent, standbys, measures, since)
             yield lean
             for label, places in sorted(lean.choosing.items()):
                 for place in range(places) if label not in standbys else ():
@@ -176,12 +180,24 @@ class Free:
                         seen.append(more)
                         ahead.append(more)
 
-    def _steady_for(self, first: tuple[str, ...]) -> Steady | None:
-        from sleec_verify.timed.steady import steady
-
-        if first not in self._steady:
-            self._steady[first] = steady(self._program, first) if first else None
-        return self._steady[first]
+    def met_anyway(self, rule: Rule, without: str) -> frozenset[tuple[int, Occurs]]:
+        """Of the clauses of a rule, by their places, the responses of several of which one has to be kept, and is, as
+        another rule of the same trigger calls for it in any case; not the rule `without`."""
+        program = self._program
+        others = [other for other in program.by_trigger[rule.trigger] if other.label not in (rule.label, without)]
+        key = rule.label, without if any(other.label == without for other in program.by_trigger[rule.trigger]) else ""
+        found = self._met.get(key)
+        if found is None:
+            called = [what for other in others for what in program.surely_called(other)]
+            found = self._met[key] = frozenset(
+                (clause, what)
+                for clause, demands in enumerate(program.demands_of_clauses(rule))
+                for demand in demands
+                for way in ways_of(demand) or ()
+                if len(way) > 1 and any(_is_within(one, what) for one in called for what in way)
+                for what in way
+            )
+        return found
 
     @cached_property
     def reading(self) -> list[str]:
@@ -191,31 +207,23 @@ class Free:
         found.update(law.event for law in program.laws if isinstance(law, Effect))
         return sorted(found)
 
-    def has_measures(self, event: str, calm: bool = False) -> bool:
-        """Whether the laws leave any measures at an instant of an event; `calm`, such that it calls for nothing that
-        cannot be met whatever else is the case."""
-        key = event, calm
-        known = self._measured.get(key)
+    def has_measures(self, event: str) -> bool:
+        """Whether the laws leave any measures at an instant of an event."""
+        known = self._measured.get(event)
         if known is None:
             try:
-                known = self._look_for_measures(event, calm)
+                known = self._look_for_measures(event)
             except Undecided:
                 known = False
-            self._measured[key] = known
+            self._measured[event] = known
         return known
 
-    def _look_for_measures(self, event: str, calm: bool) -> bool:
+    def _look_for_measures(self, event: str) -> bool:
         from sleec_verify.timed.unfolding import Unfolding
 
         unfolding = Unfolding(self._program, rules={})
         number = unfolding.instant(unfolding.formula.true)
-        required = [unfolding.instants[number].event(event)]
-        for rule in self._program.by_trigger.get(event, ()) if calm else ():
-            guards = (guard for _, guard in unfolding.guards(number, rule))
-            for guard, demands in zip(guards, self._program.demands_of_clauses(rule)):
-                if not all(map(self.is_free, demands)):
-                    required.append(-guard)
-        return unfolding.ask(*required)
+        return unfolding.ask(unfolding.instants[number].event(event))
 
     def _can_wait(self, way: Sequence[Occurs]) -> bool:
         """Whether something of it has no end, and can be done after all else."""
@@ -229,3 +237,8 @@ class Free:
 
             known = self._late[event] = can_come_late(self._program, event)
         return known
+
+
+def _is_within(called: Occurs, what: Occurs) -> bool:
+    """Whether what is called for in one window is done in another."""
+    return called.event == what.event and not what.negated and allows(inside(called, what), 0)

@@ -25,16 +25,17 @@ from sleec_verify.timed.responses import Occurs, Part, ways_of
 
 if TYPE_CHECKING:
     from sleec_verify.timed.free import Free
-    from sleec_verify.timed.steady import Steady
+    from sleec_verify.timed.steady import Measured
 
 _DEEPEST = 40
 """Steps from one time to another that it is derived from; what takes more is not known."""
 
 
 class Known(NamedTuple):
-    """What is known of all histories and of what comes after: an event that occurs now, and besides the events that
-    occur in no trace, and the clauses, by their rules and places, that decide in no trace, or not now."""
+    """What is known of all histories and of what comes after, where a rule is asked about, whose trigger is given: the
+    events that occur in no trace, and the clauses, by their rules and places, that decide in no trace, or not now."""
 
+    asked: str
     given: str
     never: frozenset[str] = frozenset()
     dead: frozenset[tuple[str, int]] = frozenset()
@@ -53,11 +54,11 @@ class Lean:
         known: Known,
         absent: Sequence[Occurs] = (),
         standbys: Mapping[str, int] | None = None,
-        steady: Steady | None = None,
+        steady: Measured | None = None,
         since: float = 0,
     ) -> None:
         self._program = program
-        self._given, self._never, self._dead, self._not_now = known
+        self._asked, self._given, self._never, self._dead, self._not_now = known
         self._steady = None if steady is None else dict(steady.clauses)
         self._since = since
         self._absent = {what.event: what for what in absent if not what.negated}
@@ -67,6 +68,8 @@ class Lean:
         self._plain: dict[tuple[str, bool], float] = {}
         self._called: dict[tuple[str, bool], float] = {}
         self._blocked: dict[tuple[str, bool, Alone | None], float] = {}
+        self._parts: dict[str, list[Part]] = {}
+        self._own: dict[str, dict[str, int | None] | None] = {}
         self.spacing = Spacing(program, self)
         self._depth = 0
 
@@ -86,24 +89,28 @@ class Lean:
 
     def is_steady(self) -> bool:
         """Whether all that the steady measures ask for can be done, so that the measures may be those."""
-        return all(
-            self.called_until(event, False) <= self._since or self._demanding_until(event, False) <= self._since
-            for event in self._measured_events()
-        )
+        return self.restless_until() <= self._since
 
     def restless_until(self) -> float:
-        """The last second after now at which measures matter."""
-        return max((self.called_until(event, False) for event in self._measured_events()), default=0)
-
-    def _measured_events(self) -> list[str]:
-        rules = self._program.ruleset.by_label
-        return sorted({rules[label].trigger for label in self._steady or ()})
+        """The last second after now at which something that the steady measures ask for may not be done; what is asked
+        for with any measures is done anyway."""
+        times = [-1.0]
+        for label, clause in (self._steady or {}).items():
+            rule = self._program.ruleset.by_label[label]
+            others = (other for other, _ in enumerate(rule.clauses()) if other != clause)
+            if clause is not None and not (rule.guard is None and all(self.is_dead(rule, other) for other in others)):
+                times.append(min(self.called_until(rule.trigger, False), self.asks_until(rule, clause)))
+        return max(times)
 
     def decides(self, rule: Rule, clause: int, second: float = inf) -> bool:
         """Whether a clause of a rule may decide at an instant that is added so many seconds after now."""
         if self._steady is None or clause < 0 or not self.has_steady(second):
             return True
         return self._steady.get(rule.label, clause) == clause
+
+    def is_dead(self, rule: Rule, clause: int) -> bool:
+        """Whether a clause of a rule decides in no trace."""
+        return (rule.label, clause) in self._dead
 
     def has_steady(self, second: float) -> bool:
         """Whether the measures are the steady ones so many seconds after now."""
@@ -167,8 +174,19 @@ class Lean:
         return latest
 
     def parts(self, rule: Rule) -> list[Part]:
+        found = self._parts.get(rule.label)
+        if found is None:
+            found = self._parts[rule.label] = self._look_for_parts(rule)
+        return found
+
+    def _look_for_parts(self, rule: Rule) -> list[Part]:
+        """What a rule demands that is not met anyway."""
         found = self._program.parts(rule, self._standbys.get(rule.label))
-        if rule.label not in self.choosing and any(part.instead is not None for part in found):
+        if all(part.instead is None for part in found):
+            return found
+        met = self._free.met_anyway(rule, self._asked)
+        found = [part for part in found if (part.clause, part.what) not in met]
+        if any(part.instead is not None for part in found):
             self.choosing[rule.label] = max(map(len, self._program.ways(rule)))
         return found
 
@@ -181,11 +199,10 @@ class Lean:
     def _triggered_until(self, rule: Rule, part: Part, latest: float) -> float:
         """The last second after now at which a part of what a rule demands may come to be called for, if its trigger
         may occur up to `latest`."""
-        clause = rule.label, part.clause
-        if clause in self._dead:
+        if self.is_dead(rule, part.clause):
             return -inf
         until = latest if self.decides(rule, part.clause) else min(latest, self._since)
-        return -1 if until == 0 and clause in self._not_now else until
+        return -1 if until == 0 and (rule.label, part.clause) in self._not_now else until
 
     def _soonest(self, rule: Rule, part: Part, late: bool) -> float:
         """When it is done for all who have called for it."""
@@ -199,7 +216,7 @@ class Lean:
         """When the window of a part of what a rule demands ends at last."""
         what, instead, _ = part
         if what.end is None:
-            return -inf if (rule.label, part.clause) in self._dead else self._without_end(what, late)
+            return -inf if self.is_dead(rule, part.clause) else self._without_end(what, late)
         last = self._triggered_until(rule, part, self.latest(rule.trigger, late)) + what.end
         if instead is None or instead.is_empty:
             return last
@@ -276,18 +293,24 @@ class Lean:
         for law in program.laws_of_event.get(event, ()):
             if alone is None or not kept_apart(law, event):
                 times.append(self.blocked_by(law, event, late, is_measured))
-        return max(*times, min(self._demanding_until(event, late), self.calm_after(event, late, is_measured)))
+        return max(*times, min(self._demanding_until(event, late), self.settled_after(event, late, is_measured)))
 
     def _demanding_until(self, event: str, late: bool) -> float:
         """The last second after now at which something that an event calls for may not be met."""
-        try:
-            demands = [
-                demand
+        return max(
+            (
+                self.asks_until(rule, clause, late)
                 for rule in self._program.by_trigger.get(event, ())
-                for clause, demands in enumerate(self._program.demands_of_clauses(rule))
-                for demand in demands
+                for clause, _ in enumerate(rule.clauses())
                 if self.decides(rule, clause)
-            ]
+            ),
+            default=-1.0,
+        )
+
+    def asks_until(self, rule: Rule, clause: int, late: bool = False) -> float:
+        """The last second after now at which something that a clause of a rule calls for may not be met."""
+        try:
+            demands = self._program.demands_of_clauses(rule)[clause]
         except Undecided:
             return inf
         times = [-1.0]
@@ -300,12 +323,27 @@ class Lean:
                     times.append(min(self._unmet_until(what, late) for what in way))
         return max(times)
 
-    def calm_after(self, event: str, late: bool, alone: bool = False) -> float:
-        """The last second after now at which the measures may not be such that an event calls for nothing; `alone`, if
-        it matters to no other event of that second how they are."""
-        if self._steady is not None or event not in self._free.reading or not self._free.has_measures(event, calm=True):
+    def settled_after(self, event: str, late: bool, alone: bool = False) -> float:
+        """The last second after now at which an event may not be added with measures by which all that it calls for can
+        be met (`own_clauses`); `alone`, if it matters to no other event of that second how they are."""
+        own = self.own_clauses(event)
+        if own is None:
             return inf
-        return 0 if alone else max(0.0, self._measured_until(event, late))
+        rules = self._program.ruleset.by_label
+        asks = [self.asks_until(rules[label], clause, late) for label, clause in own.items() if clause is not None]
+        return max(0.0, *asks, -1.0 if alone else self._measured_until(event, late))
+
+    def own_clauses(self, event: str) -> dict[str, int | None] | None:
+        """The clauses of its rules that decide at an instant at which the measures are chosen for an event, by what can
+        be met soonest; None if they cannot be chosen for it alone, or nothing depends on them."""
+        if event not in self._own:
+            self._own[event] = None
+            if self._steady is None and event in self._free.reading:
+                from sleec_verify.timed.steady import at_an_instant_of
+
+                found = at_an_instant_of(self._program, self, event)
+                self._own[event] = None if found is None else dict(found.clauses)
+        return self._own[event]
 
     def _unmet_until(self, what: Occurs, late: bool) -> float:
         """The last second at which a response may not be met by what is triggered then."""
@@ -334,7 +372,7 @@ class Lean:
 
     def blocked_by(self, law: Law, event: str, late: bool, alone: bool = False) -> float:
         """The last second after now at which a law that speaks of an event may not let it be added; `alone`, as
-        `calm_after`."""
+        `settled_after`."""
         if isinstance(law, Effect):
             if self._steady is not None:
                 return self._since

@@ -342,13 +342,13 @@ class Program:
     def _follow_at_first(self, event: str) -> Iterator[tuple[str, Iterator[Occurs]]]:
         """What comes of an event by single rules and laws, each with its label or name."""
         for rule in self.by_trigger.get(event, ()):
-            yield rule.label, self._surely_called(rule)
+            yield rule.label, self.surely_called(rule)
         for law in self.laws_of_event.get(event, ()):
             for one, other in together(law):
                 if one == event != other:
                     yield law_name(law), iter([Occurs(other, 0, 0)])
 
-    def _surely_called(self, rule: Rule) -> Iterator[Occurs]:
+    def surely_called(self, rule: Rule) -> Iterator[Occurs]:
         """What a rule calls for whichever of its clauses decides, each event in a window that has room for all."""
         if rule.guard is not None:
             return

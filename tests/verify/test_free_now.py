@@ -174,6 +174,72 @@ RULE asked WHEN Hear THEN """
     assert is_free(asked, rules) == free
 
 
+LATE = "RULE late WHEN Ring THEN Stay WITHIN 5 minutes OTHERWISE NOT Open WITHIN 5 minutes"
+
+
+@pytest.mark.parametrize(
+    ("rules", "free"),
+    [
+        # One stays in any case: what comes if one does not never does.
+        (LATE, False),
+        (f"{LATE}\nRULE soon WHEN Ring THEN Stay", True),
+        (f"{LATE}\nRULE soon WHEN Ring AND dark THEN Stay", False),
+        (f"{LATE}\nRULE soon WHEN Ring THEN Stay WITHIN 6 minutes", False),
+        # It is dark now, and was light a second ago at the latest.
+        ("RULE shut WHEN Knock AND NOT dark THEN NOT Open WITHIN 1 minute", True),
+        ("RULE shut WHEN Knock AND warm THEN NOT Open WITHIN 1 minute", False),
+        ("RULE shut WHEN Knock AND NOT dark THEN NOT Open WITHIN [1, 61] seconds", False),
+        # Who sings while it is warm breaks the rule at once.
+        ("RULE never WHEN Sing AND warm THEN NOT Sing WITHIN 1 hour AND NOT Open WITHIN 1 day", True),
+        ("RULE never WHEN Sing AND warm THEN NOT Sing WITHIN [1, 9] seconds AND NOT Open WITHIN 1 day", False),
+        ("RULE never WHEN Sing AND NOT (warm OR NOT warm) THEN NOT Open WITHIN 1 day", True),
+    ],
+)
+def test_what_cannot_have_been_stands_in_the_way_of_nothing(rules, free):
+    assert is_free("Open WITHIN 1 minute", f"{rules}\nRULE asked WHEN Knock AND dark THEN ") == free
+
+
+@pytest.mark.parametrize(
+    ("law", "free"),
+    [
+        ("RELATION Hum INCLUDES dark\nRELATION Sing FORBIDS dark", True),
+        ("RELATION Open FORBIDS dark", False),
+        # There is a second without any who hums or sings.
+        ("RELATION Hum INCLUDES dark\nRELATION Sing FORBIDS dark\nRULE a WHEN Bell THEN Hum WITHIN 9 seconds", True),
+        (
+            "RELATION Hum INCLUDES dark\nRELATION Sing FORBIDS dark\nRULE a WHEN Bell THEN Hum WITHIN [9, 9] seconds",
+            False,
+        ),
+        ("ASSUME NOT dark", False),
+    ],
+)
+def test_the_measures_at_its_own_instant_may_ask_for_what_can_be_done(law, free):
+    rules = f"""{law}
+RULE after WHEN Open THEN Call WITHIN 9 seconds UNLESS dark IN WHICH CASE Light WITHIN 1 minute
+RULE hush WHEN Hush THEN NOT Call WITHIN 1 minute AND NOT Hum WITHIN 1 minute
+RELATION Light EXCLUDES Stay
+RULE asked WHEN Knock THEN """
+    assert is_free("Open WITHIN 5 seconds", rules) == free
+
+
+@pytest.mark.parametrize(("seconds", "free"), [(3, True), (2, False)])
+def test_what_comes_with_it_at_once_may_need_the_second_to_itself(seconds, free):
+    rules = """RELATION Light EXCLUDES Dim
+RULE on WHEN Open THEN Light
+RULE dim WHEN Call THEN Dim WITHIN 1 minute
+RULE hush WHEN Hush THEN NOT Dim WITHIN 1 day
+RULE asked WHEN Hear THEN """
+    assert is_free(f"Open WITHIN {seconds} seconds", rules) == free
+
+
+@pytest.mark.parametrize(("seconds", "free"), [(60, True), (61, False)])
+def test_what_is_done_in_time_or_not_at_all(seconds, free):
+    rules = f"""RULE ring WHEN Ring THEN Open WITHIN {seconds} seconds
+RULE shut WHEN Shut THEN NOT Open WITHIN 1 day
+RULE asked WHEN Knock THEN """
+    assert is_free("Open WITHIN 1 minute OTHERWISE NOT Open WITHIN 1 hour", rules) == free
+
+
 DARK = """RULE dark WHEN Knock THEN NOT Light WITHIN [2, 4] seconds
 RULE late WHEN Dim THEN NOT Light WITHIN 7 seconds
 RULE two WHEN Open THEN Light WITHIN 2 minutes
