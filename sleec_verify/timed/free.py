@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 MOST_LEAN = 24
 """Lean ways to go on that are looked at for one response: of each choice, another response may stand by."""
 
+MOST_LOOKED_AT = 100
+"""Events that may matter to one response, for it to be asked of them what is never so."""
+
 
 class Free:
     """The demands of one program that can be met, each looked at once."""
@@ -33,7 +36,7 @@ class Free:
         self._answers: dict[tuple[tuple[Occurs, ...], str, int], bool] = {}
         self._leans: dict[tuple[object, ...], Lean] = {}
         self._met: dict[tuple[str, str], frozenset[tuple[int, Occurs]]] = {}
-        self._can_be: dict[tuple[str, frozenset[str]], bool] = {}
+        self._can_be: dict[tuple[tuple[str, int | None], frozenset[str]], bool] = {}
         self._measured: dict[str, bool] = {}
 
     def can_be_done(self, leaves: Sequence[Occurs]) -> bool:
@@ -92,16 +95,17 @@ class Free:
     def _look_for_lean(self, way: tuple[Occurs, ...], rule: Rule, clause: int) -> bool:
         # In the order in which they come up, each once.
         looked_at = dict.fromkeys(what.event for what in way)
-        if self._is_free_by_lean(way, Known(rule.label, rule.trigger), looked_at):
+        if self._is_free_by_lean(way, Known(), looked_at):
             return True
-        known = self._known(rule, clause, looked_at)
-        return known != Known(rule.label, rule.trigger) and self._is_free_by_lean(way, known, looked_at)
+        return len(looked_at) <= MOST_LOOKED_AT and self._is_free_by_lean(
+            way, self._known(rule, clause, looked_at), looked_at
+        )
 
     def _known(self, rule: Rule, clause: int, events: Iterable[str]) -> Known:
         """What is known where a clause of a rule decides now, of some events and the rules that they trigger."""
         from sleec_verify.timed.questions import can_decide, can_occur, together_at_once
 
-        def never(what: str, ask: Callable[[frozenset[str]], bool]) -> bool:
+        def never(what: tuple[str, int | None], ask: Callable[[frozenset[str]], bool]) -> bool:
             """Where it is so in a trace that keeps all rules, it is in one that keeps all but this."""
             for without in (frozenset[str](), frozenset({rule.label})):
                 key = what, without
@@ -122,11 +126,11 @@ class Free:
         return Known(
             rule.label,
             rule.trigger,
-            frozenset(event for event in events if never(event, partial(can_occur, program, event))),
+            frozenset(event for event in events if never((event, None), partial(can_occur, program, event))),
             frozenset(
                 (one.label, place)
                 for one, place in clauses
-                if never(f"{one.label} {place}", partial(can_decide, program, one, place))
+                if never((one.label, place), partial(can_decide, program, one, place))
             ),
             frozenset((one.label, place) for one, place in clauses) - now,
         )
@@ -189,14 +193,13 @@ class Free:
         found = self._met.get(key)
         if found is None:
             called = [what for other in others for what in program.surely_called(other)]
-            found = self._met[key] = frozenset(
-                (clause, what)
-                for clause, demands in enumerate(program.demands_of_clauses(rule))
-                for demand in demands
-                for way in ways_of(demand) or ()
-                if len(way) > 1 and any(_is_within(one, what) for one in called for what in way)
-                for what in way
-            )
+            met: set[tuple[int, Occurs]] = set()
+            open_: set[tuple[int, Occurs]] = set()
+            for clause, demands in enumerate(program.demands_of_clauses(rule)):
+                for way in (way for demand in demands for way in ways_of(demand) or ()):
+                    is_met = len(way) > 1 and any(_is_within(one, what) for one in called for what in way)
+                    (met if is_met else open_).update((clause, what) for what in way)
+            found = self._met[key] = frozenset(met - open_)
         return found
 
     @cached_property

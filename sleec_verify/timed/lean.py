@@ -33,10 +33,11 @@ _DEEPEST = 40
 
 class Known(NamedTuple):
     """What is known of all histories and of what comes after, where a rule is asked about, whose trigger is given: the
-    events that occur in no trace, and the clauses, by their rules and places, that decide in no trace, or not now."""
+    events that occur in no trace, and the clauses, by their rules and places, that decide in no trace, or not now.
+    Nothing is known where no rule is given."""
 
-    asked: str
-    given: str
+    asked: str | None = None
+    given: str | None = None
     never: frozenset[str] = frozenset()
     dead: frozenset[tuple[str, int]] = frozenset()
     not_now: frozenset[tuple[str, int]] = frozenset()
@@ -184,8 +185,9 @@ class Lean:
         found = self._program.parts(rule, self._standbys.get(rule.label))
         if all(part.instead is None for part in found):
             return found
-        met = self._free.met_anyway(rule, self._asked)
-        found = [part for part in found if (part.clause, part.what) not in met]
+        if self._asked is not None:
+            met = self._free.met_anyway(rule, self._asked)
+            found = [part for part in found if (part.clause, part.what) not in met]
         if any(part.instead is not None for part in found):
             self.choosing[rule.label] = max(map(len, self._program.ways(rule)))
         return found
