@@ -19,6 +19,9 @@ _TRIED_SECONDS = (2, 3, 4, 5, 7, 10, 13, 20, 30, 60, 120)
 _MOST_FORBIDDEN = 60
 """Of so many seconds, those at which what forbids an event for a short time may forbid it."""
 
+_MOST_OTHERS = 30
+"""Events to which it may matter how the measures are; where there are more, no second is looked for without them."""
+
 _SETTLED = 60
 """Seconds after now from which what is called for before them is over."""
 
@@ -53,6 +56,8 @@ class Spacing:
         return self._seconds[key]
 
     def _look_for_seconds(self, event: str, alone: Alone) -> int | None:
+        if alone.is_measured and len(self._program.free.reading) > _MOST_OTHERS:
+            return None
         events = sorted(self._program.brought.at_once_with(event))
         laws = ((law, one) for one in events for law in self._program.laws_of_event.get(one, ()))
         others = {other for law, one in laws for other in kept_apart(law, one)}

@@ -24,7 +24,7 @@ MOST_LEAN = 24
 """Lean ways to go on that are looked at for one response: of each choice, another response may stand by."""
 
 MOST_LOOKED_AT = 100
-"""Events that may matter to one response, for it to be asked of them what is never so."""
+"""Events that may matter to one response, for more to be looked at than the plainest way to go on."""
 
 
 class Free:
@@ -155,7 +155,9 @@ class Free:
 
         if is_free():
             return True
-        if self._program.brought.binds_any_instant or any(what.end is None for what in way):
+        if len(looked_at) > MOST_LOOKED_AT or any(what.end is None for what in way):
+            return False
+        if self._program.brought.binds_any_instant:
             return False
         measures = steady(self._program, Lean(self._program, known, way), looked_at)
         if measures is None or not measures.clauses:
@@ -177,6 +179,8 @@ class Free:
             if lean is None:
                 lean = self._leans[key] = Lean(self._program, known, absent, standbys, measures, since)
             yield lean
+            if len(lean.looked_at) > MOST_LOOKED_AT:
+                return
             for label, places in sorted(lean.choosing.items()):
                 for place in range(places) if label not in standbys else ():
                     more = {**standbys, label: place}

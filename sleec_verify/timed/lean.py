@@ -30,6 +30,12 @@ if TYPE_CHECKING:
 _DEEPEST = 40
 """Steps from one time to another that it is derived from; what takes more is not known."""
 
+_MOST_LOOKS = 5000
+"""Times that are derived for one response; further ones are not known."""
+
+_MOST_READING = 300
+"""Events to which it may matter how the measures are; where there are more, it is not looked for when that is."""
+
 
 class Known(NamedTuple):
     """What is known of all histories and of what comes after, where a rule is asked about, whose trigger is given: the
@@ -73,6 +79,7 @@ class Lean:
         self._own: dict[str, dict[str, int | None] | None] = {}
         self.spacing = Spacing(program, self)
         self._depth = 0
+        self._looks = 0
 
     @property
     def looked_at(self) -> list[str]:
@@ -295,7 +302,8 @@ class Lean:
         for law in program.laws_of_event.get(event, ()):
             if alone is None or not kept_apart(law, event):
                 times.append(self.blocked_by(law, event, late, is_measured))
-        return max(*times, min(self._demanding_until(event, late), self.settled_after(event, late, is_measured)))
+        asks = self._demanding_until(event, late)
+        return max(*times, asks if asks < 0 else min(asks, self.settled_after(event, late, is_measured)))
 
     def _demanding_until(self, event: str, late: bool) -> float:
         """The last second after now at which something that an event calls for may not be met."""
@@ -333,7 +341,8 @@ class Lean:
             return inf
         rules = self._program.ruleset.by_label
         asks = [self.asks_until(rules[label], clause, late) for label, clause in own.items() if clause is not None]
-        return max(0.0, *asks, -1.0 if alone else self._measured_until(event, late))
+        latest = max(asks, default=-1.0)
+        return latest if latest == inf else max(latest, 0, -1.0 if alone else self._measured_until(event, late))
 
     def own_clauses(self, event: str) -> dict[str, int | None] | None:
         """The clauses of its rules that decide at an instant at which the measures are chosen for an event, by what can
@@ -394,6 +403,8 @@ class Lean:
 
     def _measured_until(self, event: str, late: bool) -> float:
         """The last second after now at which it may matter to some other event how the measures are."""
+        if len(self._free.reading) > _MOST_READING:
+            return inf
         others = (other for other in self._free.reading if other != event)
         return max((self.latest(other, late) for other in others), default=-1.0)
 
@@ -412,7 +423,8 @@ class Lean:
         return (due.start or 0) <= (forbidden.start or 0) and last <= due.end
 
     def deeper(self, look: Callable[[], float]) -> float:
-        if self._depth >= _DEEPEST:
+        self._looks += 1
+        if self._depth >= _DEEPEST or (self._absent and self._looks > _MOST_LOOKS):
             return inf
         self._depth += 1
         try:
