@@ -125,7 +125,7 @@ class Addition:
         """Whether a law lets an event be added, with what the law has come with it, or before it."""
         late = second == inf
         if isinstance(law, EventRelation) and law.relation == "happenBefore":
-            if event != law.right or second > self._lean.blocked_by(law, event, late):
+            if event != law.right or self._lean.has_come(law.left, second):
                 return True
             if any(one.event == law.left and one.start < second and _leads_to(one, path) for one in self._added):
                 return True

@@ -120,6 +120,10 @@ class Lean:
         """Whether a clause of a rule decides in no trace."""
         return (rule.label, clause) in self._dead
 
+    def has_come(self, event: str, second: float) -> bool:
+        """Whether an event is known to have occurred before so many seconds after now."""
+        return event == self._given and second > 0
+
     def has_steady(self, second: float) -> bool:
         """Whether the measures are the steady ones so many seconds after now."""
         return self._steady is not None and second > self._since
