@@ -4,7 +4,8 @@ The chart has a column for each moment, and for each time at which something fal
 and a row for each event: ``*`` where it occurs, ``-`` while it is due, ``x`` while it is forbidden, ``!`` while it is
 forbidden and is due, or occurs. ``>``: and so on, past the last column.
 
-Where the same happens second by second, only the first and the last of these moments are told.
+Where the same happens second by second, or every so many seconds, only the first and the last of these moments are
+told.
 """
 
 from __future__ import annotations
@@ -33,11 +34,12 @@ def duration(seconds: int) -> str:
 
 
 FEW_ALIKE = 3
-"""Moments alike, second by second, that are told one by one."""
+"""Moments alike, as far from each other, that are told one by one."""
 
 
 def _alike(timeline: Timeline) -> list[list[Moment]]:
-    """The moments, together where the same happens second by second; the one that is now stands alone."""
+    """The moments, together where the same happens each second, or every so many seconds; the one that is now stands
+    alone."""
 
     def same(moment: Moment, after: int) -> Moment:
         due = tuple(
@@ -46,13 +48,28 @@ def _alike(timeline: Timeline) -> list[list[Moment]]:
         )
         return replace(moment, time=moment.time + after, due=due)
 
+    def goes_on(run: Sequence[Moment], moment: Moment) -> bool:
+        after = moment.time - run[0].time
+        return after == len(run) * _step([*run, moment]) and same(run[0], after) == moment
+
     found: list[list[Moment]] = []
     for place, moment in enumerate(timeline.moments):
-        if found and place != timeline.now and same(found[-1][0], len(found[-1])) == moment:
+        if place == timeline.now or not found:
+            found.append([moment])
+            continue
+        if len(found[-1]) == 2 and not goes_on(found[-1], moment):
+            # The last may be the first of the next ones.
+            found.append([found[-1].pop()])
+        if goes_on(found[-1], moment):
             found[-1].append(moment)
         else:
             found.append([moment])
     return [part for run in found for part in ([run] if len(run) > FEW_ALIKE else [[one] for one in run])]
+
+
+def _step(run: Sequence[Moment]) -> int:
+    """How far the moments of a run are from each other."""
+    return run[1].time - run[0].time if len(run) > 1 else 0
 
 
 def in_words(timeline: Timeline) -> Iterator[str]:
@@ -61,11 +78,11 @@ def in_words(timeline: Timeline) -> Iterator[str]:
     told: list[tuple[int, str, list[str]]] = []
     late: list[tuple[int, str, str]] = []
     for moment, *others in _alike(timeline):
-        lasts = others[-1].time - moment.time if others else 0
-        told.append((moment.time, _up_to(moment.time, lasts) + _happens(moment), []))
+        lasts, step = others[-1].time - moment.time if others else 0, _step([moment, *others])
+        told.append((moment.time, _up_to(moment.time, lasts, step) + _happens(moment), []))
         for due in moment.due:
             if due.overdue and due.start > moment.time:
-                late.append((due.start, _up_to(due.start, lasts), f"in place of {due.instead_of}, {says(due)}"))
+                late.append((due.start, _up_to(due.start, lasts, step), f"in place of {due.instead_of}, {says(due)}"))
             elif due.instead_of is None:
                 told[-1][2].append(f"  {says(due)}")
     for time, up_to, owed in sorted(late, key=lambda one: one[0]):
@@ -84,8 +101,9 @@ def in_words(timeline: Timeline) -> Iterator[str]:
         yield "and then there is no way to keep every rule"
 
 
-def _up_to(time: int, lasts: int) -> str:
-    return f"and each second up to {duration(time + lasts)}, " if lasts else ""
+def _up_to(time: int, lasts: int, step: int) -> str:
+    every = "each second" if step == 1 else f"every {duration(step)}"
+    return f"and {every} up to {duration(time + lasts)}, " if lasts else ""
 
 
 def says(due: Due) -> str:

@@ -8,10 +8,12 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_runtime.trace import broken_so_far
+from sleec_verify.report.timeline import chart_of, in_words
 from sleec_verify.timed.conflicts import conflict
 from sleec_verify.timed.histories import after
 from sleec_verify.timed.program import Program
 from sleec_verify.timed.replay import as_trace
+from sleec_verify.timed.timeline import Moment, Timeline
 from sleec_verify.timed.turns import turns
 
 MISSED = """RULE missed WHEN Ring THEN Open WITHIN 10 minutes OTHERWISE NOT Open WITHIN 2 seconds
@@ -35,6 +37,37 @@ def test_a_door_that_is_shut_for_two_seconds_at_a_time():
     assert broken_so_far(program.ruleset, as_trace(found.timeline), "at", apart=rule) == ()
     assert after(program, found.instants, rule).ask()
     assert not after(program, found.instants).ask()
+
+
+def test_what_comes_every_two_seconds_is_told_once():
+    ruleset = parse(MISSED)
+    found = conflict(Program(ruleset), ruleset.by_label["asked"])
+    assert found is not None
+    told = list(in_words(found.timeline))
+    assert told[0] == "at first, and every 2 seconds up to 14 seconds, Ring occurs"
+    assert told[2] == (
+        "after 10 minutes, and every 2 seconds up to 10 minutes 14 seconds, in place of Open, "
+        "missed forbids Open within 2 seconds"
+    )
+    assert chart_of(found.timeline)[0].split() == "0 s 14 s 10 min 10 min 1 s now 10 min 14 s".split()
+
+
+@pytest.mark.parametrize(
+    ("times", "told"),
+    [
+        # One that came before the others is no part of them.
+        ((0, 5, 6, 7, 8), ["at first", "after 5 seconds, and each second up to 8 seconds"]),
+        (
+            (0, 2, 4, 6, 7, 8, 9),
+            ["at first, and every 2 seconds up to 6 seconds", "after 7 seconds", "after 8 seconds"],
+        ),
+        ((0, 2, 4, 9), ["at first", "after 2 seconds", "after 4 seconds", "after 9 seconds"]),
+    ],
+)
+def test_moments_alike_are_together_where_they_are_as_far_from_each_other(times, told):
+    moments = tuple(Moment(time, ("Ring",), {}, (), ()) for time in times)
+    words = list(in_words(Timeline(moments, None)))
+    assert [line.removesuffix(", Ring occurs") for line in words][: len(told)] == told
 
 
 @pytest.mark.parametrize(
