@@ -85,7 +85,7 @@ def conflict(program: Program, rule: Rule) -> History | None:
 
     Raises Undecided where more instants could matter than are tried.
     """
-    if program.free.is_all_free_now(rule):
+    if program.free.is_all_free_now(rule, thorough=False):
         return None
     found = _Searches(program, rule).find()
     return None if found is None else _shown(program, rule, found)
@@ -114,6 +114,8 @@ class _Searches:
         try:
             return self._any_times()
         except Undecided as reason:
+            if self._program.free.is_all_free_now(self._rule):
+                return None
             # Where responses come back to their own trigger, each further try may take as long as the first.
             if not self._program.is_acyclic:
                 raise
@@ -155,9 +157,13 @@ class _Searches:
         most = self._needed.most
         tried = min(most, MOST_PAST)
         for instants in range(tried + 1):
-            answer = self._by_parts(self._early) if instants == FEW else None
-            if answer is not None:
-                return answer.history
+            if instants == FEW:
+                # Most conflicts have been found.
+                if self._program.free.is_all_free_now(self._rule):
+                    return None
+                answer = self._by_parts(self._early)
+                if answer is not None:
+                    return answer.history
             if instants > MOST_DRAWN_OUT and self._program.is_acyclic and self._of_many is not None:
                 return self._of_many
             found = self._search(Tried(instants))

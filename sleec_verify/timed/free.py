@@ -33,6 +33,7 @@ class Free:
     def __init__(self, program: Program) -> None:
         self._program = program
         self._late: dict[str, bool] = {}
+        self._plainly: dict[tuple[Occurs, ...], bool] = {}
         self._answers: dict[tuple[tuple[Occurs, ...], str, int], bool] = {}
         self._leans: dict[tuple[object, ...], Lean] = {}
         self._met: dict[tuple[str, str], frozenset[tuple[int, Occurs]]] = {}
@@ -71,19 +72,40 @@ class Free:
             not pending or self.can_be_done(pending)
         )
 
-    def is_free_now(self, demand: Demand, rule: Rule, clause: int) -> bool:
+    def is_free_now(self, demand: Demand, rule: Rule, clause: int, thorough: bool = True) -> bool:
         """Whether a demand of now that a clause of a rule makes can be met whatever else is the case: as `is_free`, or
-        by a lean way to go on."""
+        by a lean way to go on; the plainest one if not `thorough`."""
         ways = ways_of(demand)
-        return ways is not None and all(self.is_free_way(way) or self._has_lean(way, rule, clause) for way in ways)
+        return ways is not None and all(
+            self.is_free_way(way) or self._has_plain(way) or (thorough and self._has_lean(way, rule, clause))
+            for way in ways
+        )
 
-    def is_all_free_now(self, rule: Rule) -> bool:
+    def is_all_free_now(self, rule: Rule, thorough: bool = True) -> bool:
         """As `is_free_now`, of all that a rule demands."""
         return all(
-            self.is_free_now(demand, rule, clause)
+            self.is_free_now(demand, rule, clause, thorough)
             for clause, demands in enumerate(self._program.demands_of_clauses(rule))
             for demand in demands
         )
+
+    def _has_plain(self, way: tuple[Occurs, ...]) -> bool:
+        found = self._plainly.get(way)
+        if found is None:
+            found = self._plainly[way] = self._is_met(way, self._plain) or self._is_added(
+                way, Lean(self._program, Known(), way)
+            )
+        return found
+
+    @cached_property
+    def _plain(self) -> Lean:
+        return Lean(self._program, Known())
+
+    def _is_met(self, way: tuple[Occurs, ...], lean: Lean) -> bool:
+        return any(map(lean.can_meet, way)) or lean.is_left_out(way)
+
+    def _is_added(self, way: tuple[Occurs, ...], lean: Lean) -> bool:
+        return any(not what.negated and can_be_added(self._program, lean, what) for what in way)
 
     def _has_lean(self, way: tuple[Occurs, ...], rule: Rule, clause: int) -> bool:
         key = way, rule.label, clause
@@ -138,17 +160,11 @@ class Free:
     def _is_free_by_lean(self, way: tuple[Occurs, ...], known: Known, looked_at: dict[str, None]) -> bool:
         from sleec_verify.timed.steady import steady
 
-        def is_met(lean: Lean) -> bool:
-            return any(map(lean.can_meet, way)) or lean.is_left_out(way)
-
-        def is_added(lean: Lean) -> bool:
-            return any(not what.negated and can_be_added(self._program, lean, what) for what in way)
-
         def is_free(measures: Measured | None = None, since: float = 0) -> bool:
             # Without the demand of now, nothing of it is met.
-            for absent, is_one in (((), is_met), (way, is_added)):
+            for absent, is_one in (((), self._is_met), (way, self._is_added)):
                 for lean in self._lean_ways(known, absent, measures, since):
-                    if is_one(lean) and lean.is_steady():
+                    if is_one(way, lean) and lean.is_steady():
                         return True
                     looked_at.update(dict.fromkeys(lean.looked_at))
             return False

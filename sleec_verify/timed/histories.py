@@ -108,7 +108,7 @@ class Search:
             at_stake = tuple(
                 one
                 for one, demand in zip(clause.obligations, demands)
-                if not program.free.is_free_now(demand, rule, place)
+                if not program.free.is_free_now(demand, rule, place, thorough=False)
             )
             self.add([-literal, self.outer.demand(self.now, self.outer.due(self.now, at_stake, kept=False))])
         self.plans.defeat(Plan(frozenset()))

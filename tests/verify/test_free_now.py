@@ -388,7 +388,7 @@ def differing(text, monkeypatch):
     for rule in program.rules if program.is_acyclic else ():
         found = answered(lambda: (conflict(program, rule),))  # noqa: B023
         with monkeypatch.context() as patch:
-            patch.setattr(Free, "is_free_now", lambda self, demand, *_: self.is_free(demand))
+            patch.setattr(Free, "is_free_now", lambda self, demand, *_, **__: self.is_free(demand))
             other = answered(lambda: (conflict(program, rule),))  # noqa: B023
         if found is None or other is None:
             continue

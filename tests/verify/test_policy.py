@@ -197,7 +197,7 @@ def played(monkeypatch):
 
     monkeypatch.setattr(Search, "_ways", all_played)
     # What has an answer without a search is played as well.
-    monkeypatch.setattr(Free, "is_free_now", lambda self, demand, *_: self.is_free(demand))
+    monkeypatch.setattr(Free, "is_free_now", lambda self, demand, *_, **__: self.is_free(demand))
 
     def run(text, untimed="at"):
         program = Program(parse(text), untimed)
