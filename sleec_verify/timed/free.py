@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
 from math import inf
 from typing import TYPE_CHECKING
@@ -92,14 +92,10 @@ class Free:
     def _has_plain(self, way: tuple[Occurs, ...]) -> bool:
         found = self._plainly.get(way)
         if found is None:
-            found = self._plainly[way] = self._is_met(way, self._plain) or self._is_added(
-                way, Lean(self._program, Known(), way)
-            )
+            known = Known()
+            found = self._is_met(way, self._lean(known)) or self._is_added(way, self._lean(known, way))
+            self._plainly[way] = found
         return found
-
-    @cached_property
-    def _plain(self) -> Lean:
-        return Lean(self._program, Known())
 
     def _is_met(self, way: tuple[Occurs, ...], lean: Lean) -> bool:
         return any(map(lean.can_meet, way)) or lean.is_left_out(way)
@@ -171,14 +167,13 @@ class Free:
 
         if is_free():
             return True
-        if len(looked_at) > MOST_LOOKED_AT or any(what.end is None for what in way):
+        never_steady = self._program.brought.binds_any_instant or any(what.end is None for what in way)
+        if never_steady or len(looked_at) > MOST_LOOKED_AT:
             return False
-        if self._program.brought.binds_any_instant:
-            return False
-        measures = steady(self._program, Lean(self._program, known, way), looked_at)
+        measures = steady(self._program, self._lean(known, way), looked_at)
         if measures is None or not measures.clauses:
             return False
-        restless = Lean(self._program, known, way, None, measures).restless_until()
+        restless = self._lean(known, way, measures).restless_until()
         return is_free(measures) or (0 < restless < inf and is_free(measures, restless))
 
     def _lean_ways(
@@ -190,10 +185,7 @@ class Free:
         seen = [ahead[0]]
         while ahead:
             standbys = ahead.popleft()
-            key = known, absent, measures, since, frozenset(standbys.items())
-            lean = self._leans.get(key)
-            if lean is None:
-                lean = self._leans[key] = Lean(self._program, known, absent, standbys, measures, since)
+            lean = self._lean(known, absent, measures, since, standbys)
             yield lean
             if len(lean.looked_at) > MOST_LOOKED_AT:
                 return
@@ -204,15 +196,30 @@ class Free:
                         seen.append(more)
                         ahead.append(more)
 
+    def _lean(
+        self,
+        known: Known,
+        absent: tuple[Occurs, ...] = (),
+        measures: Measured | None = None,
+        since: float = 0,
+        standbys: Mapping[str, int] | None = None,
+    ) -> Lean:
+        key = known, absent, measures, since, frozenset((standbys or {}).items())
+        found = self._leans.get(key)
+        if found is None:
+            found = self._leans[key] = Lean(self._program, known, absent, standbys, measures, since)
+        return found
+
     def met_anyway(self, rule: Rule, without: str) -> frozenset[tuple[int, Occurs]]:
         """Of the clauses of a rule, by their places, the responses of several of which one has to be kept, and is, as
         another rule of the same trigger calls for it in any case; not the rule `without`."""
         program = self._program
-        others = [other for other in program.by_trigger[rule.trigger] if other.label not in (rule.label, without)]
-        key = rule.label, without if any(other.label == without for other in program.by_trigger[rule.trigger]) else ""
+        others = {other.label: other for other in program.by_trigger[rule.trigger] if other is not rule}
+        key = rule.label, without if without in others else ""
         found = self._met.get(key)
         if found is None:
-            called = [what for other in others for what in program.surely_called(other)]
+            others.pop(without, None)
+            called = [what for other in others.values() for what in program.surely_called(other)]
             met: set[tuple[int, Occurs]] = set()
             open_: set[tuple[int, Occurs]] = set()
             for clause, demands in enumerate(program.demands_of_clauses(rule)):
@@ -223,12 +230,15 @@ class Free:
         return found
 
     @cached_property
+    def reading_rules(self) -> list[Rule]:
+        """The rules to which it may matter how the measures are."""
+        return [rule for rule in self._program.rules if rule.guard is not None or len(list(rule.clauses())) > 1]
+
+    @cached_property
     def reading(self) -> list[str]:
         """The events at whose instants it may matter how the measures are."""
-        program = self._program
-        found = {rule.trigger for rule in program.rules if rule.guard is not None or len(list(rule.clauses())) > 1}
-        found.update(law.event for law in program.laws if isinstance(law, Effect))
-        return sorted(found)
+        laws = (law.event for law in self._program.laws if isinstance(law, Effect))
+        return sorted({*(rule.trigger for rule in self.reading_rules), *laws})
 
     def has_measures(self, event: str) -> bool:
         """Whether the laws leave any measures at an instant of an event."""

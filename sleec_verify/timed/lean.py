@@ -186,13 +186,13 @@ class Lean:
         return latest
 
     def parts(self, rule: Rule) -> list[Part]:
+        """What a rule demands, part by part, but for what is met anyway."""
         found = self._parts.get(rule.label)
         if found is None:
             found = self._parts[rule.label] = self._look_for_parts(rule)
         return found
 
     def _look_for_parts(self, rule: Rule) -> list[Part]:
-        """What a rule demands that is not met anyway."""
         found = self._program.parts(rule, self._standbys.get(rule.label))
         if all(part.instead is None for part in found):
             return found
@@ -243,7 +243,7 @@ class Lean:
         return min(last, self._full_until(instead, instead.end, late) + what.end - instead.end)
 
     def _without_end(self, what: Occurs, late: bool) -> float:
-        """As `_until`: before now, if it is done after all else."""
+        """As `until`: before now, if it is done after all else."""
         if what.start is None:
             return inf
         return -1 if not what.negated and not late and self._free.comes_late(what.event) else inf
@@ -427,6 +427,7 @@ class Lean:
         return (due.start or 0) <= (forbidden.start or 0) and last <= due.end
 
     def deeper(self, look: Callable[[], float]) -> float:
+        """What is derived from other times; infinity, that is not known, where that takes too many steps."""
         self._looks += 1
         if self._depth >= _DEEPEST or (self._absent and self._looks > _MOST_LOOKS):
             return inf

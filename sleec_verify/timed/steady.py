@@ -26,11 +26,10 @@ def steady(program: Program, lean: Lean, first: Iterable[str]) -> Measured | Non
     """Measures that are good at any instant, whatever occurs there, by which the rules that the events `first` trigger
     ask for what can be met soonest, and then others; `lean` says when that is. None if there are none, or that is not
     known."""
-    reading = [rule for rule in program.rules if rule.guard is not None or len(list(rule.clauses())) > 1]
-    if len(reading) > MOST_RULES:
+    if len(program.free.reading_rules) > MOST_RULES:
         return None
     place = {event: number for number, event in enumerate(first)}
-    reading.sort(key=lambda rule: place.get(rule.trigger, len(place)))
+    reading = sorted(program.free.reading_rules, key=lambda rule: place.get(rule.trigger, len(place)))
     unfolding = Unfolding(program, rules={})
     instant = unfolding.instants[unfolding.instant(unfolding.formula.true)]
     required = []
