@@ -6,15 +6,13 @@ so before, and a signature tells the robot that someone with the key has seen to
 
 from __future__ import annotations
 
-import errno
-import os
-import stat
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.errors import CertificateRefused, SleecError
+from sleec_runtime.files import read_file
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
@@ -80,22 +78,6 @@ def read_manifest(folder: str | Path, key: str | Path | None = None) -> Manifest
         )
     except (KeyError, TypeError, AttributeError):
         raise _refused("no-certificate", f"the {MANIFEST} in {folder} lacks what every certificate has") from None
-
-
-def read_file(path: Path) -> bytes:
-    """What is in a file of a certificate. From a pipe or a device, reading might never end.
-
-    Raises OSError where it cannot be read, or is no file.
-    """
-    with open(path, "rb", opener=_at_once) as file:
-        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-            raise OSError(errno.EINVAL, "it is no file")
-        return file.read()
-
-
-def _at_once(path: str, flags: int) -> int:
-    # To open a pipe waits for someone to write to it.
-    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def _text(value: object) -> str:
@@ -168,7 +150,7 @@ def check_signature(folder: str | Path, signed: bytes, key: str | Path) -> None:
 
     ed25519, serialization, invalid = cryptography()
     try:
-        public = serialization.load_pem_public_key(Path(key).read_bytes())
+        public = serialization.load_pem_public_key(read_file(key))
     except OSError as error:
         raise SleecError(f"the key {key} cannot be read: {error.strerror}") from None
     except Exception:  # noqa: BLE001 - what a file that is no key raises depends on what it is

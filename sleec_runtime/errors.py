@@ -57,7 +57,7 @@ class Unsayable(SleecError):
 
 
 class UnreadableFile(SleecError):
-    """A file that cannot be read as text: missing, forbidden, not UTF-8, or holding a NUL byte."""
+    """A file that cannot be read as text: missing, forbidden, too large, no regular file, or not UTF-8 text."""
 
 
 class CertificateRefused(SleecError):

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from sleec_runtime.errors import SleecError, UnreadableFile
+from sleec_runtime.files import read_file
 from sleec_runtime.language.source import read_source, source_of
 from sleec_runtime.model import Source
 from sleec_verify.folders import SUFFIX, rulesets_below
@@ -119,8 +120,7 @@ def _blob_of(path: str, digits: int) -> str | None:
     from hashlib import sha1, sha256
 
     try:
-        with open(path, "rb") as file:
-            data = file.read()
+        data = read_file(path)
     except OSError:
         return None
     content = b"blob %d\0%s" % (len(data), data)

@@ -7,6 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import UnreadableFile
+from sleec_runtime.files import read_file, read_stream
 from sleec_runtime.model import Source
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ def read_source(path: str | Path) -> Source:
     A byte order mark and any kind of line break are tolerated.
 
     Raises:
-        UnreadableFile: the file is missing, a folder or forbidden, is not UTF-8, or holds a NUL byte.
+        UnreadableFile: the file is missing, forbidden, too large or no regular file, is not UTF-8, or holds a NUL byte.
     """
     name, data = _read_bytes(path)
     return source_of(name, data)
@@ -58,8 +59,7 @@ def _read_bytes(path: str | Path) -> tuple[str, bytes]:
     if name == STDIN:
         return "<stdin>", read_standard_input()
     try:
-        with open(name, "rb") as file:
-            return name, file.read()
+        return name, read_file(name)
     except FileNotFoundError:
         raise UnreadableFile(f"there is no file {name}", "check the spelling of its name and folder") from None
     except IsADirectoryError:
@@ -74,12 +74,12 @@ def read_standard_input() -> bytes:
     """All of standard input.
 
     Raises:
-        UnreadableFile: it is closed, or cannot be read.
+        UnreadableFile: it is closed, too large, or cannot be read.
     """
     if sys.stdin is None:  # what Python has in place of a stream that was closed when it was started
         raise UnreadableFile("there is no standard input: it is closed", "name a file, or redirect one to it")
     try:
-        return sys.stdin.buffer.read()
+        return read_stream(sys.stdin.buffer)
     except OSError as error:
         raise UnreadableFile(f"standard input cannot be read: {error.strerror}") from None
 

@@ -20,6 +20,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from sleec_runtime.files import read_file
 from sleec_runtime.language import load
 from sleec_runtime.language.suggest import nearest
 from sleec_runtime.untimed import require_untimed
@@ -69,7 +70,7 @@ def _table(path: Path) -> dict[str, Any]:
     toml = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
     try:
         # Decimals, so that 36.6 is 36.6.
-        table: dict[str, Any] = toml.loads(path.read_bytes().decode("utf-8-sig"), parse_float=Decimal)
+        table: dict[str, Any] = toml.loads(read_file(path).decode("utf-8-sig"), parse_float=Decimal)
     except OSError as error:
         raise CasesError(f"{path} cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:

@@ -11,8 +11,9 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
-from sleec_runtime.certificate import MANIFEST, SIGNATURE, Manifest, read_file, read_manifest
+from sleec_runtime.certificate import MANIFEST, SIGNATURE, Manifest, read_manifest
 from sleec_runtime.errors import CertificateRefused, SleecError
+from sleec_runtime.files import read_file
 from sleec_runtime.model import READINGS
 from sleec_verify import __version__
 from sleec_verify.certificates.making import Rebuilt, rebuild

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from pathlib import Path
 
 from sleec_runtime.certificate import cryptography
 from sleec_runtime.errors import SleecError
+from sleec_runtime.files import read_file
 
 
 def sign(data: bytes, key: str) -> bytes:
@@ -16,7 +16,7 @@ def sign(data: bytes, key: str) -> bytes:
     """
     ed25519, serialization, _ = cryptography()
     try:
-        private = serialization.load_pem_private_key(Path(key).read_bytes(), password=None)
+        private = serialization.load_pem_private_key(read_file(key), password=None)
     except OSError as error:
         raise SleecError(f"the key {key} cannot be read: {error.strerror}") from None
     except Exception:  # noqa: BLE001 - what a file that is no key raises depends on what it is

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from sleec_runtime.files import read_file
 from sleec_verify.gate.config import ConfigError
 
 if TYPE_CHECKING:
@@ -32,8 +33,7 @@ def read_baseline(path: str) -> set[Key]:
     import json
 
     try:
-        with open(path, encoding="utf-8") as file:
-            table = json.load(file)
+        table = json.loads(read_file(path))
         if table["version"] != _VERSION:
             raise ConfigError(f"{path} is a baseline of version {table['version']!r}", _RENEW)
         return {_key(entry) for entry in table["findings"]}

@@ -12,6 +12,7 @@ from importlib import import_module
 from typing import Any, Literal, NamedTuple
 
 from sleec_runtime.errors import SleecError
+from sleec_runtime.files import read_file
 from sleec_verify.finding import SEVERITIES, Severity
 
 OWN = "sleec-verify.toml"
@@ -112,8 +113,7 @@ def _table(path: str) -> dict[str, Any]:
     toml = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
     shown = os.path.relpath(path)
     try:
-        with open(path, "rb") as file:
-            table: dict[str, Any] = toml.loads(file.read().decode("utf-8-sig"))
+        table: dict[str, Any] = toml.loads(read_file(path).decode("utf-8-sig"))
     except FileNotFoundError:
         raise ConfigError(f"there is no file {shown}", "check the spelling of its name and folder") from None
     except OSError as error:

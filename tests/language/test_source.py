@@ -45,7 +45,7 @@ def test_files_that_are_not_there(tmp_path: Path) -> None:
 
 
 def test_forbidden_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(*_: object) -> None:
+    def refuse(*_: object, **__: object) -> None:
         raise PermissionError
 
     monkeypatch.setattr("builtins.open", refuse)

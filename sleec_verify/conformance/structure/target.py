@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from sleec_runtime.errors import LanguageError, Problem, SleecError, UnreadableFile
+from sleec_runtime.files import read_file
 from sleec_runtime.language.source import read_standard_input, tidy
 from sleec_runtime.model import Source, Span
 
@@ -168,8 +169,7 @@ def _bytes(path: str) -> tuple[str, bytes]:
     if path == _STDIN:
         return "<stdin>", read_standard_input()
     try:
-        with open(path, "rb") as file:
-            return path, file.read()
+        return path, read_file(path)
     except FileNotFoundError:
         raise NoTarget(f"there is no file {path}", "check the spelling of its name and folder") from None
     except (OSError, ValueError) as error:
