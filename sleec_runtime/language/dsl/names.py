@@ -40,7 +40,8 @@ class Names:
         self._source = source
         self._problems = problems
         self._spans: dict[str, Span] = {}
-        self._owners: dict[str, str] = {}
+        self._owners: dict[str, Measure] = {}
+        """Each value of a scale with the last measure that has it, be that a second definition of its name."""
         self._values: dict[str, tuple[str, Span]] = {}
         """Each value of a scale with the first measure that has it, and the place of that."""
         self._labels: dict[str, tuple[Span, int]] = {}
@@ -86,7 +87,7 @@ class Names:
             seen.add(value)
             self._values.setdefault(value, (measure.name, value_span))
             # As in the tools of others, a literal of the wrong scale counts by its place in the last scale with it.
-            self._owners[value] = measure.name
+            self._owners[value] = measure
 
     def check_values(self) -> None:
         """A value of a scale is called like nothing else: a comparison could mean either. Scales may share values."""
@@ -157,7 +158,7 @@ class Names:
         """What a name is, and where that is said: a name with a definition, or a value of a scale."""
         if name not in self.kinds:
             owner = self._owners[name]
-            return f"{quoted(name)} is a value of {quoted(owner)} (line {self.line(self._spans[owner])})"
+            return f"{quoted(name)} is a value of {quoted(owner.name)} (line {self.line(owner.span)})"
         its = _ARTICLE[self.kinds[name]]
         measure = self.measures.get(name)
         if measure is not None:
@@ -203,8 +204,7 @@ class Names:
     def _compare(self, name: str) -> str:
         """How to compare what is no condition by itself."""
         if name not in self.kinds:
-            owner = self._owners[name]
-            return f"compare the measure with it, as in: {owner} = {name}"
+            return f"compare the measure with it, as in: {self._owners[name].name} = {name}"
         if name in self.constants:
             return f"compare a measure with it, as in: {self.numeric_example()} > {name}"
         measure = self.measures.get(name)

@@ -220,7 +220,7 @@ class Terms(Names):
 
     def _instead(self, boolean: str, other: str | Rational) -> str:
         """What else may be meant by a comparison of a boolean measure with `other`."""
-        measure = self.measures.get(self._owners.get(str(other), str(other)))
+        measure = self._owners.get(str(other)) or self.measures.get(str(other))
         if measure is not None and measure.kind == "scale":
             return f"; {quoted(measure.name)} can be {_values(measure)}"
         kind = self.kinds.get(str(other))
@@ -241,7 +241,7 @@ class Terms(Names):
         if isinstance(value, str) and not side.braced:
             if value in measure.values:
                 return ScaleValue(value, measure.values.index(value))
-            owner = self.measures.get(self._owners.get(value, ""))
+            owner = self._owners.get(value)
             if owner is not None:
                 said = f"{value} is no value of {measure.name} but of {owner.name}"
                 return self._by_place(measure, value, owner.values.index(value), "foreign-value", said, side.span)
@@ -293,7 +293,7 @@ class Terms(Names):
         self.problem(
             f"{one}, and {self.described(value)}: they cannot be compared",
             side.span,
-            f"compare {quoted(self._owners[value])} with it, or write a number",
+            f"compare {quoted(self._owners[value].name)} with it, or write a number",
         )
         return True
 
