@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from types import TracebackType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from sleec_runtime.dispatch import Done, Plan, run, run_async
 from sleec_runtime.errors import WrongType
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from sleec_runtime.model import Context, Obligation
     from sleec_runtime.runtime import Sleec
     from sleec_runtime.snapshot import Snapshot
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,8 @@ class Monitor:
     """Looks at every dispatch of a running instance, and calls `on_difference` where what was executed is not what was
     due, in the order in which it was due.
 
-    What is due is decided afresh from the rules and the context, not taken from the dispatch. Executions are seen of
+    What is due is decided afresh from the rules and the context, not taken from the dispatch. An obligation with a
+    window that another execution fulfils, for example that of another thread, is not missing. Executions are seen of
     callables marked with ``@obligation``, of those given to `implement`, and of the snake-case methods of bound objects
     and of those in `watch`. What a variant hands to another thread is not seen, nor what an inner trigger executes,
     which is looked at for itself, nor what the clock starts: what goes wrong there is in `Sleec.failures`. If
@@ -122,26 +125,41 @@ class Monitor:
                 self._compare(plan.triggers, snapshot, seen)
 
     @contextmanager
-    def looking(self, triggers: tuple[str, ...], snapshot: Snapshot, chained: Collection[str]) -> Iterator[None]:
-        """Looks at a dispatch of rules with times, which is that of the block: at what it starts at once. `chained`
-        are the responses that are events, and set off rules as they are done."""
+    def looking(
+        self,
+        triggers: tuple[str, ...],
+        snapshot: Snapshot,
+        chained: Collection[str],
+        fulfilled: Sequence[tuple[str, Obligation]],
+    ) -> Iterator[None]:
+        """Looks at a dispatch of rules with times, which is that of the block: at what it starts at once.
+
+        `chained` are the responses that are events, and trigger rules when they are done. `fulfilled` are the
+        obligations of the dispatch that another execution fulfils, each with the label of its rule; it is read when the
+        block ends.
+        """
         with recording(apart=True) as seen:
             try:
                 yield
             finally:
-                self._compare(triggers, snapshot, seen, chained)
+                self._compare(triggers, snapshot, seen, chained, fulfilled)
 
     def _compare(
-        self, triggers: tuple[str, ...], snapshot: Snapshot, seen: Recording, chained: Collection[str] = ()
+        self,
+        triggers: tuple[str, ...],
+        snapshot: Snapshot,
+        seen: Recording,
+        chained: Collection[str] = (),
+        fulfilled: Sequence[tuple[str, Obligation]] = (),
     ) -> None:
         context = snapshot.context(triggers)
-        decisions = list(_decided(triggers, snapshot))
+        decisions = list(_decided(triggers, snapshot, fulfilled))
         happened = set(triggers)
         for decision in decisions:
             for literal in decision.obligations:
                 if literal.name in chained and literal.name not in happened and not literal.negated:
                     happened.add(literal.name)
-                    decisions += _decided((literal.name,), snapshot)
+                    decisions += _decided((literal.name,), snapshot, fulfilled)
         due = Due(tuple(decisions))
         in_order = tuple(o.name for decision in due.decisions for o in decision.obligations if not o.negated)
         executed = _without(seen.executed, seen.failed)
@@ -161,8 +179,10 @@ class Monitor:
             )
 
 
-def _decided(triggers: tuple[str, ...], snapshot: Snapshot) -> Iterator[Decision]:
-    """What the rules of `triggers` say, in their order: so much of it as counts at once."""
+def _decided(
+    triggers: tuple[str, ...], snapshot: Snapshot, fulfilled: Sequence[tuple[str, Obligation]]
+) -> Iterator[Decision]:
+    """What the rules of `triggers` say, in their order: what counts at once, without what is `fulfilled`."""
     program = snapshot.program
     context = snapshot.context(triggers)
     rules = sorted(
@@ -172,20 +192,23 @@ def _decided(triggers: tuple[str, ...], snapshot: Snapshot) -> Iterator[Decision
     for rule in rules:
         decision = decide(rule, context, program.ruleset.reading, program.measures)
         if decision is not None:
-            yield replace(decision, obligations=tuple(o for o in decision.obligations if _counts_at_once(o)))
+            at_once = tuple(o for o in decision.obligations if _counts_at_once(o, snapshot.conditions))
+            own = [(rule.label, o) for o in at_once]
+            yield replace(decision, obligations=tuple(o for _, o in _without(own, fulfilled)))
 
 
-def _counts_at_once(obligation: Obligation) -> bool:
+def _counts_at_once(obligation: Obligation, conditions: Mapping[str, Any]) -> bool:
     window = None if obligation.timing is None else obligation.timing.window
-    return window is None or window.start is None or window.start.seconds == 0
+    return window is None or window.start is None or window.start.seconds_where(conditions) == 0
 
 
-def _without(executed: Iterable[str], failed: Iterable[str]) -> tuple[str, ...]:
-    rest = list(failed)
+def _without(items: Iterable[T], others: Iterable[T]) -> tuple[T, ...]:
+    """`items` without `others`: the first one of each is left out, as often as it is in `others`."""
+    rest = list(others)
     kept = []
-    for name in executed:
-        if name in rest:
-            rest.remove(name)
+    for item in items:
+        if item in rest:
+            rest.remove(item)
         else:
-            kept.append(name)
+            kept.append(item)
     return tuple(kept)

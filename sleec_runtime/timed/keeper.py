@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from sleec_runtime.dispatch import one_of
 from sleec_runtime.errors import NeedsAwait, Prohibited, SleecError, UnknownObligation
 from sleec_runtime.evaluation import Due
+from sleec_runtime.obligations import recording
 from sleec_runtime.timed.agenda import CLOSES, OPENS
 from sleec_runtime.timed.failures import Failure, Failures
 from sleec_runtime.timed.ledger import Ledger
@@ -23,12 +24,11 @@ from sleec_runtime.timed.run import Run, TimedDone
 from sleec_runtime.timed.stages import Moment, Stage, called_by, in_place_of, with_chains
 from sleec_runtime.timed.starts import Starts
 from sleec_runtime.timed.tasks import Task
-from sleec_runtime.timed.units import Did, Unit
+from sleec_runtime.timed.units import Unit
 from sleec_runtime.timed.words import prohibitions_in_words, time_in_words
 
 if TYPE_CHECKING:
     from sleec_runtime.instance import Instance
-    from sleec_runtime.layers import Variant
     from sleec_runtime.monitor import Monitor
     from sleec_runtime.snapshot import Snapshot
     from sleec_runtime.timed.clocks import Clock, Time
@@ -61,7 +61,7 @@ class Timekeeper:
     ) -> TimedDone:
         """`Sleec.trigger`, for one name or several; `monitor` looks at it."""
         run, snapshot = self._decide(names, args, kwargs)
-        with self._looked_at(names, snapshot, monitor):
+        with self._looked_at(names, snapshot, run, monitor):
             run.go()
         if run.errors:
             raise one_of(run.errors)
@@ -72,14 +72,14 @@ class Timekeeper:
     ) -> TimedDone:
         """`Sleec.trigger_async`, for one name or several; `monitor` looks at it."""
         run, snapshot = self._decide(names, args, kwargs, in_loop=True)
-        with self._looked_at(names, snapshot, monitor):
+        with self._looked_at(names, snapshot, run, monitor):
             await run.go_async()
         if run.errors:
             raise one_of(run.errors)
         return run.done(names, snapshot)
 
     def _looked_at(
-        self, names: tuple[str, ...], snapshot: Snapshot, monitor: Monitor | None
+        self, names: tuple[str, ...], snapshot: Snapshot, run: Run, monitor: Monitor | None
     ) -> AbstractContextManager[None]:
         if monitor is None:
             return nullcontext()
@@ -87,7 +87,7 @@ class Timekeeper:
         if self._chains:
             _, instance = self._state()
             chained = snapshot.program.number_of.keys() - instance.takes_time
-        return monitor.looking(names, snapshot, chained)
+        return monitor.looking(names, snapshot, chained, run.fulfilled)
 
     def due(self, names: tuple[str, ...]) -> Due:
         """`Sleec.due`: the decisions, if nothing refuses them now."""
@@ -196,13 +196,13 @@ class Timekeeper:
 
     # For a run ------------------------------------------------------------------------------------------------
 
-    def begin(self, unit: Unit, did: Did) -> Variant:
-        """What runs for `unit`, which is under way from now on."""
+    def begin(self, unit: Unit) -> list[Task]:
+        """The tasks of `unit` that are still open. They are under way from now on."""
         with self._ledger.lock:
-            for task in unit.tasks:
-                if task.is_open:
-                    task.state = "under way"
-        return unit.variant(did)
+            tasks = [task for task in unit.tasks if task.is_open]
+            for task in tasks:
+                task.state = "under way"
+        return tasks
 
     def happened(self, name: str, task: Task) -> list[Exception]:
         """`name` is done, as `task` asks for. Returns what is wrong with that."""
@@ -262,8 +262,9 @@ class Timekeeper:
         return tuple(Pending(task, self) for task in tasks)
 
     def tick(self) -> None:
-        """Starts and ends all that is due by now."""
-        self._starts.tick()
+        """Starts and ends all that is due by now. The monitor of a dispatch that calls this does not look at it."""
+        with recording(apart=True):
+            self._starts.tick()
 
     def close(self) -> None:
         """Nothing is watched any more. What runs, runs on."""

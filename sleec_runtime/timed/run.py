@@ -14,6 +14,7 @@ from sleec_runtime.instance import Unfinished
 from sleec_runtime.layers import Variant, await_under, run_all
 
 if TYPE_CHECKING:
+    from sleec_runtime.model import Obligation
     from sleec_runtime.snapshot import Snapshot
     from sleec_runtime.timed.clocks import Time
     from sleec_runtime.timed.keeper import Timekeeper
@@ -52,11 +53,14 @@ class Run:
     """The stages of a dispatch, which have been checked and are on the agenda. It is over when `units` is.
 
     Whoever runs it takes each unit, runs it, and says with `ended` what came of it. `errors` has what was raised, with
-    the labels of the rules.
+    the labels of the rules. `fulfilled` lists the obligations that are not started, because another execution of the
+    same event has fulfilled them: that of another thread, of an inner trigger, or of another rule of this dispatch.
+    Each is with the label of its rule.
     """
 
     def __init__(self, keeper: Timekeeper, stages: Sequence[Stage], now: Time) -> None:
         self.errors: list[tuple[str, Exception]] = []
+        self.fulfilled: list[tuple[str, Obligation]] = []
         self._keeper = keeper
         self._now = now
         self._stages = deque(stages)
@@ -85,7 +89,7 @@ class Run:
     def go(self) -> None:
         """Runs all units."""
         for unit in self.units():
-            variant = self._keeper.begin(unit, self.did)
+            variant = self._begin(unit)
             (result,), errors = run_all((variant,), unit.origin.args, dict(unit.origin.kwargs))
             error = errors[0][1] if errors else None
             if type(result) is CoroutineType or type(result) is Unfinished:
@@ -99,7 +103,7 @@ class Run:
     async def go_async(self) -> None:
         """Runs all units, awaiting those that are coroutines."""
         for unit in self.units():
-            variant = self._keeper.begin(unit, self.did)
+            variant = self._begin(unit)
             result: object = None
             error = None
             try:
@@ -107,6 +111,16 @@ class Run:
             except Exception as raised:  # noqa: BLE001 - kept with the others
                 error = raised
             self.ended(unit, variant, result, error)
+
+    def _begin(self, unit: Unit) -> Variant:
+        tasks = self._keeper.begin(unit)
+        if unit.written is None:
+            self.fulfilled += [
+                (task.origin.rule.label, task.literal)
+                for task in unit.tasks
+                if task not in tasks and task.state == "done"
+            ]
+        return unit.variant(tasks, self.did)
 
     def did(self, task: Task) -> None:
         """The obligation is done, now."""

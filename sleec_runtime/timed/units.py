@@ -41,19 +41,18 @@ class Unit:
             return self.written.asynchronous
         return any(is_coroutine_function(self.origin.instance.implementation(task.name)) for task in self.tasks)
 
-    def variant(self, did: Did) -> Variant:
-        """What runs. It tells `did` of each obligation as its callable returns; a written variant tells nothing."""
+    def variant(self, tasks: Iterable[Task], did: Did) -> Variant:
+        """The code that does `tasks`, which are those of the unit that are open. It calls `did` for each obligation as
+        its callable returns. A written variant does all tasks of the unit, and calls nothing."""
         if self.written is not None:
             return self.written
         instance, decision = self.origin.instance, self.origin.decision
         functions = []
-        for task in self.tasks:
-            if not task.is_open:
-                continue
+        for task in tasks:
             function = instance.implementation(task.name)
             assert function is not None, "refused before anything was decided"
             functions.append(function if task.name in instance.takes_time else _telling(function, task, did))
-        return instance.composed(decision.rule.label, None if task.alternative else decision.layer, functions)
+        return instance.composed(decision.rule.label, None if self.tasks[0].alternative else decision.layer, functions)
 
 
 def units_of(origin: Origin, tasks: Iterable[Task]) -> tuple[Unit, ...]:
