@@ -60,6 +60,9 @@ def _told(arguments: Sequence[str]) -> int:
     """Run the command line, and tell of what went wrong. Only what goes wrong in telling is raised: OSError."""
     from click.exceptions import Abort, ClickException
 
+    from sleec_verify.cli import output
+
+    output.tracebacks = "--traceback" in arguments
     try:
         return _invoke(list(arguments))
     except ClickException as error:
@@ -71,7 +74,7 @@ def _told(arguments: Sequence[str]) -> int:
     except OSError:
         raise
     except Exception as error:  # noqa: BLE001
-        return _unexpected(error, "--traceback" in arguments)
+        return _failed(error)
 
 
 def _invoke(arguments: list[str]) -> int:
@@ -89,28 +92,19 @@ def _invoke(arguments: list[str]) -> int:
         return error.exit_code
 
 
-def _unexpected(error: Exception, traceback: bool) -> int:
+def _failed(error: Exception) -> int:
     from sleec_runtime.errors import SleecError
     from sleec_verify.cli import exits
+    from sleec_verify.cli.output import complain
 
-    if traceback:
-        from traceback import print_exc
+    if not isinstance(error, SleecError):
+        from sleec_verify.internal_error import InternalError
 
-        print_exc()
-    elif isinstance(error, SleecError):
-        from sleec_verify.cli.output import complain
-        from sleec_verify.solver import Undecided
+        error = InternalError("", error)
+    complain(error)
+    from sleec_verify.solver import Undecided
 
-        complain(error)
-        if isinstance(error, Undecided):
-            return exits.UNKNOWN
-    else:
-        _tell(
-            f"sleec-verify failed: {type(error).__name__}: {error}\n"
-            "This is a mistake in sleec-verify, not in your rules. Please report it with the ruleset and the command;\n"
-            "`sleec-verify --traceback …` shows where it happened."
-        )
-    return exits.UNUSABLE
+    return exits.UNKNOWN if isinstance(error, Undecided) else exits.UNUSABLE
 
 
 def _tell(message: str, stream: TextIO | None = None) -> None:

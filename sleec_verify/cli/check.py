@@ -13,6 +13,7 @@ from sleec_verify.cli.cached import results as kept_or_new
 from sleec_verify.cli.inputs import files, rulesets
 from sleec_verify.cli.output import complain, report
 from sleec_verify.finding import SEVERITIES, Severity
+from sleec_verify.internal_error import InternalError, internal_errors_of
 from sleec_verify.report import FORMATS
 from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, tally, told_of
 
@@ -114,14 +115,20 @@ def _outcomes(
                 complain(ruleset.error)
                 outcomes.append(ruleset)
             else:
-                if certificate is None:
-                    results = kept_or_new(ruleset, domain, untimed, cache, progress.on(ruleset.source.path))
-                else:
-                    results = _certified(ruleset, domain, untimed, certificate, progress)
-                if realizable is not None:
-                    # A strategy is no refutation, of which certificates speak.
-                    results += _realizability(ruleset, domain, untimed, realizable, progress)
-                outcomes.append(Checked(ruleset, results, untimed if speaks_of_traces(ruleset) else None))
+                path = ruleset.source.path
+                try:
+                    with internal_errors_of(path):
+                        if certificate is None:
+                            results = kept_or_new(ruleset, domain, untimed, cache, progress.on(path))
+                        else:
+                            results = _certified(ruleset, domain, untimed, certificate, progress)
+                        if realizable is not None:
+                            # A strategy is no refutation, of which certificates speak.
+                            results += _realizability(ruleset, domain, untimed, realizable, progress)
+                        outcomes.append(Checked(ruleset, results, untimed if speaks_of_traces(ruleset) else None))
+                except InternalError as error:
+                    complain(error)
+                    outcomes.append(Unusable(path, error))
     return outcomes
 
 

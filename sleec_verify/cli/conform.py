@@ -8,10 +8,11 @@ import click
 
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
-from sleec_verify.cli.output import report
+from sleec_verify.cli.output import complain, report
 from sleec_verify.finding import SEVERITIES, CheckResult, Severity, Unknown
+from sleec_verify.internal_error import InternalError, internal_errors_of
 from sleec_verify.report import FORMATS
-from sleec_verify.report.outcome import Checked
+from sleec_verify.report.outcome import Checked, Unusable
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading
@@ -54,8 +55,14 @@ def command(
         from sleec_verify.cli.files import require_writable
 
         require_writable(output, (path, target))
-    ruleset = one_ruleset(path, reading, domain)
-    result = check_structure(ruleset, python_files(target), domain)
+    try:
+        ruleset = one_ruleset(path, reading, domain)
+        with internal_errors_of(target):
+            result = check_structure(ruleset, python_files(target), domain)
+    except InternalError as error:
+        complain(error)
+        report([Unusable(error.path, error)], form, output)
+        return exits.UNUSABLE
     report([Checked(ruleset, (result,))], form, output)
     return _exit_code(result, fail_level)
 

@@ -12,6 +12,7 @@ import click
 from sleec_runtime.errors import SleecError
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.output import complain, note, write
+from sleec_verify.internal_error import InternalError, internal_errors_of
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset, Source
@@ -110,8 +111,7 @@ def command(
         if found.difference is not None:
             rulesets.append(found.difference)
     _check_domain(domain, rulesets)
-    unread = any(one.errors for one in compared)
-    asked = _asked(assertions, said, rulesets, domain, unread) if asserting else ()
+    asked = _asked(assertions, said, compared, domain) if asserting else ()
     if asked is None:
         return exits.UNUSABLE
     report = Report(tuple(compared), len(versions) - len(left), asked)
@@ -167,7 +167,12 @@ def _compared(
         old = _empty(new, names[0], versions.path)
     if new is None:
         new = _empty(old, names[1], versions.path)
-    return Compared(versions.path, compare(old, new, domain, untimed))
+    try:
+        with internal_errors_of(versions.path):
+            return Compared(versions.path, compare(old, new, domain, untimed))
+    except InternalError as error:
+        complain(error)
+        return Compared(versions.path, None, (error,))
 
 
 def _read(place: Place | None, reading: Reading | None, errors: list[SleecError]) -> Ruleset | None:
@@ -176,7 +181,8 @@ def _read(place: Place | None, reading: Reading | None, errors: list[SleecError]
     if place is None:
         return None
     try:
-        ruleset = parse_source(place.read())
+        with internal_errors_of(place.name):
+            ruleset = parse_source(place.read())
     except SleecError as error:
         errors.append(error)
         return None
@@ -202,12 +208,13 @@ def _check_domain(domain: str | None, found: Sequence[Difference]) -> None:
 
 
 def _asked(
-    texts: Sequence[str], said: Source | None, found: Sequence[Difference], domain: str | None, unread: bool
+    texts: Sequence[str], said: Source | None, compared: list[Compared], domain: str | None
 ) -> tuple[Asked, ...] | None:
-    """The answers to all assertions, of all new rulesets; None where some are none, which is told. Where a ruleset is
-    `unread`, what seems wrong with an assertion may be right by that one's names, and it is only left out."""
+    """The answers to all assertions, of all new rulesets; None where an assertion is wrong, which is reported. Where a
+    ruleset cannot be used, an assertion that seems wrong may be about its names, and is only left out."""
     from sleec_verify.assertions import Vocabulary, ask, read_assertion, read_assertions
 
+    found = [one.difference for one in compared if one.difference is not None]
     known = Vocabulary([*(one.new for one in found), *(one.old for one in found)])
     assertions = []
     wrong: list[SleecError] = []
@@ -221,11 +228,21 @@ def _asked(
             assertions += read_assertions(said, known)
         except SleecError as error:
             wrong.append(error)
-    if wrong and not unread:
-        for one in wrong:
-            complain(one)
+    if wrong and not any(one.errors for one in compared):
+        for mistake in wrong:
+            complain(mistake)
         return None
-    return tuple(ask(each.new, assertion, domain, known) for each in found for assertion in assertions)
+    answers: list[Asked] = []
+    for index, one in enumerate(compared):
+        if one.difference is None:
+            continue
+        try:
+            with internal_errors_of(one.path):
+                answers += [ask(one.difference.new, assertion, domain, known) for assertion in assertions]
+        except InternalError as error:
+            complain(error)
+            compared[index] = one._replace(difference=None, errors=(error,))
+    return tuple(answers)
 
 
 def _exit_code(report: Report, fail_on: FailOn) -> int:

@@ -13,6 +13,7 @@ from sleec_verify.cli import exits, options
 from sleec_verify.cli.files import write_whole
 from sleec_verify.cli.inputs import files
 from sleec_verify.cli.output import complain, write, write_data
+from sleec_verify.internal_error import internal_errors_of
 from sleec_verify.report.outcome import Unusable, counted
 
 
@@ -40,15 +41,19 @@ def command(paths: tuple[str, ...], mode: str | None) -> int:
         try:
             if isinstance(path, Unusable):
                 raise path.error
-            ruleset = load(path)
+            with internal_errors_of(path):
+                ruleset = load(path)
+                laid_out = _laid_out(ruleset)
+                changes = laid_out != ruleset.source.text
+                if changes and mode == "write":
+                    _replace(path, ruleset, laid_out)
         except SleecError as error:
             complain(error)
             unusable += 1
             continue
-        laid_out = _laid_out(ruleset)
         if mode is None:
             write_data((laid_out,))
-        elif laid_out != ruleset.source.text:
+        elif changes:
             changed += 1
             _show(path, ruleset, laid_out, mode)
     if mode is not None:
@@ -60,8 +65,8 @@ def command(paths: tuple[str, ...], mode: str | None) -> int:
     return exits.FINDINGS if changed and mode != "write" else exits.HOLDS
 
 
-def _safely(path: str, ruleset: Ruleset, laid_out: str) -> None:
-    """Replace the file's text, once more than the printer's tests show that the rules say the same."""
+def _replace(path: str, ruleset: Ruleset, laid_out: str) -> None:
+    """Replace the file's text, after a last check that the rules say the same."""
     if parse(laid_out) != ruleset:
         raise AssertionError(f"the layout of {path} would change what its rules say")
     write_whole(path, laid_out.encode())
@@ -74,14 +79,14 @@ def _laid_out(ruleset: Ruleset) -> str:
 
 def _show(path: str, ruleset: Ruleset, laid_out: str, mode: str) -> None:
     if mode == "write":
-        _safely(path, ruleset, laid_out)
         print(f"laid out {path}", file=sys.stderr)
     elif mode == "check":
         write((f"{ruleset.source.path} would change\n",))
     else:
         from difflib import unified_diff
+        from io import StringIO
 
         name = ruleset.source.path
-        before, after = (text.splitlines(keepends=True) for text in (ruleset.source.text, laid_out))
+        before, after = (StringIO(text).readlines() for text in (ruleset.source.text, laid_out))
         for line in unified_diff(before, after, name, name):
             write_data((line if line.endswith("\n") else line + "\n\\ No newline at end of file\n",))

@@ -11,6 +11,7 @@ from sleec_runtime.language import load
 from sleec_runtime.language.suggest import nearest
 from sleec_verify.cli.output import note
 from sleec_verify.folders import SUFFIX, rulesets_below
+from sleec_verify.internal_error import internal_errors_of
 from sleec_verify.report.outcome import Unusable
 from sleec_verify.report.words import listed, shortened
 
@@ -70,7 +71,8 @@ def one_ruleset(path: str, reading: Reading | None, domain: str | None) -> Rules
         UnreadableFile, LanguageError: it is not a ruleset.
         UnknownDomain: it has domains, and none of them is `domain`.
     """
-    ruleset = load(path)
+    with internal_errors_of(path):
+        ruleset = load(path)
     if domain is not None and ruleset.domains and domain not in ruleset.domains:
         raise unknown_domain(domain, ruleset.domains)
     if domain is not None and not ruleset.domains:

@@ -10,6 +10,9 @@ if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_verify.report.outcome import Outcome
 
+tracebacks = False
+"""Whether `complain` shows where an error was raised, as ``--traceback`` asks for."""
+
 
 def report(outcomes: Sequence[Outcome], form: str, output: str | None) -> None:
     """Write the outcomes in the format `form`: to standard output, or to the file `output`, with a line on it on
@@ -61,3 +64,7 @@ def complain(error: SleecError) -> None:
     sys.stdout.flush()
     for line in error_lines(error, Palette.of(sys.stderr)):
         print(line, file=sys.stderr)
+    if tracebacks:
+        from traceback import print_exception
+
+        print_exception(type(error), error, error.__traceback__)

@@ -22,6 +22,7 @@ from sleec_verify.gate.config import Config
 from sleec_verify.gate.policy import judge
 from sleec_verify.gate.result import Conformed, Examined, Gated
 from sleec_verify.gate.suppressions import suppressions
+from sleec_verify.internal_error import InternalError, internal_errors_of
 from sleec_verify.renames import with_renames
 from sleec_verify.timed.scope import Untimed
 
@@ -105,7 +106,8 @@ def gate(
             found.unchanged += 1
             if asserting:
                 try:
-                    ruleset = _read(one)
+                    with internal_errors_of(one.path):
+                        ruleset = _read(one)
                     asked.append(_Sides(ruleset, ruleset))
                     found.paths[ruleset.source.path] = one.path
                 except SleecError as error:
@@ -154,6 +156,23 @@ def _examine(
     versions: Versions, was: str | None, base: str, config: Config, known: _Known, check: Check, untimed: Untimed
 ) -> Examined:
     found = Examined(versions.path, was)
+    try:
+        with internal_errors_of(versions.path):
+            _fill_in(found, versions, base, config, known, check, untimed)
+    except InternalError as error:
+        found.errors.append(error)
+    return found
+
+
+def _fill_in(
+    found: Examined,
+    versions: Versions,
+    base: str,
+    config: Config,
+    known: _Known,
+    check: Check,
+    untimed: Untimed,
+) -> None:
     sides: list[Ruleset | None] = []
     for place in (versions.old, versions.new):
         try:
@@ -181,7 +200,6 @@ def _examine(
         )
         if old is not None and any(f.check == CONFLICT for f in found.known):
             found.conflicting = _conflicting(old, untimed)
-    return found
 
 
 def _conflicting(ruleset: Ruleset, untimed: Untimed) -> frozenset[frozenset[str]]:
@@ -221,11 +239,12 @@ def _conform(target: Target, config: Config, known: _Known) -> Conformed:
 
     found = Conformed(target)
     try:
-        found.ruleset = load(config.at(target.rules))
-        if target.domain is not None and target.domain not in found.ruleset.domains:
-            named = ", ".join(found.ruleset.domains) or "none"
-            raise SleecError(f"there is no domain {target.domain} in {target.rules}", f"it has {named}")
-        found.result = check_structure(found.ruleset, python_files(config.at(target.code)), target.domain)
+        with internal_errors_of(target.code):
+            found.ruleset = load(config.at(target.rules))
+            if target.domain is not None and target.domain not in found.ruleset.domains:
+                named = ", ".join(found.ruleset.domains) or "none"
+                raise SleecError(f"there is no domain {target.domain} in {target.rules}", f"it has {named}")
+            found.result = check_structure(found.ruleset, python_files(config.at(target.code)), target.domain)
     except UnsupportedTimes as error:
         found.why = str(error)
         return found
@@ -259,8 +278,16 @@ def _ask(found: Gated, asked: Sequence[_Sides], asserting: Asserting) -> tuple[A
         raise LanguageError(*problems[0])
     answers = []
     for new, old in asked:
-        known = _names(Vocabulary((new, old)))
-        answers += [ask(new, one, known=vocabulary) for one in said if not known.isdisjoint(_names_in(one))]
+        path = found.paths[new.source.path]
+        try:
+            with internal_errors_of(path):
+                known = _names(Vocabulary((new, old)))
+                answers += [ask(new, one, known=vocabulary) for one in said if not known.isdisjoint(_names_in(one))]
+        except InternalError as error:
+            examined = next((one for one in found.examined if one.path == path), None)
+            if examined is None:
+                found.examined.append(examined := Examined(path))
+            examined.errors.append(error)
     return tuple(answers)
 
 

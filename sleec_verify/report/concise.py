@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from sleec_verify.report.outcome import Outcome, checked, in_short
+from sleec_verify.report.outcome import Outcome, Unusable, checked, in_short, one_line
 from sleec_verify.report.words import listed
 
 if TYPE_CHECKING:
@@ -14,7 +14,10 @@ if TYPE_CHECKING:
 
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """A line for each finding and each check without a verdict, in the order of the rulesets and their texts."""
-    for outcome in checked(outcomes):
+    for outcome in outcomes:
+        if isinstance(outcome, Unusable):
+            yield f"{outcome.path}: {palette('error', 'unusable')}: {one_line(outcome.error)}\n"
+            continue
         rules = outcome.ruleset.source
         for finding in outcome.told:
             source = finding.source or rules

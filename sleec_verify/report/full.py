@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from sleec_verify.finding import SEVERITIES
 from sleec_verify.report.excerpt import Mark, excerpt
-from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, counted, tally, told_of
+from sleec_verify.report.outcome import Checked, Outcome, Unusable, counted, one_line, tally, told_of
 from sleec_verify.report.words import listed, witness_text
 
 if TYPE_CHECKING:
@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """The findings of each ruleset and a line on it; at the end, if there are several, a line on all."""
-    for outcome in checked(outcomes):
+    for outcome in outcomes:
+        if isinstance(outcome, Unusable):
+            yield f"{outcome.path}: {palette('error', 'unusable')}: {one_line(outcome.error)}\n"
+            continue
         source = outcome.ruleset.source
         for finding in outcome.told:
             yield from (line + "\n" for line in finding_lines(finding, finding.source or source, palette))

@@ -6,10 +6,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify.report.difference import WORDS, change_in_words, conflict_in_words, extent_text, witness_text
-from sleec_verify.report.outcome import counted
+from sleec_verify.report.outcome import counted, one_line
 from sleec_verify.report.words import in_short, listed
 
 if TYPE_CHECKING:
+    from sleec_runtime.errors import SleecError
     from sleec_verify.compare import Change, ConflictChange, Deciding, Difference
     from sleec_verify.gate.result import Block, Examined, Gated, Status
     from sleec_verify.report.palette import Palette
@@ -75,12 +76,19 @@ def _full(found: Gated, palette: Palette) -> Iterator[str]:
                 yield from (line + "\n" for line in finding_lines(finding, source, palette))
                 yield "\n"
     yield from (line + "\n" for line in on_assertions(found.asked, palette))
+    yield from (f"{path}: {palette('error', 'unusable')}: {one_line(error)}\n" for path, error in _errors(found))
     yield from (f"{palette('error', 'blocks')}: {_line(block)}\n" for block in found.blocks)
     yield from (f"{palette('unknown', 'unknown')}: {_line(block)}\n" for block in found.unknown)
     if found.stale:
         word = "entry of the baseline is" if found.stale == 1 else "entries of the baseline are"
         yield f"{palette('note', 'note')}: {found.stale} {word} found no more; renew it with --write-baseline\n"
     yield verdict(found, palette)
+
+
+def _errors(found: Gated) -> list[tuple[str, SleecError]]:
+    """What could not be used, with its path."""
+    errors = [(one.path, error) for one in found.examined for error in one.errors]
+    return [*errors, *((one.target.code, one.error) for one in found.conformed if one.error is not None)]
 
 
 def _line(block: Block) -> str:
@@ -127,9 +135,7 @@ def _markdown(found: Gated) -> Iterator[str]:
             yield from _cut(lines, "reason")
     if found.unusable:
         yield from ("", "### What cannot be read", "")
-        errors = [(one.path, error) for one in found.examined for error in one.errors]
-        errors += [(one.target.code, one.error) for one in found.conformed if one.error is not None]
-        yield from (f"- {_code(path)}: {_plain(str(error).splitlines()[0])}" for path, error in errors)
+        yield from (f"- {_code(path)}: {_plain(str(error).splitlines()[0])}" for path, error in _errors(found))
     if found.examined:
         yield from ("", "| ruleset | change | findings |", "| --- | --- | --- |")
         yield from _cut([_row(one) for one in found.examined], "ruleset", "| {} | | |")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from sleec_verify.internal_error import InternalError
 from sleec_verify.report.outcome import Checked, Outcome, in_short
 from sleec_verify.report.plain import described, in_project, troubles
 
@@ -22,8 +23,9 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     del palette  # a program reads this
     for outcome in outcomes:
         if not isinstance(outcome, Checked):
+            title = "internal error" if isinstance(outcome.error, InternalError) else "not a usable ruleset"
             for path, message, place in troubles(outcome):
-                yield _annotation("error", path, place, "not a usable ruleset", message)
+                yield _annotation("error", path, place, title, message)
             continue
         for finding in outcome.told:
             source = finding.source or outcome.ruleset.source

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Union
 
 from sleec_verify import __version__
 from sleec_verify.finding import Proved, Refuted, Unknown
-from sleec_verify.report.outcome import Outcome, Unusable, checked, counted, tally
+from sleec_verify.report.outcome import Outcome, Unusable, checked, one_line, tally
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
@@ -102,7 +102,7 @@ def error_json(error: SleecError) -> Json:
         {"message": problem.message, "hint": problem.hint, "span": span_json(problem.span, error.source)}
         for problem in error.problems
     ]
-    return {"message": f"this is no ruleset: {counted(len(problems), 'problem')}", "hint": None, "problems": problems}
+    return {"message": one_line(error), "hint": None, "problems": problems}
 
 
 def span_json(span: Span, source: Source) -> dict[str, Json]:

@@ -64,6 +64,15 @@ class Unusable(NamedTuple):
 Outcome = Union[Checked, Unusable]
 
 
+def one_line(error: SleecError) -> str:
+    """What is wrong with an input; its problems are counted."""
+    from sleec_runtime.errors import LanguageError
+
+    if isinstance(error, LanguageError):
+        return f"this is not a ruleset: {counted(len(error.problems), 'problem')}"
+    return error.message
+
+
 def checked(outcomes: Sequence[Outcome]) -> Iterator[Checked]:
     """The outcomes that have results."""
     return (outcome for outcome in outcomes if isinstance(outcome, Checked))

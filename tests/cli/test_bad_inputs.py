@@ -130,8 +130,12 @@ def test_folder_that_may_not_be_read(
     monkeypatch.setattr("os.scandir", refuse)
     assert run(["check", str(tmp_path), "--format", "concise"]) == 2
     out, err = capfd.readouterr()
-    assert f"error: the folder {tmp_path / 'locked'} cannot be read: Permission denied\n" in err
-    assert out == "2 rulesets: no errors, no warnings, no notes, 1 unusable (reading cascade)\n"
+    refused = f"the folder {tmp_path / 'locked'} cannot be read: Permission denied\n"
+    assert f"error: {refused}" in err
+    assert out == (
+        f"{tmp_path / 'locked'}: unusable: {refused}"
+        "2 rulesets: no errors, no warnings, no notes, 1 unusable (reading cascade)\n"
+    )
 
 
 @pytest.mark.parametrize("arguments", [["rules"], ["check", "a.sleec", "--domain"], []])

@@ -15,6 +15,7 @@ from sleec_runtime.errors import LanguageError, Problem, SleecError, UnreadableF
 from sleec_runtime.files import read_file
 from sleec_runtime.language.source import read_standard_input, tidy
 from sleec_runtime.model import Source, Span
+from sleec_verify.internal_error import internal_errors_of
 
 SUFFIX = ".py"
 _STDIN = "-"
@@ -73,7 +74,11 @@ def python_files(target: str) -> tuple[PythonFile, ...]:
     paths = list(_paths(target))
     if not paths:
         raise NoTarget(f"there is no {SUFFIX} file below {target}", "name the folder that holds the robot's code")
-    return tuple(_read(path) for path in paths)
+    files = []
+    for path in paths:
+        with internal_errors_of(path):
+            files.append(_read(path))
+    return tuple(files)
 
 
 def _paths(target: str) -> Iterator[str]:
