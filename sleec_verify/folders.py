@@ -18,3 +18,10 @@ def rulesets_below(folder: str, refused: Callable[[OSError], None]) -> list[str]
         folders[:] = [name for name in folders if name != ".git"]
         found += [os.path.join(parent, name) for name in names if name.endswith(SUFFIX)]
     return sorted(found)
+
+
+def files_at(path: str) -> list[str]:
+    """The file at `path`, or those below it if it is a folder; none if there is nothing."""
+    if not os.path.isdir(path):
+        return [path] if os.path.lexists(path) else []
+    return [os.path.join(parent, name) for parent, _, names in os.walk(path) for name in names]

@@ -122,7 +122,8 @@ def command(
 def _versions(paths: Sequence[str], revision: str | None) -> tuple[list[Versions], tuple[str, str]]:
     """The rulesets on both sides, in git those that moved under their new path, and what the sides are called."""
     from sleec_verify.renames import with_renames
-    from sleec_verify.revisions import Repository, of_paths
+    from sleec_verify.repository import Repository
+    from sleec_verify.revisions import of_paths
 
     if revision is None:
         if len(paths) != 2:

@@ -80,10 +80,10 @@ def command(
 
     Exit codes: 0 passed; 1 something blocks; 2 something cannot be read or set so; 3 something is not decided.
     """
-    from sleec_verify.gate import gate
+    from sleec_verify.gate import evidence, gate
     from sleec_verify.gate.baseline import read_baseline
     from sleec_verify.gate.config import find_config, read_config
-    from sleec_verify.revisions import NOW, Repository
+    from sleec_verify.repository import NOW, Repository
 
     config = find_config() if config_file is None else read_config(config_file)
     known_file = baseline or (None if config.baseline is None else config.at(config.baseline))
@@ -102,7 +102,7 @@ def command(
         from sleec_verify.cli.files import require_writable
 
         require_writable(output, (one.new.name for one in versions if one.new is not None))
-    beside = config.block.clause_coverage is not None or config.block.certificates
+    beside = {path for one in versions for path in evidence(one.path, config.block)}
     found = gate(
         versions,
         name,
@@ -112,7 +112,7 @@ def command(
         everything=everything,
         asserting=_asserting(config, texts),
         untimed=untimed,
-        touched=repository.touched(shared) if beside else (),
+        touched=repository.touched(shared, beside) if beside else frozenset(),
     )
     for one in found.examined:
         for error in one.errors:
@@ -167,7 +167,7 @@ def _write_baseline(paths: Sequence[str], config: Config, target: str | None, ch
     from sleec_verify.gate import findings_now
     from sleec_verify.gate.baseline import baseline_text, read_baseline
     from sleec_verify.report.outcome import counted
-    from sleec_verify.revisions import Repository
+    from sleec_verify.repository import Repository
 
     if target is None:
         raise click.UsageError("say where: --baseline FILE, or baseline in the configuration")

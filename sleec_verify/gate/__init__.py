@@ -7,7 +7,7 @@ before.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence, Set
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from sleec_verify.gate.config import Policy, Target
     from sleec_verify.revisions import Place, Versions
 
-__all__ = ["Asserting", "Check", "findings_now", "gate"]
+__all__ = ["Asserting", "Check", "evidence", "findings_now", "gate"]
 
 CONFLICT = "conflict"
 
@@ -82,11 +82,12 @@ def gate(
     everything: bool = False,
     asserting: Asserting | None = None,
     untimed: Untimed = "at",
-    touched: Collection[str] = (),
+    touched: Set[str] = frozenset(),
 ) -> Gated:
     """The verdict on rulesets in two versions, the older one called `base`.
 
-    `known` are the findings of the baseline, `touched` the paths of all files that differ from the base. A ruleset that
+    `known` are the findings of the baseline, `touched` what differs from the base of the
+    `evidence` beside them. A ruleset that
     is the same is left out, unless `everything` is examined or the cases or the certificate beside it changed; only
     the assertions are asked of all. Raises `LanguageError` for assertions that are none. Linear in the rulesets that
     are the same; for the others, what `check` and `diff` cost.
@@ -96,7 +97,7 @@ def gate(
     baseline = _Known(known)
     asked: list[_Sides] = []
     for one in versions:
-        if everything or not one.unchanged or _beside(one.path, config.block, touched):
+        if everything or not one.unchanged or not touched.isdisjoint(evidence(one.path, config.block)):
             examined = _examine(one, before.get(one.path), base, config, baseline, check, untimed)
             found.examined.append(examined)
             if examined.difference is not None:
@@ -121,12 +122,11 @@ def gate(
     return found
 
 
-def _beside(path: str, policy: Policy, touched: Collection[str]) -> bool:
-    """Whether something beside a ruleset changed that the policy asks for."""
+def evidence(path: str, policy: Policy) -> list[str]:
+    """The files and folders beside a ruleset that the policy asks for."""
     stem = path.removesuffix(".sleec")
-    if policy.clause_coverage is not None and f"{stem}.cases.toml" in touched:
-        return True
-    return policy.certificates and any(one.startswith(f"{stem}.certificate/") for one in touched)
+    cases = [f"{stem}.cases.toml"] if policy.clause_coverage is not None else []
+    return cases + ([f"{stem}.certificate"] if policy.certificates else [])
 
 
 def _read(one: Versions) -> Ruleset:

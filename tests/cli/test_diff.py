@@ -326,6 +326,7 @@ def test_a_file_that_moved_is_compared_with_what_it_was(cli: Cli, repository: Re
             "there is no revision main~7 in this repository\n  = help: in CI, fetch the whole history",
         ),
         (["--git", "main:a.sleec"], "name a commit, and the file behind it: --git main a.sleec"),
+        (["--git", ":/nothing"], "no commit that HEAD or a branch reaches has a message with this text"),
         (["--git", "x\ty"], "name a branch, a tag or a commit"),
         (["--git", "nowhere"], "in CI, fetch it first (git fetch origin nowhere)"),
         (["--git", "main", "--", "c.sleec"], "there is no .sleec file at or below c.sleec, neither in main nor in"),
@@ -340,6 +341,36 @@ def test_what_git_cannot_do(cli: Cli, repository: Repository, arguments: list[st
     ran = cli("diff", *arguments)
     assert ran.code == 2
     assert message in ran.err
+
+
+@needs_git
+@pytest.mark.parametrize("command", [("gate", "--base"), ("diff", "--git")])
+@pytest.mark.parametrize(
+    ("revision", "code"),
+    [
+        (":/second", 0),
+        (":/first", 1),
+        (":/first..draft", 1),
+        ("HEAD^{/first}", 1),
+        ("marked", 1),
+        ("main^", 1),
+        (":/third", 2),
+        ("main:a.sleec", 2),
+        ("main^{tree}", 2),
+        ("^main", 2),
+        ("main main", 2),
+    ],
+)
+def test_revisions_are_read_alike(
+    cli: Cli, repository: Repository, command: tuple[str, ...], revision: str, code: int
+) -> None:
+    repository.commit("the first..draft", a_sleec=OLD)
+    repository.git("tag", "-a", "-m", "a tag with a message", "marked")
+    repository.commit("the second one", a_sleec=CLASH)
+    ran = cli(*command, revision)
+    assert ran.code == code, ran
+    if code == 2:
+        assert f"there is no revision {revision} in this repository" in ran.err
 
 
 @needs_git

@@ -527,7 +527,7 @@ def test_detached_shallow_and_other_worktrees(
     for folder in (aside / "bare", repository.folder / ".git"):
         monkeypatch.chdir(folder)
         ran = cli("gate", "--base", "main")
-        assert (ran.code, "inside what git keeps for itself" in ran.err) == (2, True)
+        assert (ran.code, "is inside a git directory" in ran.err) == (2, True)
     url = (repository.folder / ".git").as_uri()
     repository.git("clone", "-q", "--depth", "1", "--branch", "main", url, str(aside / "shallow"))
     monkeypatch.chdir(aside / "shallow")
