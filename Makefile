@@ -4,12 +4,14 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-# Named after the lock's content: with another lock, the environment is made anew.
-LOCKED := $(VENV)/lock-$(firstword $(shell cksum <requirements-dev.lock))
+# Named after the Python and the lock's content: with another one of either, the environment is made anew.
+LOCKED := $(VENV)/lock-$(lastword $(shell $(PYTHON) --version))-$(firstword $(shell cksum <requirements/dev.lock))
 INSTALLED := $(VENV)/installed
-DOCS_LOCKED := $(VENV)/docs-lock-$(firstword $(shell cksum <requirements-docs.lock))
-# Where the index lacks a folder that pip was told of, pip says so once for each package.
-PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input
+DOCS_LOCKED := $(VENV)/docs-lock-$(firstword $(shell cksum <requirements/docs.lock))
+TOOLS_LOCKED := $(VENV)/tools-lock-$(firstword $(shell cksum <requirements/tools.lock))
+INSTALL := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input install --no-build-isolation --use-pep517
+# Without build isolation, what builds contextpy3 from its source is locked, too.
+INSTALL_LOCKED := $(INSTALL) --require-hashes -r
 
 .PHONY: help setup demo test lint types check-tests coverage site long proofs theorems bench mutants lock clean
 
@@ -35,13 +37,14 @@ $(LOCKED):
 	@rm -rf $(VENV)
 	@$(PYTHON) -m venv $(VENV) \
 	  || { echo 'No venv: on Debian and Ubuntu, install the package python3-venv'; exit 1; }
-	@$(PIP) install --use-pep517 -r requirements-dev.lock
+	@$(INSTALL_LOCKED) requirements/build.lock
+	@$(INSTALL_LOCKED) requirements/dev.lock
 	@touch $@
 
-# In its own step, so that a change of pyproject.toml costs no new environment. "compat" is one line in a .pth
-# file; the other modes run code in every start of Python. Compiling is what pip does for packages that it copies.
-$(INSTALLED): $(LOCKED) pyproject.toml
-	@$(PIP) install --no-deps --no-build-isolation --config-settings editable_mode=compat -e .
+# In its own step, so that a change of pyproject.toml costs no new environment. Each editable installation is one line
+# in a .pth file, which costs a start of Python next to nothing. Compiling is what pip does for packages that it copies.
+$(INSTALLED): $(LOCKED) pyproject.toml sleec_runtime/pyproject.toml hatch_build.py
+	@$(INSTALL) --no-deps --no-index -e ./sleec_runtime -e .
 	@$(BIN)/python -m compileall -q sleec_runtime sleec_verify
 	@touch $@
 
@@ -71,8 +74,12 @@ coverage: $(INSTALLED)
 	$(BIN)/pytest -n auto --dist worksteal -m 'not long and not slow' --cov --cov-report=term
 
 # What the site needs besides, into the same environment: the pages are made by running the commands.
-$(DOCS_LOCKED): requirements-docs.lock | $(INSTALLED)
-	@$(PIP) install -r requirements-docs.lock
+$(DOCS_LOCKED): requirements/docs.lock | $(INSTALLED)
+	@$(INSTALL_LOCKED) $<
+	@touch $@
+
+$(TOOLS_LOCKED): requirements/tools.lock | $(INSTALLED)
+	@$(INSTALL_LOCKED) $<
 	@touch $@
 
 # As a module, so that website/ can be imported, and not --quiet, which has --strict overlook every warning. The
@@ -97,21 +104,19 @@ theorems: $(INSTALLED)
 bench: $(INSTALLED)
 	$(BIN)/python -m benchmarks
 
-mutants: $(INSTALLED)
-	@$(PIP) install --no-build-isolation --config-settings editable_mode=compat -e '.[mutants]'
+mutants: $(TOOLS_LOCKED)
 	HYPOTHESIS_PROFILE=mutants $(BIN)/mutmut run
 	$(BIN)/mutmut results
 
-# The oldest Python decides: what it can install, the others can too.
-lock:
-	@rm -rf $(VENV)-lock && python3.10 -m venv $(VENV)-lock
-	$(VENV)-lock/bin/pip install --quiet --disable-pip-version-check --use-pep517 '.[dev]' 'setuptools>=77'
-	$(VENV)-lock/bin/pip freeze --all --exclude pip --exclude sleec-verify \
-	  | sed -e 's/^\(exceptiongroup\|tomli\|backports.*\)==.*/&; python_version < "3.11"/' > requirements-dev.lock
-	$(VENV)-lock/bin/pip freeze --all > $(VENV)-lock/dev
-	$(VENV)-lock/bin/pip install --quiet --disable-pip-version-check -c requirements-dev.lock '.[docs]'
-	$(VENV)-lock/bin/pip freeze --all | grep -vxFf $(VENV)-lock/dev > requirements-docs.lock
-	@rm -rf $(VENV)-lock
+# One version of each package, which every Python from the oldest on can install; the same one in all locks.
+COMPILE := $(BIN)/uv --no-config pip compile --quiet --upgrade --python $(BIN)/python --universal --python-version 3.10 \
+  --fork-strategy fewest --generate-hashes --no-strip-extras --no-header --no-emit-package sleec-runtime
+lock: $(TOOLS_LOCKED)
+	$(COMPILE) pyproject.toml --all-extras --group dev -o requirements/dev.lock
+	$(COMPILE) pyproject.toml -c requirements/dev.lock -o requirements/verify.lock
+	$(COMPILE) --group build -c requirements/dev.lock -o requirements/build.lock
+	$(COMPILE) --group docs -c requirements/dev.lock -o requirements/docs.lock
+	$(COMPILE) --group tools -c requirements/dev.lock -o requirements/tools.lock
 
 clean:
 	@$(MAKE) --no-print-directory -C proofs clean

@@ -5,6 +5,9 @@
 
 from __future__ import annotations
 
+# The version of both distributions.
+__version__ = "0.1.0"
+
 # As `typing` has it; importing that would take longer than the rest.
 TYPE_CHECKING = False
 

@@ -183,6 +183,6 @@ def cryptography() -> tuple[Any, Any, type[Exception]]:
         from cryptography.hazmat.primitives.asymmetric import ed25519
     except ImportError:
         raise SleecError(
-            "signatures need the library cryptography, which is not installed", "pip install 'sleec-verify[sign]'"
+            "signatures need the library `cryptography`, which is not installed", "pip install cryptography"
         ) from None
     return ed25519, serialization, InvalidSignature

@@ -1,3 +1,3 @@
 """What the people around the robot use: proves things about SLEEC rules, and that code does what they say."""
 
-__version__ = "0.1.0"
+from sleec_runtime import __version__ as __version__

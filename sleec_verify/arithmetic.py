@@ -16,7 +16,7 @@ from sleec_verify.solver import Undecided
 RESOURCES = 1_000_000
 """What z3 may spend on one question, in its own measure: about a second, and the same on every machine."""
 
-INSTALL = "pip install 'sleec-verify[z3]'"
+INSTALL = "pip install z3-solver"
 
 Compared = tuple[Calculated, Rational, bool, int]
 """A calculation that is at most a number, or below it if not inclusive, and the literal that says so; or, if that is

@@ -17,6 +17,7 @@ from contextlib import suppress
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
+import sleec_runtime
 from sleec_runtime.errors import SleecError
 from sleec_verify import __version__
 from sleec_verify.finding import CheckResult, ClauseRef, Finding, Proved, Refuted, Unknown, Witness
@@ -140,27 +141,34 @@ def _users() -> str | None:
 def _program() -> str:
     """What tells this program from another one of the same version: the hashes that it was installed with, or, where
     it runs from its sources, when these changed."""
-    home = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    record = os.path.join(home, f"sleec_verify-{__version__}.dist-info", "RECORD")
+    return ascii([_installed(package) or sorted(_stamps(package)) for package in _packages()])
+
+
+def _packages() -> list[str]:
+    """The folders of the packages that decide. They are two distributions and may lie apart."""
+    return [os.path.dirname(os.path.abspath(file)) for file in (sleec_runtime.__file__, __file__)]
+
+
+def _installed(package: str) -> str | None:
+    """The hash of what the installer recorded of a package."""
     try:
-        with open(record, "rb") as file:
+        with open(os.path.join(f"{package}-{__version__}.dist-info", "RECORD"), "rb") as file:
             return sha256(b"".join(line for line in file if line.startswith(b"sleec_"))).hexdigest()
     except OSError:
-        return ascii(sorted(_stamps(home)))
+        return None
 
 
-def _stamps(home: str) -> list[tuple[str, int, int]]:
+def _stamps(package: str) -> list[tuple[str, int, int]]:
     found = []
-    for package in ("sleec_runtime", "sleec_verify"):
-        folders = [os.path.join(home, package)]
-        while folders:
-            with suppress(OSError), os.scandir(folders.pop()) as entries:
-                for entry in entries:
-                    if entry.name.endswith(".py"):
-                        known = entry.stat()
-                        found.append((entry.path, known.st_mtime_ns, known.st_size))
-                    elif entry.name != "__pycache__" and entry.is_dir():
-                        folders.append(entry.path)
+    folders = [package]
+    while folders:
+        with suppress(OSError), os.scandir(folders.pop()) as entries:
+            for entry in entries:
+                if entry.name.endswith(".py"):
+                    known = entry.stat()
+                    found.append((entry.path, known.st_mtime_ns, known.st_size))
+                elif entry.name != "__pycache__" and entry.is_dir():
+                    folders.append(entry.path)
     return found
 
 

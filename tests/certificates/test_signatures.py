@@ -106,8 +106,8 @@ def test_without_the_library_it_is_said_what_to_install(
         ["--check", "c", "rules.sleec", "--key", "k"],
     ):
         ran = cli("certify", *command)
-        assert (ran.code, "pip install 'sleec-verify[sign]'" in ran.err) == (2, True)
-    with pytest.raises(SleecError, match="sleec-verify\\[sign\\]"):
+        assert (ran.code, "pip install cryptography" in ran.err) == (2, True)
+    with pytest.raises(SleecError, match="pip install cryptography"):
         sleec_runtime.load("rules.sleec", certificate="c", key=keys["own.pub"])
     sleec_runtime.load("rules.sleec", certificate="c")
 

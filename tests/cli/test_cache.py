@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 
+import sleec_runtime
 import sleec_verify.cache
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset, Span, Value
@@ -115,28 +116,48 @@ def test_another_program_decides_anew(
     assert len(entries(folder)) == 3
 
 
-def test_a_changed_source_is_another_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    package = tmp_path / "sleec_verify"
-    (package / "checks").mkdir(parents=True)
-    (package / "cache.py").write_text("")
-    (package / "checks" / "one.py").write_text("one")
-    monkeypatch.setattr(sleec_verify.cache, "__file__", str(package / "cache.py"))
+@pytest.mark.parametrize("changed", ["sleec_runtime", "sleec_verify"])
+def test_a_changed_source_is_another_program(changed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    package = two_packages(tmp_path, monkeypatch)[changed]
     seen = {sleec_verify.cache._program()}
     (package / "checks" / "one.py").write_text("more")
     seen.add(sleec_verify.cache._program())
     (package / "checks" / "two.py").write_text("two")
     seen.add(sleec_verify.cache._program())
     assert len(seen) == 3
-    # Installed, it is what the installer recorded, wherever and whenever that was.
-    info = tmp_path / f"sleec_verify-{sleec_verify.__version__}.dist-info"
-    info.mkdir()
-    (info / "RECORD").write_text("sleec_verify/cache.py,sha256=a,1\n../bin/x,,\n")
+
+
+@pytest.mark.parametrize("changed", ["sleec_runtime", "sleec_verify"])
+def test_another_installation_is_another_program(changed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    packages = two_packages(tmp_path, monkeypatch)
+    for name, package in packages.items():
+        info = package.with_name(f"{name}-{sleec_verify.__version__}.dist-info")
+        info.mkdir()
+        (info / "RECORD").write_text(f"{name}/a.py,sha256=a,1\n../bin/x,,\n")
+    # It is what the installers recorded, wherever and whenever that was.
     installed = sleec_verify.cache._program()
-    (package / "checks" / "two.py").unlink()
-    (info / "RECORD").write_text("sleec_verify/cache.py,sha256=a,1\n../../bin/x,,\n")
+    record = packages[changed].with_name(f"{changed}-{sleec_verify.__version__}.dist-info") / "RECORD"
+    (packages[changed] / "checks" / "two.py").write_text("two")
+    record.write_text(f"{changed}/a.py,sha256=a,1\n../../bin/x,,\n")
     assert sleec_verify.cache._program() == installed
-    (info / "RECORD").write_text("sleec_verify/cache.py,sha256=b,1\n")
+    record.write_text(f"{changed}/a.py,sha256=b,1\n")
     assert sleec_verify.cache._program() != installed
+    # Where one of the two runs from its sources, a change of them counts.
+    record.unlink()
+    sources = sleec_verify.cache._program()
+    (packages[changed] / "checks" / "one.py").write_text("more")
+    assert sleec_verify.cache._program() != sources
+
+
+def two_packages(folder: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Path]:
+    """Sources of both distributions, in folders apart, in place of the real ones."""
+    packages = {name: folder / name / name for name in ("sleec_runtime", "sleec_verify")}
+    for package in packages.values():
+        (package / "checks").mkdir(parents=True)
+        (package / "checks" / "one.py").write_text("one")
+    monkeypatch.setattr(sleec_runtime, "__file__", str(packages["sleec_runtime"] / "__init__.py"))
+    monkeypatch.setattr(sleec_verify.cache, "__file__", str(packages["sleec_verify"] / "cache.py"))
+    return packages
 
 
 # What is broken is decided anew, and mended ------------------------------------------------------------------

@@ -15,7 +15,7 @@ from tests.project.sessions import ROOT, as_printed, blocks, commands
 from website.refused import with_answers
 
 DOCS = ROOT / "docs"
-PAGES = [ROOT / "README.md", *sorted(DOCS.rglob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "sleec_runtime" / "README.md", *sorted(DOCS.rglob("*.md"))]
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
 
 PARSED = {"sleec", "sleec-bad", "dsl", "dsl-bad"}
@@ -29,6 +29,7 @@ IN_TESTS_OF_THEIR_PAGES = {
     "docs/ci.md": {"sh", "yaml"},
     "docs/gate.md": {"toml", "yaml"},
     "README.md": {""},
+    "sleec_runtime/README.md": {"sh"},
 }
 """What is not run by commands, and what the tests of the page run in some way of their own."""
 

@@ -407,7 +407,7 @@ def test_without_z3_the_answer_is_unknown_and_says_of_what(no_z3):
     assert isinstance(verdict, Unknown)
     line = TEXT[: TEXT.index("%s")].count("\n") + 1
     assert f"`x + y` in line {line}" in verdict.why
-    assert "pip install 'sleec-verify[z3]'" in verdict.why
+    assert "pip install z3-solver" in verdict.why
 
 
 def test_without_z3_what_needs_no_arithmetic_is_answered(no_z3):

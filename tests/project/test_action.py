@@ -1,0 +1,239 @@
+"""The GitHub action: its steps, run as GitHub runs them."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+import yaml
+
+from sleec_verify.report import FORMATS
+from tests.cli.repository import Repository
+
+ROOT = Path(__file__).parents[2]
+ACTION: dict[str, Any] = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
+STEPS: dict[str, dict[str, Any]] = {step["id"]: step for step in ACTION["runs"]["steps"]}
+CLASH = "WHEN Rung THEN Open\n\nWHEN Storm THEN NOT Open\n"
+
+
+@dataclass(frozen=True)
+class Runner:
+    """The folders of a job: the checkout, which a pull request writes, and the runner's own."""
+
+    checkout: Path
+    temp: Path
+
+    @property
+    def outputs(self) -> Path:
+        return self.temp / "outputs"
+
+
+class Ran(NamedTuple):
+    code: int
+    out: str
+    err: str
+    outputs: str
+
+
+@pytest.fixture
+def runner(tmp_path: Path) -> Runner:
+    job = Runner(tmp_path / "checkout", tmp_path / "temp")
+    job.checkout.mkdir()
+    job.temp.mkdir()
+    return job
+
+
+def test_the_action_is_a_composite_one() -> None:
+    assert ACTION["name"]
+    assert ACTION["description"]
+    assert ACTION["runs"]["using"] == "composite"
+    for step in STEPS.values():
+        assert ("uses" in step) != ("run" in step)
+        assert "run" not in step or step["shell"] == "bash"
+
+
+def test_nothing_of_others_is_put_into_a_script() -> None:
+    assert not any("${{" in step.get("run", "") for step in STEPS.values())
+
+
+def test_every_input_is_described_and_used() -> None:
+    used = set(re.findall(r"inputs\.([\w-]+)", (ROOT / "action.yml").read_text(encoding="utf-8")))
+    assert used == set(ACTION["inputs"])
+    assert all(given["description"] and "default" in given for given in ACTION["inputs"].values())
+    assert ACTION["inputs"]["format"]["default"] in FORMATS
+
+
+def run_step(name: str, runner: Runner, values: dict[str, str], **environment: str) -> Ran:
+    """Run a step's script as GitHub does, with these values of the expressions in it."""
+    step = STEPS[name]
+
+    def value(text: str) -> str:
+        return re.sub(r"\$\{\{ ([\w.-]+) \}\}", lambda match: values[match[1]], text)
+
+    runner.outputs.write_text("")
+    done = subprocess.run(
+        ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"]],
+        cwd=value(step["working-directory"]) if "working-directory" in step else runner.checkout,
+        env={
+            **os.environ,
+            **environment,
+            **{variable: value(expression) for variable, expression in step["env"].items()},
+            "RUNNER_TEMP": str(runner.temp),
+            "GITHUB_OUTPUT": str(runner.outputs),
+        },
+        capture_output=True,
+        text=True,
+    )
+    return Ran(done.returncode, done.stdout, done.stderr, runner.outputs.read_text())
+
+
+def act(runner: Runner, python: str = sys.executable, environment: dict[str, str] | None = None, **inputs: str) -> Ran:
+    """Run the step that checks, with these inputs, the others' defaults, and this Python."""
+    values = {f"inputs.{name}": str(given["default"]) for name, given in ACTION["inputs"].items()}
+    values.update({f"inputs.{name.replace('_', '-')}": given for name, given in inputs.items()})
+    return run_step("check", runner, {**values, "steps.install.outputs.python": python}, **(environment or {}))
+
+
+def test_the_action_annotates_and_fails(runner: Runner) -> None:
+    (runner.checkout / "rules").mkdir()
+    (runner.checkout / "rules" / "clash.sleec").write_text(CLASH)
+    ran = act(runner)
+    assert (ran.code, ran.outputs) == (1, "exit-code=1\n")
+    assert ran.out.startswith("::error file=rules/clash.sleec,line=1,")
+
+
+@pytest.mark.parametrize(("text", "code"), [("WHEN Rung THEN Open\n", 0), (CLASH, 1), ("WHEN", 2)])
+def test_the_action_passes_the_exit_code_on(text: str, code: int, runner: Runner) -> None:
+    (runner.checkout / "a.sleec").write_text(text)
+    ran = act(runner)
+    assert (ran.code, ran.outputs) == (code, f"exit-code={code}\n")
+
+
+def test_the_action_takes_paths_and_options_a_line(runner: Runner) -> None:
+    for name in ("a b.sleec", "-c.sleec", "$(touch evil).sleec"):
+        (runner.checkout / name).write_text(CLASH)
+    ran = act(
+        runner,
+        paths="a b.sleec\n-c.sleec\n\n$(touch evil).sleec\n",
+        options="--reading=priority\n--no-cache\n",
+        format="json",
+        output="out.json",
+        fail_level="note",
+    )
+    assert ran.code == 1, ran.err
+    report = yaml.safe_load((runner.checkout / "out.json").read_text())
+    assert [r["path"] for r in report["rulesets"]] == ["a b.sleec", "-c.sleec", "$(touch evil).sleec"]
+    assert {r["reading"] for r in report["rulesets"]} == {"priority"}
+    assert not (runner.checkout / "evil").exists()
+
+
+MODULES = ["venv", "pip", "ensurepip", "sitecustomize", "usercustomize", "json", "click", "rich", "contextpy3"]
+PACKAGES = ["sleec_verify", "sleec_runtime", "setuptools", "hatchling", "hatch_fancy_pypi_readme"]
+
+
+def plant(folder: Path, marks: Path) -> dict[str, str]:
+    """Put everything into a folder that Python or pip could pick up there, and return the variables of a job that even
+    points to it. What is run writes its name to `marks`."""
+    folder.mkdir(exist_ok=True)
+    trap = f"with open({str(marks)!r}, 'a') as file: file.write(__name__ + ' in ' + __file__ + chr(10))\n"
+    for name in MODULES:
+        (folder / f"{name}.py").write_text(trap)
+    for name in PACKAGES:
+        (folder / name).mkdir()
+        (folder / name / "__init__.py").write_text(trap)
+        (folder / name / "__main__.py").write_text(trap)
+    (folder / "setup.py").write_text(trap)
+    (folder / "setup.cfg").write_text("[install]\nprefix = /nowhere\n[easy_install]\nindex_url = http://127.0.0.1:9\n")
+    (folder / "pyproject.toml").write_text(
+        '[build-system]\nrequires = []\nbuild-backend = "click"\nbackend-path = ["."]\n'
+    )
+    (folder / "requirements.txt").write_text(".\n")
+    pip = folder / "pip.conf"
+    pip.write_text("[global]\nindex-url = http://127.0.0.1:9\n[install]\nrequirement = requirements.txt\n")
+    return {
+        "PYTHONPATH": str(folder),
+        "PYTHONSTARTUP": str(folder / "click.py"),
+        "PYTHONHOME": str(folder),
+        "PIP_CONFIG_FILE": str(pip),
+        "PIP_REQUIREMENT": str(folder / "requirements.txt"),
+        "PIP_INDEX_URL": "http://127.0.0.1:9",
+        "PIP_REQUIRE_VIRTUALENV": "0",
+        "PIP_TARGET": str(folder),
+    }
+
+
+def test_the_traps_are_sprung_by_what_is_not_isolated(tmp_path: Path) -> None:
+    """The test of the tests below: `python -m` in the folder runs the files there."""
+    marks = tmp_path / "marks"
+    plant(tmp_path / "checkout", marks)
+    for module in ("venv", "pip", "sleec_verify"):
+        subprocess.run([sys.executable, "-m", module], cwd=tmp_path / "checkout", check=True)
+    assert [line.split(" in ")[0] for line in marks.read_text().splitlines()].count("__main__") == 3
+
+
+def test_a_hostile_checkout_runs_nothing_in_the_check(runner: Runner, tmp_path: Path) -> None:
+    environment = plant(runner.checkout, tmp_path / "marks")
+    (runner.checkout / "clash.sleec").write_text(CLASH)
+    ran = act(runner, environment=environment)
+    assert (ran.code, ran.outputs) == (1, "exit-code=1\n"), ran.err
+    assert not (tmp_path / "marks").exists()
+
+
+@pytest.mark.slow
+def test_a_hostile_checkout_runs_nothing_in_the_installation(runner: Runner, tmp_path: Path) -> None:
+    """The real installation, from the index: what it installs checks rules, and nothing of the checkout is run."""
+    environment = plant(runner.checkout, tmp_path / "marks")
+    plant(runner.temp, tmp_path / "marks")
+    (runner.checkout / "clash.sleec").write_text(CLASH)
+    values = {
+        "runner.temp": str(runner.temp),
+        "steps.python.outputs.python-path": sys.executable,
+        "github.action_path": str(ROOT),
+    }
+    ran = run_step("install", runner, values, **environment)
+    assert ran.code == 0, ran.err
+    name, _, python = ran.outputs.strip().partition("=")
+    assert name == "python"
+    ran = act(runner, python, environment)
+    assert (ran.code, ran.outputs) == (1, "exit-code=1\n"), ran.err
+    assert ran.out.startswith("::error file=clash.sleec,line=1,")
+    assert not (tmp_path / "marks").exists()
+
+
+def test_what_the_action_uses_is_pinned_by_commit() -> None:
+    for step in STEPS.values():
+        if "uses" in step:
+            assert re.fullmatch(r"[\w-]+/[\w-]+@[0-9a-f]{40}", step["uses"])
+
+
+def test_a_wrong_input_of_the_action_is_told(runner: Runner) -> None:
+    ran = act(runner, format="xml")
+    assert (ran.code, ran.outputs) == (2, "exit-code=2\n")
+    assert "'xml' is not one of" in ran.err
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
+def test_with_a_base_the_action_is_the_gate(runner: Runner) -> None:
+    repository = Repository(runner.checkout)
+    repository.put("sleec-verify.toml", 'rulesets = ["rules"]\n')
+    repository.put("rules/a.sleec", "WHEN Rung THEN Open\n")
+    repository.put("others/b.sleec", "WHEN")
+    repository.commit()
+    ran = act(runner, base="main")
+    assert (ran.code, ran.outputs) == (0, "exit-code=0\n"), ran.err
+    assert ran.out.endswith("passed: no rulesets examined, 1 the same as in main\n")
+    repository.put("rules/a.sleec", CLASH)
+    ran = act(runner, base="main", options="--no-cache\n")
+    assert (ran.code, ran.outputs) == (1, "exit-code=1\n")
+    assert ran.out.startswith("::error file=rules/a.sleec,line=1,")
+    ran = act(runner, base="main", paths="others")
+    assert ran.code == 0
+    ran = act(runner, base="--summary=x")
+    assert (ran.code, "there is no revision --summary=x" in ran.err) == (2, True)

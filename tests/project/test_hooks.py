@@ -1,0 +1,51 @@
+"""The hooks for pre-commit, run as it runs them."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+HOOKS: list[dict[str, Any]] = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))
+CLASH = "WHEN Rung THEN Open\n\nWHEN Storm THEN NOT Open\n"
+
+
+@pytest.mark.parametrize("hook", HOOKS, ids=lambda hook: hook["id"])
+def test_hooks_have_what_pre_commit_asks_for(hook: dict[str, Any]) -> None:
+    assert {"id", "name", "entry", "language"} <= set(hook)
+    assert hook["language"] == "python"
+    assert re.search(hook["files"], "rules/a.sleec")
+    assert not re.search(hook["files"], "rules/a.sleec.bak")
+
+
+def run_hook(name: str, folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """Run a hook as pre-commit does: its entry, its arguments, the files."""
+    (hook,) = (hook for hook in HOOKS if hook["id"] == name)
+    program, *entry = shlex.split(hook["entry"])
+    assert program == "python"
+    return subprocess.run([sys.executable, *entry, *arguments], cwd=folder, capture_output=True, text=True)
+
+
+def test_the_check_hook_blocks_conflicts(tmp_path: Path) -> None:
+    (tmp_path / "clash.sleec").write_text(CLASH)
+    (tmp_path / "fine.sleec").write_text("WHEN Rung THEN Open\n")
+    assert run_hook("sleec-check", tmp_path, "fine.sleec").returncode == 0
+    done = run_hook("sleec-check", tmp_path, "clash.sleec", "fine.sleec")
+    assert done.returncode == 1
+    assert done.stdout.startswith("clash.sleec:1:1: error[SLEEC101]")
+
+
+def test_the_layout_hook_changes_what_is_not_laid_out(tmp_path: Path) -> None:
+    path = tmp_path / "a.sleec"
+    path.write_text("WHEN   Rung THEN Open\n")
+    assert run_hook("sleec-fmt", tmp_path, "a.sleec").returncode == 0
+    assert path.read_text() == "WHEN Rung THEN Open\n"
+    path.write_text("WHEN")
+    assert run_hook("sleec-fmt", tmp_path, "a.sleec").returncode == 2
