@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.errors import CertificateRefused, SleecError
 from sleec_runtime.files import read_file
+from sleec_runtime.messages import represent
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
@@ -64,7 +65,7 @@ def read_manifest(folder: str | Path, key: str | Path | None = None) -> Manifest
     if whole.get("format") != FORMAT:
         raise _refused(
             "format",
-            f"the certificate is of format {whole.get('format')!r}, and this version reads {FORMAT}",
+            f"the certificate is of format {represent(whole.get('format'))}, and this version reads {FORMAT}",
             "certify the rules again, or use the version of sleec-verify that made it",
         )
     try:

@@ -22,6 +22,7 @@ from sleec_runtime.errors import (
 from sleec_runtime.evaluation import Decision, Due, Outcome, Situation, Undetermined
 from sleec_runtime.instance import Instance, Unfinished
 from sleec_runtime.layers import Variant, await_under, run_all
+from sleec_runtime.messages import represent, text_of
 from sleec_runtime.model import Context, Obligation, Rule
 from sleec_runtime.snapshot import Cell, Snapshot
 
@@ -275,10 +276,10 @@ def refuse_misfit(label: str, function: Callable[..., Any], args: tuple[Any, ...
         signature.bind(*args, **kwargs)
     except TypeError as error:
         plain = getattr(function, "func", function)
-        name = getattr(plain, "__name__", repr(plain))
+        name = getattr(plain, "__name__", None) or represent(plain)
         raise WrongArguments(
             f"{name}, the code of rule {label}, cannot be called so: {error}",
-            f"give the trigger what {name}{signature} takes; nothing was run",
+            f"give the trigger what {name}{text_of(signature)} takes; nothing was run",
         ) from None
 
 

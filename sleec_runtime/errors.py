@@ -6,6 +6,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from sleec_runtime.messages import bounded, listed, represent
+
 if TYPE_CHECKING:
     from sleec_runtime.conflicts import Conflict
     from sleec_runtime.model import Source, Span
@@ -14,13 +16,14 @@ if TYPE_CHECKING:
 class SleecError(Exception):
     """Base of every error that a user of sleec can cause.
 
-    `message` says what is wrong, `hint` what to do about it (or None).
+    `message` says what is wrong, `hint` what to do about it (or None). Each has at most 2,000 characters; a longer
+    one is cut.
     """
 
     def __init__(self, message: str, hint: str | None = None) -> None:
-        super().__init__(message)
-        self.message = message
-        self.hint = hint
+        self.message = bounded(message)
+        self.hint = None if hint is None else bounded(hint)
+        super().__init__(self.message)
 
     def __str__(self) -> str:
         return f"{self.message} ({self.hint})" if self.hint else self.message
@@ -104,7 +107,7 @@ class WrongType(SleecError):
     """A value that does not fit its condition or measure; `name` is that of the condition or measure."""
 
     def __init__(self, name: str, value: object, expected: str, hint: str | None = None) -> None:
-        super().__init__(f"{name} is {expected}, and {value!r} is not", hint)
+        super().__init__(f"{name} is {expected}, and {represent(value)} is not", hint)
         self.name = name
 
 
@@ -118,7 +121,7 @@ class UnknownName(SleecError, LookupError):
         if not isinstance(name, str):
             article = "an" if self.kind[0] in "aeiou" else "a"
             hint = f"give the name of {article} {self.kind}, a str"
-        super().__init__(f"unknown {self.kind} {name!r}", hint or self._suggestion(name, sorted(known)))
+        super().__init__(f"unknown {self.kind} {represent(name)}", hint or self._suggestion(name, sorted(known)))
         self.name = name
 
     def _suggestion(self, name: str, known: Sequence[str]) -> str:
@@ -129,7 +132,7 @@ class UnknownName(SleecError, LookupError):
             return f"did you mean {near}?"
         if not known:
             return f"{self.holder} has no {self.kind}"
-        return f"{self.holder} has {', '.join(known[:8])}{', …' if len(known) > 8 else ''}"
+        return f"{self.holder} has {listed(known)}"
 
 
 class UnknownLabel(UnknownName):
@@ -179,7 +182,7 @@ class UndeterminedDecision(SleecError):
 
     def __init__(self, triggers: Sequence[str], missing: Sequence[str], hint: str | None = None) -> None:
         super().__init__(
-            f"what {' and '.join(triggers)} calls for depends on what nobody reported: {', '.join(missing)}",
+            f"what {' and '.join(triggers)} calls for depends on what nobody reported: {listed(missing)}",
             hint or "report these with update(), or load the ruleset without strict",
         )
         self.missing = tuple(missing)
@@ -213,7 +216,7 @@ class VariantsFailed(SleecError):
     """Several variants of one dispatch raised. `errors` pairs the label of each rule with what its variant raised."""
 
     def __init__(self, errors: Sequence[tuple[str, Exception]]) -> None:
-        super().__init__("; ".join(f"{label}: {error!r}" for label, error in errors))
+        super().__init__(listed([f"{label}: {represent(error)}" for label, error in errors], "; "))
         self.errors = tuple(errors)
 
 

@@ -42,7 +42,7 @@ from sleec_runtime.model import (
     leaves,
     measures_of,
 )
-from sleec_runtime.values import exact, fit
+from sleec_runtime.values import NUMBER, exact, fit
 
 NO_MEASURES: Mapping[str, Measure] = MappingProxyType({})
 _NOTHING_OBLIGED: Mapping[str, bool] = MappingProxyType({})
@@ -161,7 +161,7 @@ def _calculated(side: Calculated, situation: Situation) -> Rational | None:
             return None
         number = exact(value)
         if number is None:
-            raise WrongType(name, value, "a number")
+            raise WrongType(name, value, NUMBER)
         values[name] = number
     return side.value(values)
 
@@ -183,7 +183,7 @@ def _worth(side: Term, other: Term, situation: Situation) -> object:
         raise WrongType(side.name, value, "a measure with no known scale", "pass the ruleset's measures")
     number = exact(value)
     if number is None or isinstance(other, ScaleValue):
-        raise WrongType(side.name, value, "a value of a scale" if number is not None else "a number")
+        raise WrongType(side.name, value, "a value of a scale" if number is not None else NUMBER)
     return number
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from sleec_runtime.conflicts import Conflict
 from sleec_runtime.evaluation import Decision, Step
 from sleec_runtime.language.formula_printer import print_formula, print_number
+from sleec_runtime.messages import listed
 from sleec_runtime.model import Comparison, Exclusive, Formula, Obligation, Rule, Value, leaves, measures_of
 
 
@@ -30,7 +31,7 @@ def conflict_in_words(cause: Conflict, decisions: tuple[Decision, ...]) -> str:
     """What cannot all be done, which rules ask for it, and which constraints forbid it."""
     literals = " and ".join(_with_rules(literal, decisions) for literal in cause.literals)
     forbidding = "; ".join(
-        "EXCLUSIVE " + ", ".join(c.names) if isinstance(c, Exclusive) else f"NEVER {print_formula(c.formula)}"
+        f"EXCLUSIVE {listed(c.names)}" if isinstance(c, Exclusive) else f"NEVER {print_formula(c.formula)}"
         for c in cause.constraints
     )
     if not literals:
@@ -41,7 +42,7 @@ def conflict_in_words(cause: Conflict, decisions: tuple[Decision, ...]) -> str:
 
 def _with_rules(literal: Obligation, decisions: tuple[Decision, ...]) -> str:
     labels = dict.fromkeys(d.rule.label for d in decisions if literal in d.obligations)
-    return f"{literal} ({', '.join(labels)})" if labels else str(literal)
+    return f"{literal} ({listed(labels)})" if labels else str(literal)
 
 
 def _step(step: Step, conditions: Mapping[str, Value]) -> str:

@@ -25,6 +25,7 @@ from sleec_runtime.layers import (
     select,
     silence,
 )
+from sleec_runtime.messages import listed, represent
 from sleec_runtime.model import Clause, Rule, Ruleset
 from sleec_runtime.obligations import (
     implementations,
@@ -113,7 +114,7 @@ class Instance:
         def decorator(method: F) -> F:
             if not isinstance(method, _METHODS):
                 raise Unbindable(
-                    f"{method!r} cannot be the method of rule {label}",
+                    f"{represent(method)} cannot be the method of rule {label}",
                     "mark a function or method, above its @cop.base or @cop.around",
                 )
             if label in self._silent and not isinstance(method, LayeredMethod):
@@ -136,7 +137,8 @@ class Instance:
             marked = tuple(self._marked(target))
             if not marked:
                 raise Unbindable(
-                    f"nothing in {target!r} is marked as the method of a rule", 'mark methods with @sleec.rule("label")'
+                    f"nothing in {represent(target)} is marked as the method of a rule",
+                    'mark methods with @sleec.rule("label")',
                 )
             for label, method in marked:
                 earlier = found.get(label) or self._methods.get(label)
@@ -196,13 +198,15 @@ class Instance:
                 if name not in obligations:
                     raise UnknownObligation(name, obligations)
                 if not callable(function):
-                    raise Unbindable(f"{function!r} is not callable", f"give {name} a function or a bound method")
+                    raise Unbindable(
+                        f"{represent(function)} is not callable", f"give {name} a function or a bound method"
+                    )
             found = dict(target)
         else:
             found = implementations(target, obligations)
             if not found:
                 raise Unbindable(
-                    f"{target!r} implements no obligation of the ruleset",
+                    f"{represent(target)} implements no obligation of the ruleset",
                     'mark methods with @sleec_runtime.obligation("…"), or name them in snake case',
                 )
         self._callables.update(found)
@@ -308,7 +312,7 @@ class Instance:
         without = [name for name in names if name not in self._callables]
         if without:
             raise NotBound(
-                f"rule {rule.label} has no method, and {', '.join(without)} ({_clause_name(rule, number)}) no callable",
+                f"rule {rule.label} has no method, and {listed(without)} ({_clause_name(rule, number)}) no callable",
                 [rule.label],
                 f'mark a method with @sleec.rule("{rule.label}") and bind() its object, or implement() the obligations',
             )
@@ -362,7 +366,9 @@ def _of_class(name: str, instance: object, owner: type) -> Method:
 
 def _function(function: Any) -> Method:
     definition = own_entries(function)
-    return Method(getattr(definition[0][1], "__name__", repr(function)), [definition], None, None, function)
+    return Method(
+        getattr(definition[0][1], "__name__", None) or represent(function), [definition], None, None, function
+    )
 
 
 def _allow_calls(rules: Iterable[Rule], methods: Mapping[str, Method], layers: Layers) -> None:

@@ -241,11 +241,11 @@ def refuse_times(ruleset: Ruleset, who: str) -> None:
     found = list(constructs(ruleset))
     if found:
         from sleec_runtime.errors import UnsupportedTimes
+        from sleec_runtime.messages import listed
 
         lines = [ruleset.source.place(construct.span).line for construct in found]
-        said = ", ".join(f"{construct.name} in line {line}" for construct, line in zip(found[:5], lines))
-        more = f" and {len(found) - 5:,} more" if len(found) > 5 else ""
-        raise UnsupportedTimes(f"{who} does not support times and relations yet: {said}{more}", lines)
+        said = listed([f"{construct.name} in line {line}" for construct, line in zip(found, lines)])
+        raise UnsupportedTimes(f"{who} does not support times and relations yet: {said}", lines)
 
 
 def claims(ruleset: Ruleset, kind: ClaimKind) -> tuple[Claim, ...]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from sleec_runtime.dispatch import Done, Plan, run, run_async
 from sleec_runtime.errors import WrongType
 from sleec_runtime.evaluation import Decision, Due, decide
+from sleec_runtime.messages import listed
 from sleec_runtime.obligations import Recording, recording, watched
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ class Difference:
 
     def __str__(self) -> str:
         parts = [
-            f"{what}: {', '.join(names)}"
+            f"{what}: {listed(names)}"
             for what, names in (
                 ("not executed", self.missing),
                 ("executed, and not due", self.unexpected),
@@ -43,7 +44,7 @@ class Difference:
             )
             if names
         ]
-        order = f"executed {', '.join(self.executed)} where {', '.join(self.due)} was due"
+        order = f"executed {listed(self.executed)} where {listed(self.due)} was due"
         return f"{' and '.join(sorted(self.context.triggers))}: {'; '.join(parts) or order}"
 
 

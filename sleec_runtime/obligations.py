@@ -16,6 +16,7 @@ from contextvars import ContextVar
 from typing import Any, TypeVar
 
 from sleec_runtime.errors import Unbindable
+from sleec_runtime.messages import represent
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -211,7 +212,7 @@ def watched(robot: object, obligations: Iterable[str]) -> Iterator[None]:
         if obligation_of(function) is None:
             if not hasattr(robot, "__dict__"):
                 raise Unbindable(
-                    f"{robot!r} takes no attributes, so its methods cannot be watched",
+                    f"{represent(robot)} takes no attributes, so its methods cannot be watched",
                     f'mark {function.__name__} with @sleec_runtime.obligation("{name}")',
                 )
             # An attribute of the object itself is looked up before the method of its class.

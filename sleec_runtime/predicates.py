@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Union
 
 from sleec_runtime.errors import SleecError, UnknownCondition, UnknownName, WrongType
-from sleec_runtime.values import exact
+from sleec_runtime.values import NUMBER, exact
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Measure, Rational, Value
@@ -209,7 +209,7 @@ class Sensors:
 def _number(name: str, value: object, role: str) -> Rational:
     number = exact(value)
     if number is None:
-        raise WrongType(name, value, f"given {role}, a number")
+        raise WrongType(name, value, f"given {role}, {NUMBER}")
     return number
 
 

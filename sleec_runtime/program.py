@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from sleec_runtime.chunks import Chunks
 from sleec_runtime.conflicts import Forbidding, forbidding, mentioned
 from sleec_runtime.errors import SleecError, UnknownCondition, UnknownDomain, WrongType
+from sleec_runtime.messages import represent
 from sleec_runtime.model import Measure, Never, Obligation, Rule, Ruleset, Value, formulas_of, names_of
 from sleec_runtime.values import fit
 
@@ -88,7 +89,9 @@ def _in_order(rules: Iterable[Rule]) -> Mapping[str, int]:
     order: dict[str, int] = {}
     for number, rule in enumerate(rules):
         if rule.label in order:
-            raise SleecError(f"two rules have the label {rule.label!r}", "a label names one rule, and its layers")
+            raise SleecError(
+                f"two rules have the label {represent(rule.label)}", "a label names one rule, and its layers"
+            )
         order[rule.label] = number
     return order
 

@@ -12,6 +12,7 @@ from sleec_runtime.errors import NotBound, SleecError, UnknownObligation, Unknow
 from sleec_runtime.evaluation import Due, broken_assumptions
 from sleec_runtime.instance import Instance
 from sleec_runtime.layers import Layers
+from sleec_runtime.messages import listed, represent
 from sleec_runtime.model import Assume, Measure, Reading, Rule, Ruleset
 from sleec_runtime.program import Program
 from sleec_runtime.snapshot import Conditions, Snapshot
@@ -257,9 +258,11 @@ class Sleec:
         Raises UnknownObligation; Prohibited if a rule forbids it now, which does not undo it; and what triggering
         raises.
         """
+        obligations = self._snapshot.program.whole.obligations
+        if not isinstance(obligation, str):
+            raise UnknownObligation(obligation, obligations)
         if self._times is not None:
             return self._times.completed(obligation)
-        obligations = self._snapshot.program.whole.obligations
         if obligation not in obligations:
             raise UnknownObligation(obligation, obligations)
         return ()
@@ -442,7 +445,7 @@ class Sleec:
         if problems:
             labels = [label for problem in problems for label in problem.rules]
             raise NotBound(
-                "the rules stay as they are: " + "; ".join(problem.message for problem in problems),
+                "the rules stay as they are: " + listed([problem.message for problem in problems], "; "),
                 labels,
                 "bring the code with replace(…, bind=…, implement=…)",
             )
@@ -490,7 +493,7 @@ def _demand(certificate: str | Path | None, key: str | Path | None) -> Demand | 
 
 def _together(names: Iterable[str]) -> tuple[str, ...]:
     """The names of triggers, once each."""
-    hint = f"give a list: [{names!r}]" if isinstance(names, str) else 'give a list: ["A", "B"]'
+    hint = f"give a list: [{represent(names)}]" if isinstance(names, str) else 'give a list: ["A", "B"]'
     if not isinstance(names, str):
         try:
             return tuple(dict.fromkeys(names))

@@ -47,7 +47,7 @@ from sleec_runtime.model_time import (
     MeasureRelation,
     Relation,
 )
-from sleec_runtime.values import exact
+from sleec_runtime.values import NUMBER, exact
 
 Untimed = Literal["at", "eventually"]
 """When an event without a window is due: at the very instant of the trigger, or at some instant from then on."""
@@ -316,7 +316,7 @@ def _seconds(length: Length, instant: Instant) -> Rational:
         number = exact(value)
         if number is None:
             hint = "give it a value at every instant at which a rule that asks for it is triggered"
-            raise WrongType(name, value, "the length of a window, a number", hint)
+            raise WrongType(name, value, f"the length of a window, {NUMBER}", hint)
         values[name] = number
     return length.seconds_where(values)
 

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol, Union
 
 from sleec_runtime.errors import WrongType
+from sleec_runtime.timed.bounds import FURTHEST, checked_time
 from sleec_runtime.values import exact
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ class VirtualClock:
     """
 
     def __init__(self, start: Time = 0) -> None:
-        self._now = start
+        self._now = checked_time(start)
         self._lock = threading.Lock()
         self._alarms = _Alarms()
 
@@ -99,8 +100,8 @@ class VirtualClock:
     def advance(self, seconds: Time) -> None:
         """Lets `seconds` pass, and all happen that is due until then. Raises WrongType for a negative number."""
         number = exact(seconds)
-        if number is None or number < 0:
-            raise WrongType("the time that passes", seconds, "a number of seconds, from 0 on")
+        if number is None or not 0 <= number <= FURTHEST:
+            raise WrongType("the time that passes", seconds, f"a number of seconds from 0 to {FURTHEST:,}")
         target = self._now + number if not isinstance(self._now, float) else self._now + seconds
         while True:
             with self._lock:

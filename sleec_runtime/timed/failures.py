@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from sleec_runtime.messages import listed, text_of
+
 if TYPE_CHECKING:
     from sleec_runtime.timed.clocks import Time
 
@@ -26,7 +28,7 @@ class Failure:
     def __str__(self) -> str:
         from sleec_runtime.timed.words import time_in_words
 
-        return f"at {time_in_words(self.time)}, {', '.join(self.obligations)} ({self.rule}): {self.error}"
+        return f"at {time_in_words(self.time)}, {listed(self.obligations)} ({self.rule}): {text_of(self.error)}"
 
 
 class Failures:

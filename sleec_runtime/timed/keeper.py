@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING, Any
 from sleec_runtime.dispatch import one_of
 from sleec_runtime.errors import NeedsAwait, Prohibited, SleecError, UnknownObligation
 from sleec_runtime.evaluation import Due
+from sleec_runtime.messages import listed
 from sleec_runtime.obligations import recording
 from sleec_runtime.timed.agenda import CLOSES, OPENS
+from sleec_runtime.timed.bounds import CheckedClock
 from sleec_runtime.timed.failures import Failure, Failures
 from sleec_runtime.timed.ledger import Ledger
 from sleec_runtime.timed.pending import Pending
@@ -47,11 +49,11 @@ class Timekeeper:
         chains: bool,
         on_error: Callable[[Failure], object] | None,
     ) -> None:
-        self.clock = clock
+        self.clock = CheckedClock(clock)
         self.failures = Failures(on_error)
         self._state = state
         self._chains = chains
-        self._ledger = Ledger(clock, self.tick)
+        self._ledger = Ledger(self.clock, self.tick)
         self._starts = Starts(self, self._ledger, self.failures)
 
     # Triggers -------------------------------------------------------------------------------------------------
@@ -158,7 +160,7 @@ class Timekeeper:
         if run.asynchronous and not in_loop:
             labels = [unit.origin.rule.label for stage in stages for unit in stage.units if unit.asynchronous]
             raise NeedsAwait(
-                f"code of {', '.join(dict.fromkeys(labels))} is a coroutine function",
+                f"code of {listed(dict.fromkeys(labels))} is a coroutine function",
                 "await trigger_async(…) instead; what the clock starts needs an AsyncioClock",
             )
         watched = [task for stage in stages if not stage.watched for task in stage.tasks if self._is_watched(task, now)]

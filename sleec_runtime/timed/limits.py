@@ -7,10 +7,9 @@ import warnings
 from collections.abc import Iterator
 
 from sleec_runtime.errors import NotEnforced, UnsupportedTimes
+from sleec_runtime.messages import listed
 from sleec_runtime.model import Clause, Obligation, Rule, Ruleset, Span, in_text_order
 from sleec_runtime.model_time import RELATIONS, relation_name
-
-_SHOWN = 5
 
 
 def has_times(ruleset: Ruleset) -> bool:
@@ -31,15 +30,14 @@ def name_limits(ruleset: Ruleset, chains: bool, strict: bool) -> None:
     found = [(name, ruleset.source.place(span).line) for name, span in not_enforced(ruleset, chains)]
     if not found:
         return
-    said = "; ".join(f"{name}, line {line}" for name, line in found[:_SHOWN])
-    more = f"; and {len(found) - _SHOWN:,} more" if len(found) > _SHOWN else ""
+    message = "the runtime does not enforce: " + listed([f"{name}, line {line}" for name, line in found], "; ")
     if strict:
         raise UnsupportedTimes(
-            f"the runtime does not enforce: {said}{more}",
+            message,
             [line for _, line in found],
             "leave these out, or load the ruleset without strict_times and see to them yourself",
         )
-    warnings.warn(NotEnforced(f"the runtime does not enforce: {said}{more}", found), stacklevel=_outside())
+    warnings.warn(NotEnforced(message, found), stacklevel=_outside())
 
 
 def _outside() -> int:

@@ -14,6 +14,7 @@ from sleec_runtime.errors import UndeterminedDecision, WrongType
 from sleec_runtime.evaluation import Decision, Situation, Undetermined, walk
 from sleec_runtime.model import Clause, Obligation, Rational, Rule
 from sleec_runtime.model_time import Length
+from sleec_runtime.timed.bounds import FURTHEST
 
 if TYPE_CHECKING:
     from sleec_runtime.instance import Instance
@@ -24,6 +25,8 @@ State = Literal["waiting", "under way", "done", "missed", "replaced", "withdrawn
 """Of an obligation: its window is not open, or it is held back; started; done; its window closed, or it failed, with
 nothing in its place; something is due in its place; called for by what did not happen. Of a prohibition: in force, or
 over."""
+
+_LENGTH = f"the length of a window, from 0 to {FURTHEST:,} seconds"
 
 _OPEN: frozenset[State] = frozenset({"waiting", "under way", "in force"})
 
@@ -173,9 +176,9 @@ def _seconds(length: Length, origin: Origin) -> Rational:
         if value is None:
             raise UndeterminedDecision((origin.rule.trigger,), (name,), f"report {name} with update(): it is how long")
         if isinstance(value, (bool, str)):
-            raise WrongType(name, value, "the length of a window, a number from 0 on")
+            raise WrongType(name, value, _LENGTH)
         values[name] = value
     found = length.seconds_where(values)
-    if found < 0:
-        raise WrongType(str(length.amount), found, "the length of a window, a number from 0 on")
+    if not 0 <= found <= FURTHEST:
+        raise WrongType(str(length), found, _LENGTH)
     return found

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from sleec_runtime.dispatch import refuse_misfit
 from sleec_runtime.errors import NotBound
 from sleec_runtime.instance import Unfinished
+from sleec_runtime.messages import listed
 from sleec_runtime.model import Clause, Obligation, Rule, literals
 from sleec_runtime.obligations import is_coroutine_function
 
@@ -145,7 +146,7 @@ def require_alternatives(rule: Rule, obligation: Obligation, instance: Instance)
     ]
     if names:
         raise NotBound(
-            f"rule {rule.label} may ask for {', '.join(dict.fromkeys(names))} in place of {obligation}, "
+            f"rule {rule.label} may ask for {listed(dict.fromkeys(names))} in place of {obligation}, "
             "and there is no callable for it",
             [rule.label],
             "implement() it: what is due in place of something else has no variant",

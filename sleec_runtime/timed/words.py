@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from sleec_runtime.language.formula_printer import print_number
+from sleec_runtime.messages import listed
 
 if TYPE_CHECKING:
     from sleec_runtime.timed.clocks import Time
@@ -25,7 +26,7 @@ def window_in_words(task: Task) -> str:
 
 def prohibitions_in_words(prohibitions: Iterable[Task]) -> str:
     """Which rules forbid it, until when."""
-    return " and ".join(f"{task.origin.rule.label} forbids it {_until(task)}" for task in prohibitions)
+    return listed([f"{task.origin.rule.label} forbids it {_until(task)}" for task in prohibitions], " and ")
 
 
 def _until(task: Task) -> str:

@@ -186,7 +186,7 @@ def test_a_calculation_says_how_long():
     with pytest.raises(errors.UndeterminedDecision, match="report load with update"):
         home.sleec.trigger("A")
     home.sleec.update({"load": 100})
-    with pytest.raises(errors.WrongType, match=r"a number from 0 on, and -80 is not"):
+    with pytest.raises(errors.WrongType, match=r"from 0 to 1,000,000,000,000 seconds, and -80 is not"):
         home.sleec.trigger("A")
     home.sleec.update({"load": 15})
     (due,) = home.sleec.trigger("A").due
