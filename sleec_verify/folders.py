@@ -1,4 +1,4 @@
-"""The rulesets of a folder."""
+"""The rulesets of a folder, and which links in it are followed."""
 
 from __future__ import annotations
 
@@ -6,17 +6,24 @@ import os
 from collections.abc import Callable
 
 SUFFIX = ".sleec"
+GIT = ".git"
 
 
-def rulesets_below(folder: str, refused: Callable[[OSError], None]) -> list[str]:
-    """The paths of the rulesets at or below `folder`, sorted. `refused` is told of each folder that may not be read.
+def rulesets_below(folder: str, refused: Callable[[OSError], None], skipped: Callable[[str], None]) -> list[str]:
+    """The paths of the rulesets at or below `folder`, sorted.
 
-    What git keeps for itself is left out: a branch may be called fix.sleec, and is no ruleset.
+    `refused` is called for each folder that may not be read, `skipped` for each link that does not lead to a ruleset
+    below `folder`: whoever names a folder does not ask for other files. What git keeps for itself is left out: a branch
+    may be called fix.sleec, and is no ruleset.
     """
     found = []
     for parent, folders, names in os.walk(folder, onerror=refused):
-        folders[:] = [name for name in folders if name != ".git"]
-        found += [os.path.join(parent, name) for name in names if name.endswith(SUFFIX)]
+        folders[:] = [name for name in folders if name != GIT]
+        for path in (os.path.join(parent, name) for name in names if name.endswith(SUFFIX)):
+            if not os.path.islink(path) or leads_below(path, folder, SUFFIX):
+                found.append(path)
+            else:
+                skipped(path)
     return sorted(found)
 
 
@@ -25,3 +32,11 @@ def files_at(path: str) -> list[str]:
     if not os.path.isdir(path):
         return [path] if os.path.lexists(path) else []
     return [os.path.join(parent, name) for parent, _, names in os.walk(path) for name in names]
+
+
+def leads_below(path: str, folder: str, suffix: str) -> bool:
+    """Whether `path`, with its links followed, is at or below `folder`, is not kept by git for itself, and ends with
+    `suffix`."""
+    target = os.path.realpath(path)
+    parts = os.path.relpath(target, os.path.realpath(folder)).split(os.sep)
+    return parts[0] != os.pardir and GIT not in map(str.lower, parts) and target.endswith(suffix)

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 from sleec_runtime.errors import UnreadableFile
 from sleec_verify import git
-from sleec_verify.folders import SUFFIX, files_at
+from sleec_verify.folders import SUFFIX, files_at, leads_below
 from sleec_verify.git import GitError
 from sleec_verify.revisions import Place, Versions
 
@@ -21,12 +21,17 @@ NOW = "the files as they are now"
 class Repository:
     """The repository of the current folder."""
 
-    def __init__(self) -> None:
-        """Raises `GitError` where there is no git, or no repository with files."""
+    def __init__(self, skipped: Callable[[str], None]) -> None:
+        """`skipped` is called for each link in the working tree that does not lead to a ruleset of the repository.
+
+        Raises:
+            GitError: there is no git, or no repository with files.
+        """
+        self._skipped = skipped
         done = git.run("rev-parse", "--absolute-git-dir", "--show-toplevel")
         kept, _, folder = os.fsdecode(done.stdout).rstrip("\n").partition("\n")
         # A bare repository in the working tree may be part of a change; git before 2.38 takes it for the current one.
-        if b"safe.bareRepository" in done.stderr or (kept and _is_below(os.curdir, kept)):
+        if b"safe.bareRepository" in done.stderr or (kept and leads_below(os.curdir, kept, "")):
             raise GitError("the current folder is inside a git directory", "go to a folder of the working tree")
         if b"dubious ownership" in done.stderr:
             raise GitError(
@@ -103,9 +108,9 @@ class Repository:
         return (first, old), (last, new)
 
     def inside(self, path: str) -> str:
-        """A path as the repository has it. Raises `GitError` for one outside of it."""
-        if not _is_below(path, self.folder):
-            raise GitError(f"{path} is not in the repository {self.folder}", "name a path below it")
+        """A path as the repository has it. Raises `GitError` for one outside of it, or that git keeps for itself."""
+        if not leads_below(path, self.folder, ""):
+            raise GitError(f"{path} is not in the working tree of {self.folder}", "name a path below it")
         return os.path.relpath(os.path.realpath(path), self.folder).replace(os.sep, "/")
 
     def files(self, commit: str, path: str) -> dict[str, str]:
@@ -202,7 +207,9 @@ class Repository:
             name = os.fsdecode(raw)
             if name.endswith(SUFFIX):
                 shown = os.path.normpath(os.path.join(path, os.path.relpath(name, inside)))
-                if _is_file(shown):
+                if not leads_below(shown, self.folder, SUFFIX):
+                    self._skipped(shown)
+                elif _is_file(shown):
                     found[name] = Place(shown)
                 elif status == b"S":  # left out of a sparse checkout: it is as it is in the index
                     found[name] = Place(shown, about.split()[1].decode(), self)
@@ -218,11 +225,6 @@ def _is_file(path: str) -> bool:
         raise UnreadableFile(f"the folder {folder} cannot be read: Permission denied") from None
     except OSError:
         return False
-
-
-def _is_below(path: str, folder: str) -> bool:
-    """Whether `path`, with its links followed, is `folder` or below it."""
-    return os.path.relpath(os.path.realpath(path), os.path.realpath(folder)).split(os.sep)[0] != os.pardir
 
 
 def _with_parents(name: str) -> list[str]:

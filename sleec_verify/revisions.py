@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.errors import SleecError, UnreadableFile
@@ -67,8 +68,9 @@ class Versions(NamedTuple):
         return None
 
 
-def of_paths(old: str, new: str) -> list[Versions]:
-    """The rulesets of two files, or of two folders, in which those of one path below them belong together.
+def of_paths(old: str, new: str, skipped: Callable[[str], None]) -> list[Versions]:
+    """The rulesets of two files, or of two folders, in which those of one path below them belong together. `skipped` is
+    called for each link that is not followed.
 
     Raises:
         UnreadableFile: a file and a folder, a folder without rulesets, or both are standard input.
@@ -83,7 +85,7 @@ def of_paths(old: str, new: str) -> list[Versions]:
         if old == new == "-":
             raise UnreadableFile("standard input cannot be both sides", "name a file for one of them")
         return [Versions(new, Place(old), Place(new))]
-    sides = [below(old), below(new)]
+    sides = [_below(old, skipped), _below(new, skipped)]
     paths = sorted({*sides[0], *sides[1]})
     if not paths:
         raise UnreadableFile(f"there is no {SUFFIX} file below {old} and {new}", "name other folders")
@@ -97,13 +99,13 @@ def of_paths(old: str, new: str) -> list[Versions]:
     ]
 
 
-def below(folder: str) -> set[str]:
+def _below(folder: str, skipped: Callable[[str], None]) -> set[str]:
     """The paths, from `folder`, of the rulesets below it. Raises `UnreadableFile` for a folder that may not be read."""
 
     def refuse(error: OSError) -> None:
         raise UnreadableFile(f"the folder {os.fspath(error.filename)} cannot be read: {error.strerror}")
 
-    return {os.path.relpath(path, folder) for path in rulesets_below(folder, refuse)}
+    return {os.path.relpath(path, folder) for path in rulesets_below(folder, refuse, skipped)}
 
 
 def _blob_of(path: str, digits: int) -> str | None:

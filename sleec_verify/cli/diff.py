@@ -11,7 +11,7 @@ import click
 
 from sleec_runtime.errors import SleecError
 from sleec_verify.cli import exits, options
-from sleec_verify.cli.output import complain, note, write
+from sleec_verify.cli.output import complain, note, note_link, write
 from sleec_verify.internal_error import InternalError, internal_errors_of
 
 if TYPE_CHECKING:
@@ -130,8 +130,8 @@ def _versions(paths: Sequence[str], revision: str | None) -> tuple[list[Versions
             raise click.UsageError(
                 "two files or two folders are compared: name the old and the new one, or say --git REV"
             )
-        return of_paths(*paths), (paths[0], paths[1])
-    repository = Repository()
+        return of_paths(*paths, note_link), (paths[0], paths[1])
+    repository = Repository(note_link)
     old, new = repository.range(revision)
     return with_renames(repository.versions(old, new, paths or (".",)))[0], (old[0], new[0])
 

@@ -12,7 +12,7 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.files import write_whole
 from sleec_verify.cli.inputs import files
-from sleec_verify.cli.output import complain, write, write_data
+from sleec_verify.cli.output import complain, note_link, write, write_data
 from sleec_verify.internal_error import internal_errors_of
 from sleec_verify.report.outcome import Unusable, counted
 
@@ -31,7 +31,7 @@ def command(paths: tuple[str, ...], mode: str | None) -> int:
 
     Comments stay, and the rules say the same. No file is changed without --write.
     """
-    found = list(files(paths))
+    found = list(files(paths, note_link))
     if mode is None and len(found) > 1:
         raise click.UsageError("several files: say --write, --check or --diff")
     if mode == "write" and "-" in found:

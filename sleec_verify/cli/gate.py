@@ -11,7 +11,7 @@ import click
 
 from sleec_runtime.errors import SleecError
 from sleec_verify.cli import exits, options
-from sleec_verify.cli.output import complain, write
+from sleec_verify.cli.output import complain, note_link, write
 from sleec_verify.report import FORMATS
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def command(
     if name is None:
         raise click.UsageError("say which revision the change is to go into: --base main, or base in the configuration")
     _check_files(output, summary)
-    repository = Repository()
+    repository = Repository(note_link)
     shared = repository.merge_base(name, "HEAD")
     versions = repository.versions((name, shared), (NOW, None), chosen)
     if output is not None:
@@ -174,7 +174,7 @@ def _write_baseline(paths: Sequence[str], config: Config, target: str | None, ch
     require_writable(target, ())
     # Only a baseline is replaced by one.
     before = read_baseline(target) if os.path.lexists(target) else set()
-    places = Repository().now(paths)
+    places = Repository(note_link).now(paths)
     keys = findings_now(places, config, check)
     if not whole:
         about = {*places, *(one.code for one in config.targets)}

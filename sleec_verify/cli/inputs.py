@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import SleecError, UnreadableFile
 from sleec_runtime.language import load
 from sleec_runtime.language.suggest import nearest
-from sleec_verify.cli.output import note
+from sleec_verify.cli.output import note, note_link
 from sleec_verify.folders import SUFFIX, rulesets_below
 from sleec_verify.internal_error import internal_errors_of
 from sleec_verify.report.outcome import Unusable
@@ -23,12 +23,13 @@ class UnknownDomain(SleecError):
     """A domain that no ruleset names."""
 
 
-def files(paths: Iterable[str]) -> Iterator[str | Unusable]:
-    """The files that `paths` mean: a folder stands for every ``*.sleec`` below it, sorted. None comes twice."""
+def files(paths: Iterable[str], skipped: Callable[[str], None] = lambda _: None) -> Iterator[str | Unusable]:
+    """The files that `paths` mean: a folder stands for every ``*.sleec`` below it, sorted. None comes twice. `skipped`
+    is called for each link that is not followed."""
     seen = set()
     for path in paths:
         closed: list[Unusable] = []
-        found = _below(path, closed) if os.path.isdir(path) else [path]
+        found = _below(path, closed, skipped) if os.path.isdir(path) else [path]
         yield from closed
         if not found and not closed:
             yield Unusable(path, UnreadableFile(f"there is no {SUFFIX} file below {path}", "name a file"))
@@ -38,14 +39,14 @@ def files(paths: Iterable[str]) -> Iterator[str | Unusable]:
                 yield file
 
 
-def _below(folder: str, closed: list[Unusable]) -> list[str]:
+def _below(folder: str, closed: list[Unusable], skipped: Callable[[str], None]) -> list[str]:
     """The texts of rules below `folder`; the folders that may not be read go to `closed`."""
 
     def tell(error: OSError) -> None:
         place = os.fspath(error.filename)
         closed.append(Unusable(place, UnreadableFile(f"the folder {place} cannot be read: {error.strerror}")))
 
-    return rulesets_below(folder, tell)
+    return rulesets_below(folder, tell, skipped)
 
 
 def rulesets(paths: Iterable[str], reading: Reading | None, domain: str | None) -> list[Ruleset | Unusable]:
@@ -54,7 +55,7 @@ def rulesets(paths: Iterable[str], reading: Reading | None, domain: str | None) 
     Raises:
         UnknownDomain: the rulesets have domains, and none of them is `domain`.
     """
-    found = [path if isinstance(path, Unusable) else _load(path, reading) for path in files(paths)]
+    found = [path if isinstance(path, Unusable) else _load(path, reading) for path in files(paths, note_link)]
     if domain is not None:
         named = {name for one in found if not isinstance(one, Unusable) for name in one.domains}
         if named and domain not in named:

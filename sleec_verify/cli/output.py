@@ -56,6 +56,11 @@ def note(message: str) -> None:
     print(f"{Palette.of(sys.stderr)('note', 'note')}: {message}", file=sys.stderr)
 
 
+def note_link(path: str) -> None:
+    """Tell of a link that is not followed."""
+    note(f"the link {path} is skipped: its target is not a ruleset below the same folder")
+
+
 def complain(error: SleecError) -> None:
     """Tell of an error of the input on standard error, with its places in the text."""
     from sleec_verify.report.full import error_lines

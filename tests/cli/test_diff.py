@@ -330,7 +330,7 @@ def test_a_file_that_moved_is_compared_with_what_it_was(cli: Cli, repository: Re
         (["--git", "x\ty"], "name a branch, a tag or a commit"),
         (["--git", "nowhere"], "in CI, fetch it first (git fetch origin nowhere)"),
         (["--git", "main", "--", "c.sleec"], "there is no .sleec file at or below c.sleec, neither in main nor in"),
-        (["--git", "main", "--", ".."], ".. is not in the repository"),
+        (["--git", "main", "--", ".."], ".. is not in the working tree of"),
     ],
 )
 def test_what_git_cannot_do(cli: Cli, repository: Repository, arguments: list[str], message: str) -> None:

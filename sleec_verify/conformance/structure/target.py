@@ -15,6 +15,7 @@ from sleec_runtime.errors import LanguageError, Problem, SleecError, UnreadableF
 from sleec_runtime.files import read_file
 from sleec_runtime.language.source import read_standard_input, tidy
 from sleec_runtime.model import Source, Span
+from sleec_verify.folders import leads_below
 from sleec_verify.internal_error import internal_errors_of
 
 SUFFIX = ".py"
@@ -105,7 +106,14 @@ def _below(folder: str) -> Iterator[str]:
             and not name.startswith(".")
             and not os.path.exists(os.path.join(parent, name, "pyvenv.cfg"))
         )
-        yield from (os.path.join(parent, name) for name in sorted(names) if name.endswith(SUFFIX))
+        for path in (os.path.join(parent, name) for name in sorted(names) if name.endswith(SUFFIX)):
+            if os.path.islink(path) and not leads_below(path, folder, SUFFIX):
+                # To skip it might hide what reaches around the dispatch.
+                raise UnreadableFile(
+                    f"the link {path} does not lead to a Python file below {folder}",
+                    "name the folder that holds the code, or remove the link",
+                )
+            yield path
 
 
 def _module(name: str) -> Iterator[str]:
