@@ -50,11 +50,11 @@ class Timekeeper:
         on_error: Callable[[Failure], object] | None,
     ) -> None:
         self.clock = CheckedClock(clock)
-        self.failures = Failures(on_error)
+        self.failures = Failures(on_error, self.clock.execute)
         self._state = state
         self._chains = chains
         self._ledger = Ledger(self.clock, self.tick)
-        self._starts = Starts(self, self._ledger, self.failures)
+        self._starts = Starts(self, self._ledger, self.failures, self.clock.execute)
 
     # Triggers -------------------------------------------------------------------------------------------------
 
