@@ -29,10 +29,8 @@ class Failure:
     error: BaseException
 
     def __str__(self) -> str:
-        from sleec_runtime.timed.words import time_in_words
-
         error = text_of(self.error) or type(self.error).__name__
-        return f"at {time_in_words(self.time)}, {listed(self.obligations)} ({self.rule}): {error}"
+        return f"{listed(self.obligations)} ({self.rule}): {error}"
 
 
 class Failures:

@@ -13,7 +13,7 @@ from sleec_runtime.timed.agenda import CLOSES
 from sleec_runtime.timed.failures import Failure, Failures, raise_interrupt
 from sleec_runtime.timed.instants import Instant
 from sleec_runtime.timed.stages import Stage, in_place_of, opened
-from sleec_runtime.timed.words import time_in_words
+from sleec_runtime.timed.words import duration_in_words
 
 if TYPE_CHECKING:
     from asyncio import AbstractEventLoop
@@ -74,14 +74,9 @@ class Starts:
         if alternatives is None:
             label = task.origin.rule.label
             assert task.last is not None, "what has no end does not close"
-            self._fail(
-                (task,),
-                DeadlineMissed(
-                    f"{task.name} was to be done by {time_in_words(task.last)} ({label}), and was not",
-                    task.name,
-                    task.last,
-                ),
-            )
+            length = duration_in_words(task.last - task.origin.moment)
+            message = f"{task.name} was not done within {length} of the trigger of rule {label}"
+            self._fail((task,), DeadlineMissed(message, task.name, task.last))
         elif alternatives:
             self._start(in_place_of(task, alternatives, snapshot), alternatives, at)
 
