@@ -87,7 +87,7 @@ def measure(ruleset: Ruleset, folder: str, turns: int = TURNS) -> tuple[float, f
     for _ in range(turns):
         works = (
             lambda: run_checks(ruleset),
-            lambda: write_folder(folder, ((n, t.encode()) for n, t in certify(ruleset).texts()), force=True),
+            lambda: write_folder(folder, certify(ruleset).contents(), force=True),
             lambda: check_certificate(ruleset, folder, checker(), oracle=built()),
         )
         for work, measured in zip(works, times):

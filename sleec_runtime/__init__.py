@@ -83,8 +83,9 @@ def load(
     `domain` leaves out the rules of other domains. `reading`, ``cascade`` or ``priority``, goes before the file's own.
     `strict` makes a decision that depends on unreported conditions an error; without it they count as false, as
     Definition 1 of the paper has it. `clock`, `chains`, `on_error` and `strict_times` are for rules with times: see
-    `Sleec`. `certificate` is the folder of one that must say that these rules, so read, are free of conflict in this
-    domain, and with `key`, the file of a public key, be signed (docs/certificates.md).
+    `Sleec`. `certificate` is the folder of one that must prove that these rules are free of conflict as they are used
+    here: in this reading and domain, with or without `chains`. With `key`, the file of a public key, it must be signed
+    (docs/certificates.md).
 
     Raises UnreadableFile, LanguageError and UnknownDomain, UnsupportedTimes with `strict_times`, and CertificateRefused
     with `certificate`.

@@ -1,141 +1,183 @@
-"""The manifest of a certificate (docs/certificates.md): of which text it speaks, and what was found of it.
+"""Certificates (docs/certificates.md): whether one covers the way in which rules are to be used.
 
-A robot reads it to run only what was certified. It does not check the proofs again: `sleec-verify certify --check` does
-so before, and a signature tells the robot that someone with the key has seen to it.
+A robot reads its manifest to run only what was certified. It does not check the proofs again:
+`sleec-verify certify --check` does so before, and a signature tells the robot that someone with the key has seen to it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sleec_runtime.errors import CertificateRefused, SleecError
 from sleec_runtime.files import read_file
-from sleec_runtime.messages import represent
+from sleec_runtime.manifest import Manifest, parse
+from sleec_runtime.messages import listed
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
-
-FORMAT = 1
-"""The version of what stands in a certificate. Another one is refused."""
 
 MANIFEST = "manifest.json"
 SIGNATURE = "manifest.sig"
 """Ed25519 over the bytes of the manifest, as base64."""
 
-
-@dataclass(frozen=True)
-class Manifest:
-    """What a certificate says. `domain` is None where the rules were checked in each of their domains; `verdicts` are
-    those of the checks by name; `files` has the SHA-256 of every other file. `whole` is all of it, as it was read."""
-
-    sha256: str
-    reading: str
-    domain: str | None
-    verdicts: Mapping[str, str]
-    files: Mapping[str, str]
-    whole: Mapping[str, Any]
+DEMANDED = ("conflict", "vacuous-conflict", "assumptions")
+"""The checks that must be proved for rules to be free of conflict: without the last two, there may be no situation at
+all, or none that triggers some rule, in which nothing conflicts."""
 
 
 def read_manifest(folder: str | Path, key: str | Path | None = None) -> Manifest:
     """The manifest of the certificate in `folder`, whose signature fits the public `key` if one is given.
 
-    Raises CertificateRefused where there is none, it is of another format, or the signature does not fit.
+    Raises CertificateRefused where there is none, it is not exactly one of this format, or the signature does not fit.
     """
-    import json
-
+    path = Path(folder) / MANIFEST
     try:
-        data = read_file(Path(folder) / MANIFEST)
+        data = read_file(path)
     except OSError as error:
-        raise _refused(
-            "no-certificate",
-            f"{folder} is no certificate: its {MANIFEST} cannot be read: {error.strerror}",
+        raise CertificateRefused(
+            [("no-certificate", f"{folder} is no certificate: its {MANIFEST} cannot be read: {error.strerror}")],
             "`sleec-verify certify FILE -o DIR` makes one",
         ) from None
     if key is not None:
         check_signature(folder, data, key)
-    try:
-        whole = json.loads(data)
-    except (ValueError, RecursionError):
-        whole = None
-    if not isinstance(whole, dict) or whole.get("certificate") != "sleec-verify":
-        raise _refused("no-certificate", f"{folder} is no certificate: its {MANIFEST} is not one of ours")
-    if whole.get("format") != FORMAT:
-        raise _refused(
-            "format",
-            f"the certificate is of format {represent(whole.get('format'))}, and this version reads {FORMAT}",
-            "certify the rules again, or use the version of sleec-verify that made it",
-        )
-    try:
-        return Manifest(
-            sha256=_text(whole["ruleset"]["sha256"]),
-            reading=_text(whole["reading"]),
-            domain=None if whole["domain"] is None else _text(whole["domain"]),
-            verdicts={_text(check["name"]): _text(check["verdict"]) for check in whole["checks"]},
-            files={_text(name): _text(digest) for name, digest in whole["files"].items()},
-            whole=whole,
-        )
-    except (KeyError, TypeError, AttributeError):
-        raise _refused("no-certificate", f"the {MANIFEST} in {folder} lacks what every certificate has") from None
+    return parse(data, path)
 
 
-def _text(value: object) -> str:
-    if not isinstance(value, str):
-        raise TypeError
-    return value
+class Use(NamedTuple):
+    """How rules are used. `domain` is None where they are used in each of their domains by itself; `untimed` is when a
+    response without a window is due, in rules with time."""
+
+    reading: str
+    domain: str | None = None
+    untimed: str = "at"
 
 
-class Demand:
-    """What a runtime asks of rules before they are in force: the certificate in `folder`, signed by `key` if there is
-    one, must say that they are free of conflict.
+class Uncovered(NamedTuple):
+    """Why a certificate does not cover a use: one of the reasons of docs/certificates.md, a sentence on it, and what
+    to do about it."""
 
-    Raises, when made, what `read_manifest` does.
-    """
-
-    def __init__(self, folder: str | Path, key: str | Path | None = None) -> None:
-        self.key = key
-        self._manifest = read_manifest(folder, key)
-
-    def check(self, ruleset: Ruleset, domain: str | None) -> None:
-        """Refuse a ruleset that is to be in force in `domain` unless it is certified. Raises CertificateRefused."""
-        _require_certified(ruleset, domain, self._manifest)
+    reason: str
+    message: str
+    hint: str
 
 
-def _require_certified(ruleset: Ruleset, domain: str | None, manifest: Manifest) -> None:
+def uncovered(manifest: Manifest, ruleset: Ruleset, use: Use) -> Iterator[Uncovered]:
+    """In what a certificate does not cover the use of a ruleset: the text, the reading, the domain, the times."""
     if manifest.sha256 != ruleset.source.sha256:
-        raise _refused(
+        yield Uncovered(
             "ruleset-changed",
             f"the certificate is not of these rules: {ruleset.source.path} has other bytes",
             "certify the rules as they are now",
         )
-    if manifest.reading != ruleset.reading:
-        raise _refused(
+        # Nothing that follows would mean anything.
+        return
+    if manifest.reading != use.reading:
+        yield Uncovered(
             "reading",
-            f"the certificate is for the reading {manifest.reading}, and the rules are read as {ruleset.reading}",
-            "certify them with --reading, or load them with reading=",
+            f"the certificate is for the reading {manifest.reading}, not for {use.reading}",
+            f"certify the rules with --reading {use.reading}, or use them with the reading {manifest.reading}",
         )
-    if manifest.domain is not None and manifest.domain != domain:
-        told = "all domains" if domain is None else f"the domain {domain}"
-        raise _refused(
+    # Rules without domains are used in one that has no name.
+    all_of_them = ruleset.domains or ("",)
+    certified = all_of_them if manifest.domain is None else (manifest.domain,)
+    used = all_of_them if use.domain is None else (use.domain,)
+    if not set(used) <= set(certified):
+        yield Uncovered(
             "domain",
-            f"the certificate is for the domain {manifest.domain}, and the rules are loaded for {told}",
-            "certify them for this domain, or load them for that one",
+            f"the certificate is for {_in_words(manifest.domain, ruleset)}, not for {_in_words(use.domain, ruleset)}",
+            "certify the rules without --domain, or use them in the domain of the certificate",
         )
-    if domain is None and len(ruleset.domains) > 1:
-        raise _refused(
-            "domain",
-            f"the certificate is for each of the domains {', '.join(ruleset.domains)} by itself",
-            "load the rules with domain=",
+    if manifest.untimed not in (None, use.untimed):
+        yield Uncovered(
+            "untimed",
+            f"the certificate is for --untimed {manifest.untimed}, not for {use.untimed}:"
+            " a response without a window is due at another time",
+            f"certify the rules with --untimed {use.untimed}, or use them with --untimed {manifest.untimed}",
         )
-    verdict = manifest.verdicts.get("conflict")
-    if verdict != "proved":
-        raise _refused(
-            "conflict",
-            f"the certificate does not say that the rules are free of conflict: {verdict or 'unasked'}",
-            "`sleec-verify check` shows the situations in which they are not",
-        )
+
+
+def _in_words(domain: str | None, ruleset: Ruleset) -> str:
+    if domain is not None:
+        return f"the domain {domain}"
+    return f"each of the domains {listed(ruleset.domains)}" if ruleset.domains else "rules without domains"
+
+
+class Demand:
+    """What a runtime asks of rules before they are in force: the certificate in `folder`, signed by `key` if there is
+    one, must cover how the runtime uses them, and prove that they are free of conflict. `chains` is whether what is
+    done triggers rules there.
+
+    Raises, when made, what `read_manifest` does.
+    """
+
+    def __init__(self, folder: str | Path, key: str | Path | None, chains: bool) -> None:
+        self._key = key
+        self._chains = chains
+        self._manifest = read_manifest(folder, key)
+
+    def of(self, folder: str | Path) -> Demand:
+        """The same demand of another certificate."""
+        return Demand(folder, self._key, self._chains)
+
+    def check(self, ruleset: Ruleset, domain: str | None) -> None:
+        """Refuse a ruleset that is to be in force in `domain` unless the certificate covers that.
+
+        Raises CertificateRefused.
+        """
+        problems = list(self._problems(ruleset, domain))
+        if problems:
+            raise CertificateRefused([(one.reason, one.message) for one in problems], problems[0].hint)
+
+    def _problems(self, ruleset: Ruleset, domain: str | None) -> Iterator[Uncovered]:
+        # A response without a window is executed at its trigger.
+        found = list(uncovered(self._manifest, ruleset, Use(ruleset.reading, domain, "at")))
+        yield from found
+        if any(one.reason == "ruleset-changed" for one in found):
+            return
+        if not _is_its_text(ruleset):
+            yield Uncovered(
+                "ruleset-changed",
+                f"the rules are not all and only those of the text of {ruleset.source.path}, which is certified",
+                "use the ruleset as it was read, and choose the domain with domain=",
+            )
+        if domain is None and len(ruleset.domains) > 1 and self._manifest.domain is None:
+            yield Uncovered(
+                "domain",
+                f"the certificate is for each of the domains {listed(ruleset.domains)} by itself",
+                "load the rules with domain=",
+            )
+        if self._manifest.chains != self._chains and _chains_matter(ruleset, domain, self._chains):
+            yield Uncovered(
+                "chains",
+                "the certificate counts that what is done triggers rules, and the runtime does not"
+                if self._manifest.chains
+                else "the certificate does not count that what is done triggers rules, and the runtime does",
+                f"load the rules with chains={self._manifest.chains}",
+            )
+        verdicts = {name: self._manifest.verdicts.get(name, "missing") for name in DEMANDED}
+        open_checks = [f"{name} is {verdict}" for name, verdict in verdicts.items() if verdict != "proved"]
+        if open_checks:
+            yield Uncovered(
+                "conflict",
+                f"the certificate does not prove that the rules are free of conflict: {', '.join(open_checks)}",
+                "`sleec-verify check` shows the situations in which they are not",
+            )
+
+
+def _is_its_text(ruleset: Ruleset) -> bool:
+    """Whether a ruleset says what its text says, whatever its reading: its rules may have been changed since."""
+    from sleec_runtime.language import parse_source
+
+    return parse_source(ruleset.source).read_as(ruleset.reading) == ruleset
+
+
+def _chains_matter(ruleset: Ruleset, domain: str | None, chains: bool) -> bool:
+    """Whether anything can be a trigger and be done. Without `chains`, events that trigger no rule are nothing."""
+    in_force = ruleset if domain is None else ruleset.in_domain(domain)
+    triggers = in_force.triggers if chains else {rule.trigger for rule in in_force.rules}
+    return not triggers.isdisjoint(in_force.obligations)
 
 
 def _refused(reason: str, message: str, hint: str | None = None) -> CertificateRefused:

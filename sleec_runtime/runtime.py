@@ -47,9 +47,10 @@ class Sleec:
     that name. `on_error` is told of each `Failure` of what the clock started; without it, the log is. What the runtime
     does not enforce is named by a NotEnforced warning, or with `strict_times` by UnsupportedTimes.
 
-    With `certificate`, the folder of one, only rules that it, or another one given to `replace`, says to be free of
-    conflict are ever in force; with `key`, the file of a public key, it must be signed (docs/certificates.md). Others
-    are refused with CertificateRefused.
+    With `certificate`, the folder of one, only rules that it, or another one given to `replace`, proves to be free of
+    conflict are ever in force, and only as it was made for them: in its domain and reading, with its times and chains.
+    With `key`, the file of a public key, it must be signed (docs/certificates.md). Others are refused with
+    CertificateRefused.
     """
 
     def __init__(
@@ -67,12 +68,13 @@ class Sleec:
         key: str | Path | None = None,
     ) -> None:
         whole = _read(ruleset, reading)
-        self._demand = _demand(certificate, key)
-        if self._demand is not None:
-            self._demand.check(whole, domain)
         for name, choice in (("strict", strict), ("chains", chains), ("strict_times", strict_times)):
             if not isinstance(choice, bool):
                 raise WrongType(name, choice, "a choice, True or False", "give True or False")
+        program = Program(whole, domain, strict)
+        self._demand = _demand(certificate, key, chains)
+        if self._demand is not None:
+            self._demand.check(whole, domain)
         self._reading = reading
         self._strict = strict
         self._chains = chains
@@ -89,7 +91,7 @@ class Sleec:
         self._listeners: list[Listener] = []
         self._objections: list[Listener] = []
         self._monitor: Monitor | None = None
-        self._snapshot = Snapshot.first(Program(whole, domain, strict), {})
+        self._snapshot = Snapshot.first(program, {})
         self._instance = Instance(whole)
         self._keep_times(self._snapshot.program)
 
@@ -278,15 +280,13 @@ class Sleec:
         return () if self._times is None else self._times.failures.kept()
 
     def tick(self) -> None:
-        """Starts and ends all that is due by now; for a clock that wakes nobody. What goes wrong is in `failures`, and
-        not raised, except a KeyboardInterrupt in the main thread."""
+        """Starts and ends all that is due by now; for a clock that wakes nobody. Nothing is raised: see `failures`."""
         if self._times is not None:
             self._times.tick()
 
     def close(self) -> None:
-        """Ends the watching of windows, and the thread of the default clock. It waits for code that this clock runs, up
-        to the limit of the clock. What is pending stays so; a trigger that would bring more of it raises SleecError.
-        ``with sleec:`` does this at its end."""
+        """Ends the watching of windows, and the thread that did it. What is pending stays so; a trigger that would
+        bring more of it raises SleecError. ``with sleec:`` does this at its end."""
         if self._times is not None:
             self._times.close()
         if self._own_clock is not None:
@@ -328,7 +328,7 @@ class Sleec:
         with self._lock:
             demand = self._demand
             if certificate is not None:
-                demand = _demand(certificate, None if demand is None else demand.key)
+                demand = _demand(certificate, None, self._chains) if demand is None else demand.of(certificate)
             instance = self._instance.copied()
             instance.admit(whole)
             instance.bind(bind)
@@ -483,14 +483,14 @@ def _read(ruleset: Ruleset, reading: Reading | None) -> Ruleset:
     return ruleset if reading is None else ruleset.read_as(reading)
 
 
-def _demand(certificate: str | Path | None, key: str | Path | None) -> Demand | None:
+def _demand(certificate: str | Path | None, key: str | Path | None, chains: bool) -> Demand | None:
     if certificate is None:
         if key is not None:
             raise SleecError("a key without a certificate checks nothing", "give certificate= as well")
         return None
     from sleec_runtime.certificate import Demand
 
-    return Demand(certificate, key)
+    return Demand(certificate, key, chains)
 
 
 def _together(names: Iterable[str]) -> tuple[str, ...]:

@@ -71,9 +71,7 @@ class Pending:
         return hash(self._task)
 
     def __str__(self) -> str:
-        now = self._keeper.clock.now()
-        window = f", {window_in_words(self._task, now)}" if self._task.is_open_at(now) else ""
-        return f"{self._task.literal} ({self.rule}): {self._task.state_at(now)}{window}"
+        return f"{self._task.literal} ({self.rule}): {self.state}, {window_in_words(self._task)}"
 
     def __repr__(self) -> str:
         return f"<Pending {self}>"

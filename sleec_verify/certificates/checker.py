@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,20 +15,23 @@ from sleec_verify.certificates import lrat
 BUILT = Path(__file__).parents[2] / "proofs" / "checker" / "check-lrat"
 """Where `make -C proofs/checker` puts it, in a copy of the sources."""
 
+MOST_SECONDS = 60.0
+"""How long a checker may take over one refutation."""
+
 
 @dataclass(frozen=True)
 class Checker:
-    """`refuses` takes the paths of a formula and of its refutation, and returns why it is none, or None. `name` says
+    """`refuses` takes a formula (DIMACS) and its refutation (LRAT), and returns why it is none, or None. `name` says
     who judges; `proved`, whether it is the one that is proved in Coq."""
 
     name: str
     proved: bool
-    refuses: Callable[[Path, Path], str | None]
+    refuses: Callable[[bytes, bytes], str | None]
 
 
-def _in_python(formula: Path, proof: Path) -> str | None:
+def _in_python(formula: bytes, proof: bytes) -> str | None:
     try:
-        lrat.check(formula.read_text("ascii"), proof.read_text("ascii"))
+        lrat.check(formula.decode("ascii"), proof.decode("ascii"), MOST_SECONDS)
     except lrat.Refused as refusal:
         return refusal.message
     except UnicodeDecodeError:
@@ -54,11 +58,20 @@ def checker(path: str | None = None) -> Checker:
     return Checker(path, proved, lambda formula, proof: _by_program(program, formula, proof))
 
 
-def _by_program(program: str, formula: Path, proof: Path) -> str | None:
-    try:
-        done = subprocess.run([program, formula, proof], capture_output=True, text=True, errors="replace", check=False)
-    except OSError as error:
-        raise SleecError(f"the checker {program} cannot be run: {error.strerror}") from None
+def _by_program(program: str, formula: bytes, proof: bytes) -> str | None:
+    # It reads copies: what is in the certificate's folder may have changed since it was read.
+    with tempfile.TemporaryDirectory() as folder:
+        paths = Path(folder, "formula.cnf"), Path(folder, "proof.lrat")
+        for path, data in zip(paths, (formula, proof)):
+            path.write_bytes(data)
+        try:
+            done = subprocess.run(
+                [program, *paths], capture_output=True, text=True, errors="replace", check=False, timeout=MOST_SECONDS
+            )
+        except OSError as error:
+            raise SleecError(f"the checker {program} cannot be run: {error.strerror}") from None
+        except subprocess.TimeoutExpired:
+            return lrat.LATE.format(MOST_SECONDS)
     if done.returncode == 0 and done.stdout == "VERIFIED\n":
         return None
     _, _, reason = done.stdout.strip().partition(": ")

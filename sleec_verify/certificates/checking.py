@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import json
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -11,10 +13,9 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
-from sleec_runtime.certificate import MANIFEST, SIGNATURE, Manifest, read_manifest
+from sleec_runtime.certificate import MANIFEST, SIGNATURE, Use, read_manifest, uncovered
 from sleec_runtime.errors import CertificateRefused, SleecError
 from sleec_runtime.files import read_file
-from sleec_runtime.model import READINGS
 from sleec_verify import __version__
 from sleec_verify.certificates.making import Rebuilt, rebuild
 from sleec_verify.certificates.manifest import check_json, manifest
@@ -22,9 +23,11 @@ from sleec_verify.certificates.tying import Tied, tie
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Witness
 from sleec_verify.replay import replays
+from sleec_verify.report.json import witness_json
 from sleec_verify.timed.scope import speaks_of_traces
 
 if TYPE_CHECKING:
+    from sleec_runtime.manifest import Manifest
     from sleec_runtime.model import Reading, Ruleset, Value
     from sleec_verify.certificates.checker import Checker
     from sleec_verify.certificates.manifest import Shown
@@ -41,10 +44,11 @@ class Problem(NamedTuple):
 
 @dataclass(frozen=True)
 class Confirmed:
-    """A certificate that holds: of the ruleset, in the reading that it is for; who judged its refutations; whether
-    there is a signature; and whether what rests on refutations is `tied` to the rules, check by check."""
+    """A certificate that holds: what it says, of the ruleset in its reading; who judged its refutations; whether there
+    is a signature; and whether what rests on refutations is `tied` to the rules, check by check."""
 
     ruleset: Ruleset
+    manifest: Manifest
     shown: tuple[Shown, ...]
     checker: Checker
     signed: bool
@@ -55,33 +59,23 @@ def check_certificate(
     ruleset: Ruleset,
     folder: str,
     judge: Checker,
+    use: Use | None = None,
     *,
-    domain: str | None = None,
-    reading: str | None = None,
     key: str | None = None,
     oracle: Path | None = None,
     progress: Callable[[str, int, int], None] | None = None,
 ) -> Confirmed:
     """Check the certificate in `folder` against a ruleset: its bytes, its verdicts, computed again, the formulas, built
-    again, the refutations of these, judged by `judge`, and the witnesses, replayed. `domain` and `reading`, if they
-    are given, and the public `key` must be those of the certificate. Of what rests on refutations, the `oracle`, if
-    there is one, makes the formula once more, by what is proved, and judges its refutation.
+    again, the refutations of these, judged by `judge`, and the witnesses, replayed. It must cover the `use` that is
+    made of the rules, by default that of the whole text in its own reading, and be signed by the public `key`, if there
+    is one. Of what rests on refutations, the `oracle`, if there is one, makes the formula once more, by what is proved,
+    and judges its refutation.
 
     Raises CertificateRefused with all the reasons that are found.
     """
     claimed = read_manifest(folder, key)
-    if claimed.sha256 != ruleset.source.sha256:
-        # Nothing that follows would mean anything.
-        raise CertificateRefused(
-            [
-                Problem(
-                    "ruleset-changed", f"the certificate is not of these rules: {ruleset.source.path} has other bytes"
-                )
-            ],
-            "certify the rules as they are now",
-        )
-    _check_options(ruleset, claimed, domain, reading)
-    read = ruleset if claimed.reading == ruleset.reading else ruleset.read_as(cast("Reading", claimed.reading))
+    _check_use(ruleset, claimed, Use(ruleset.reading) if use is None else use)
+    read = ruleset.read_as(cast("Reading", claimed.reading))
     examined = _Examined(read, claimed, Path(folder), judge)
     problems = [*examined.files(), *examined.contents(progress)]
     tied: list[Tied] = []
@@ -92,31 +86,24 @@ def check_certificate(
             problems.append(Problem("theory", str(one)))
     if problems:
         raise CertificateRefused(problems, _hint(claimed))
-    return Confirmed(read, tuple(examined.shown), judge, (Path(folder) / SIGNATURE).exists(), tuple(tied))
+    return Confirmed(read, claimed, tuple(examined.shown), judge, (Path(folder) / SIGNATURE).exists(), tuple(tied))
 
 
-def _check_options(ruleset: Ruleset, claimed: Manifest, domain: str | None, reading: str | None) -> None:
-    """What the manifest says that the rules were checked as must be something that they can be, and what is asked."""
-    untimed = claimed.whole.get("untimed")
-    problem = None
-    if reading is not None and reading != claimed.reading:
-        problem = Problem("reading", f"the certificate is for the reading {claimed.reading}, not for {reading}")
-    elif claimed.reading not in READINGS:
-        problem = Problem("manifest", f"the {MANIFEST} names a reading that there is not")
-    elif domain is not None and domain != claimed.domain:
-        is_for = f"the domain {claimed.domain}" if claimed.domain else "all domains, each by itself"
-        problem = Problem("domain", f"the certificate is for {is_for}, not for the domain {domain}")
-    elif claimed.domain is not None and ruleset.domains and claimed.domain not in ruleset.domains:
-        problem = Problem("manifest", f"the {MANIFEST} names a domain that the rules do not have")
-    elif untimed not in (("at", "eventually") if speaks_of_traces(ruleset) else (None,)):
-        problem = Problem("manifest", f"the {MANIFEST} does not say what a response without a window means")
-    if problem is not None:
-        raise CertificateRefused([problem])
+def _check_use(ruleset: Ruleset, claimed: Manifest, use: Use) -> None:
+    """The certificate must be of these rules, cover their use, and be about something that they have."""
+    not_covered = list(uncovered(claimed, ruleset, use))
+    problems = [Problem(one.reason, one.message) for one in not_covered]
+    if not problems or problems[0].reason != "ruleset-changed":
+        if claimed.domain is not None and claimed.domain not in ruleset.domains:
+            problems.append(Problem("manifest", f"the {MANIFEST} names a domain that the rules do not have"))
+        if (claimed.untimed is None) == speaks_of_traces(ruleset):
+            problems.append(Problem("manifest", f"the {MANIFEST} does not say what a response without a window means"))
+    if problems:
+        raise CertificateRefused(problems, not_covered[0].hint if not_covered else None)
 
 
 def _hint(claimed: Manifest) -> str | None:
-    tool = claimed.whole.get("tool")
-    version = tool.get("version") if isinstance(tool, dict) else None
+    version = claimed.whole["tool"]["version"]
     if version == __version__:
         return None
     return f"it was made by version {version}, and this is {__version__}; certify the rules again with this one"
@@ -136,32 +123,25 @@ class _Examined:
     # Files ----------------------------------------------------------------------------------------------------
 
     def files(self) -> Iterator[Problem]:
-        """Whether the files are those that the manifest names."""
+        """Whether the folder has files that the manifest does not name."""
         there = set(os.listdir(self._folder)) - {MANIFEST, SIGNATURE}
         for name in sorted(there - set(self._claimed.files)):
             yield Problem("file-added", f"{name} is not in the {MANIFEST}")
-        for name, digest in sorted(self._claimed.files.items()):
-            if name not in there:
-                yield Problem("file-missing", f"{name} is missing")
-                continue
-            data = self._bytes(name)
-            if data is None:
-                yield Problem("file-missing", f"{name} cannot be read")
-            elif sha256(data).hexdigest() != digest:
-                yield Problem("file-changed", f"{name} has other bytes than the {MANIFEST} says")
 
-    def _bytes(self, name: str) -> bytes | None:
+    def _read(self, name: str) -> bytes | Problem:
+        """What is in a file, which is read only once: what is compared is what is judged."""
         try:
             return read_file(self._folder / name)
-        except OSError:
-            return None
+        except OSError as error:
+            message = f"{name} cannot be read: {error.strerror}"
+            return Problem("file-size", message) if error.errno == errno.EFBIG else Problem("file-missing", message)
 
     # Contents -------------------------------------------------------------------------------------------------
 
     def contents(self, progress: Callable[[str, int, int], None] | None) -> Iterator[Problem]:
         """Whether the rules give these verdicts, the formulas are refuted, and the witnesses show what they should."""
         claimed, ruleset = self._claimed, self._ruleset
-        untimed: Untimed = claimed.whole.get("untimed") or "at"
+        untimed = cast("Untimed", claimed.untimed or "at")
         said = {check["name"]: check for check in claimed.whole["checks"]}
         for rebuilt in rebuild(ruleset, claimed.domain, untimed, progress, examining=True):
             one = rebuilt.shown()
@@ -173,24 +153,34 @@ class _Examined:
             else:
                 yield from self._entry(one, entry)
         digests = {name: claimed.files.get(name, "") for one in self.shown for name in one.files}
-        expected = manifest(ruleset, claimed.domain, claimed.whole.get("untimed"), self.shown, digests)
-        for key in sorted(expected.keys() | claimed.whole.keys()):
-            if key not in ("checks", "tool") and expected.get(key) != claimed.whole.get(key):
+        expected = manifest(ruleset, claimed.domain, claimed.untimed, self.shown, digests)
+        for key in expected.keys() - {"checks", "tool"}:
+            if not _same(expected[key], claimed.whole[key]):
                 yield Problem("manifest", f"what the {MANIFEST} says under {key!r} is not what the rules give")
-        if not {one.result.name for one in self.shown}.issuperset(said) or len(said) < len(claimed.whole["checks"]):
-            yield Problem("manifest", f"the {MANIFEST} has checks that there are not, or one of them twice")
+        if list(said) != [one.result.name for one in self.shown if one.result.name in said]:
+            yield Problem("manifest", f"the {MANIFEST} has checks that there are not, or in another order")
 
     def _formulas(self, rebuilt: Rebuilt) -> Iterator[Problem]:
         for name in rebuilt.formulas:
             formula, proof = f"{name}.cnf", f"{name}.lrat"
-            stored = self._bytes(formula)
-            if stored is None or self._bytes(proof) is None:
-                if not {formula, proof} <= set(self._claimed.files):
-                    yield Problem("file-missing", f"the check {rebuilt.result.name} has no proof {name}")
-            elif stored != rebuilt.dimacs(name).encode():
+            if not {formula, proof} <= set(self._claimed.files):
+                yield Problem("file-missing", f"the check {rebuilt.result.name} has no proof {name}")
+                continue
+            data: list[bytes] = []
+            for file in (formula, proof):
+                found = self._read(file)
+                if isinstance(found, Problem):
+                    yield found
+                else:
+                    data.append(found)
+                    if sha256(found).hexdigest() != self._claimed.files[file]:
+                        yield Problem("file-changed", f"{file} has other bytes than the {MANIFEST} says")
+            if len(data) < 2:
+                continue
+            if data[0] != rebuilt.dimacs(name).encode():
                 yield Problem("clauses", f"{formula} is not the formula that the rules give")
             else:
-                reason = self._judge.refuses(self._folder / formula, self._folder / proof)
+                reason = self._judge.refuses(*data)
                 if reason is not None:
                     yield Problem("proof", f"{proof} does not refute {formula}: {reason}")
 
@@ -199,36 +189,38 @@ class _Examined:
         what they are to show."""
         name = one.result.name
         expected: Mapping[str, Any] = check_json(one, self._ruleset)
-        if entry.get("verdict") != expected["verdict"]:
+        if entry["verdict"] != expected["verdict"]:
             yield Problem(
-                "verdict", f"the check {name} is {expected['verdict']}, and the {MANIFEST} says {entry.get('verdict')}"
+                "verdict", f"the check {name} is {expected['verdict']}, and the {MANIFEST} says {entry['verdict']}"
             )
             return
-        found, claims = expected["findings"], entry.get("findings")
-        if not isinstance(claims, list) or [_but_witness(c) for c in claims] != [_but_witness(f) for f in found]:
+        found, claims = expected["findings"], entry["findings"]
+        if not _same([_but_witness(c) for c in claims], [_but_witness(f) for f in found]):
             yield Problem("findings", f"the findings of the check {name} are not those that the rules give")
         else:
             for finding, computed, claim in zip(one.result.findings, found, claims):
                 if not self._shows(finding, computed, claim):
                     yield Problem("witness", f"a witness of the check {name} does not show it: {finding.message}")
-        if any(entry.get(key) != expected[key] for key in expected.keys() - {"verdict", "findings"}):
+        if not _same({**entry, "findings": None}, {**expected, "findings": None}):
             yield Problem("manifest", f"what the {MANIFEST} says of the check {name} is not what the rules give")
 
     def _shows(self, finding: Finding, computed: Mapping[str, Any], claim: Mapping[str, Any]) -> bool:
         """Whether the evaluator finds in a witness what the finding says; a course of events must be the one that was
         found and replayed now."""
         if finding.witness is None or finding.timeline is not None:
-            return all(claim.get(key) == computed.get(key) for key in _WITNESS)
+            return all(_same(claim.get(key), computed.get(key)) for key in _WITNESS)
         try:
             witness = self._witness(claim["witness"])
+            if not _same(claim["witness"], witness_json(witness)):
+                return False
             told = replace(finding, witness=witness)
             return all(replays(self._in(domain), told) for domain in finding.domains or ("",))
-        except (KeyError, TypeError, ValueError, AttributeError, ZeroDivisionError, SleecError):
+        except (KeyError, TypeError, ValueError, ZeroDivisionError, SleecError):
             return False
 
     def _witness(self, claim: Mapping[str, Any]) -> Witness:
-        triggers = tuple(claim["triggers"])
-        values = {name: self._value(name, value) for name, value in claim["conditions"].items()}
+        triggers = tuple(sorted(set(claim["triggers"])))
+        values = {name: self._value(name, value) for name, value in sorted(claim["conditions"].items())}
         if not self._ruleset.triggers.issuperset(triggers):
             raise ValueError("a trigger that the rules do not have")
         return Witness(triggers, values)
@@ -261,5 +253,10 @@ _FRACTION = re.compile(r"-?[0-9]{1,200}/[0-9]{1,200}")
 """How a number is written that JSON has no exact spelling for. Others, such as 1e999999999, would take all memory."""
 
 
-def _but_witness(finding: Any) -> Any:
-    return {key: v for key, v in finding.items() if key not in _WITNESS} if isinstance(finding, dict) else finding
+def _but_witness(finding: Mapping[str, Any]) -> Mapping[str, Any]:
+    return {key: value for key, value in finding.items() if key not in _WITNESS}
+
+
+def _same(one: object, other: object) -> bool:
+    """Whether two values are written alike: unlike `==`, this tells true from 1, and one order of keys from another."""
+    return json.dumps(one) == json.dumps(other)

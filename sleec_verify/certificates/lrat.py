@@ -8,8 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from math import inf
+from time import monotonic
 
 from sleec_runtime.errors import SleecError
+
+LATE = "it was not judged within {:g} s"
 
 _NUMBER = re.compile(r"-?[0-9]{1,17}")
 
@@ -18,13 +22,16 @@ class Refused(SleecError):
     """A refutation that shows nothing, or a file that is not in its format."""
 
 
-def check(formula: str, proof: str) -> None:
+def check(formula: str, proof: str, seconds: float = inf) -> None:
     """Whether `proof` (LRAT) refutes `formula` (DIMACS). One look at each literal of each clause that a hint names.
 
-    Raises Refused, with the reason, if it does not.
+    Raises Refused, with the reason, if it does not, or if that is not known after so many `seconds`.
     """
+    deadline = monotonic() + seconds
     clauses = dict(enumerate(_clauses(formula), 1))
     for number, literals, hints in _steps(proof):
+        if monotonic() >= deadline:
+            raise Refused(LATE.format(seconds))
         if literals is None:
             for name in hints:
                 clauses.pop(name, None)

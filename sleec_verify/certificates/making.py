@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 from typing import TYPE_CHECKING
 
-from sleec_verify.certificates.manifest import Shown, dumped, manifest
+from sleec_verify.certificates.manifest import Shown, manifest
 from sleec_verify.certificates.recording import Asked, Recorder
 from sleec_verify.certificates.refutation import Disjunction, disjunctions
 from sleec_verify.certificates.whole import conflict_free
@@ -52,12 +52,13 @@ class Certificate:
     def results(self) -> tuple[CheckResult, ...]:
         return tuple(one.result for one in self.shown)
 
-    def texts(self) -> Iterator[tuple[str, str]]:
+    def contents(self) -> Iterator[tuple[str, bytes]]:
         """Every file, the manifest last."""
         from sleec_runtime.certificate import MANIFEST
+        from sleec_runtime.manifest import canonical
 
-        yield from self.files.items()
-        yield MANIFEST, dumped(self.manifest)
+        yield from ((name, text.encode()) for name, text in self.files.items())
+        yield MANIFEST, canonical(self.manifest)
 
 
 def certify(
@@ -67,7 +68,9 @@ def certify(
     progress: Callable[[str, int, int], None] | None = None,
 ) -> Certificate:
     """Run every check that there is for the ruleset, as `run_checks` does, and refute again, with a proof, what a
-    solver answered with no."""
+    solver answered with no. A `domain` counts for rules that have any."""
+    if not ruleset.domains:
+        domain = None
     shown, files = [], {}
     for rebuilt in rebuild(ruleset, domain, untimed, progress):
         shown.append(rebuilt.shown())

@@ -5,11 +5,10 @@ Nothing in it depends on when, where or how fast it was made: the same rules giv
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from sleec_runtime.certificate import FORMAT
+from sleec_runtime.manifest import FORMAT
 from sleec_verify import __version__
 from sleec_verify.finding import Refuted, Unknown
 from sleec_verify.report.json import VERDICTS, Json, finding_json
@@ -33,13 +32,14 @@ class Shown(NamedTuple):
 
     @property
     def evidence(self) -> str:
-        """``proof``; ``witnesses``; ``situations``, where what was looked for is nowhere because the opposite was found
-        each time; ``text`` where nothing was asked of a solver; ``none`` where the verdict is unknown."""
+        """``proof``; ``trivial`` where no question was left to refute, so that the formula is the empty clause and says
+        nothing; ``witnesses``; ``situations``, where what was looked for is nowhere because the opposite was found each
+        time; ``text`` where nothing was asked of a solver; ``none`` where the verdict is unknown."""
         verdict = self.result.verdict
         if isinstance(verdict, Unknown):
             return "none"
         if self.files:
-            return "proof"
+            return "proof" if self.refuted else "trivial"
         if isinstance(verdict, Refuted) and all(finding.witness for finding in verdict.findings):
             return "witnesses"
         return "situations" if self.models else "text"
@@ -52,7 +52,8 @@ def manifest(
     shown: Sequence[Shown],
     files: Mapping[str, str],
 ) -> dict[str, Json]:
-    """The manifest. `files` are the names of all other files with their SHA-256."""
+    """The manifest. `untimed` is None for rules that are not about traces: there, what is done triggers no rule.
+    `files` are the names of all other files with their SHA-256."""
     checks: list[Json] = [check_json(one, ruleset) for one in shown]
     return {
         "certificate": "sleec-verify",
@@ -67,6 +68,7 @@ def manifest(
         "reading": ruleset.reading,
         "domain": domain,
         "untimed": untimed,
+        "chains": untimed is not None,
         "checks": checks,
         "files": dict(files),
     }
@@ -93,16 +95,3 @@ def check_json(one: Shown, ruleset: Ruleset) -> dict[str, Json]:
             for finding in result.findings
         ],
     }
-
-
-def dumped(value: Mapping[str, Json]) -> str:
-    """The manifest as text: a line for each entry, and one for each check."""
-    rows = []
-    for key, entry in value.items():
-        if key == "checks":
-            assert isinstance(entry, list)
-            written = "[\n  " + ",\n  ".join(json.dumps(one) for one in entry) + "\n ]"
-        else:
-            written = json.dumps(entry)
-        rows.append(f" {json.dumps(key)}: {written}")
-    return "{\n" + ",\n".join(rows) + "\n}\n"

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.finding import Refuted
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from sleec_verify.finding import Verdict
 
 SHOWN_BY = {
-    "proof": "",
+    "trivial": "no question to refute, so the formula says nothing",
     "witnesses": "witnesses",
     "situations": "a situation for each, found again by --check",
     "text": "read off the text",
@@ -31,19 +31,18 @@ def told(
     form: str,
     ruleset: Ruleset,
     folder: str,
+    manifest: Mapping[str, Any],
     shown: Sequence[Shown],
     judge: Checker | None,
     tied: Sequence[Tied] = (),
 ) -> Iterator[str]:
-    """That a certificate was written, or (`judge`) that it holds, and how its verdicts are tied to the rules."""
+    """That a certificate that says `manifest` was written, or (`judge`) that it holds, and how its verdicts are tied to
+    the rules."""
     if form == "json":
-        yield dump(_json(ruleset, folder, shown, judge, tied))
+        yield dump(_json(ruleset, folder, manifest, shown, judge, tied))
         return
-    path = ruleset.source.path
-    if judge is None:
-        yield f"{folder}: a certificate of {path} (reading {ruleset.reading})\n"
-    else:
-        yield f"{folder}: the certificate holds of {path} (reading {ruleset.reading})\n"
+    made = "a certificate" if judge is None else "the certificate holds"
+    yield f"{folder}: {made} of {ruleset.source.path} ({_covered(manifest)})\n"
     widest = max(len(one.result.name) for one in shown)
     for one in shown:
         yield f"  {one.result.name:{widest}}  {VERDICTS[type(one.result.verdict)]:8}  {_shown_by(one)}\n"
@@ -56,6 +55,18 @@ def told(
     verdicts = {one.result.name: one.result.verdict for one in shown}
     for one_tied in tied:
         yield f"{_tied(one_tied, verdicts[one_tied.check])}\n"
+
+
+def _covered(manifest: Mapping[str, Any]) -> str:
+    """What a certificate is for."""
+    words = [f"reading {manifest['reading']}"]
+    domains = manifest["ruleset"]["domains"] if manifest["domain"] is None else [manifest["domain"]]
+    if domains:
+        words.append(f"each of the domains {', '.join(domains)}" if len(domains) > 1 else f"domain {domains[0]}")
+    if manifest["untimed"] is not None:
+        words.append(f"untimed {manifest['untimed']}")
+    words.append("with chains" if manifest["chains"] else "without chains")
+    return "; ".join(words)
 
 
 def _tied(tied: Tied, verdict: Verdict) -> str:
@@ -73,11 +84,17 @@ def _tied(tied: Tied, verdict: Verdict) -> str:
 def _shown_by(one: Shown) -> str:
     if one.evidence != "proof":
         return SHOWN_BY[one.evidence]
-    asked = f"{counted(one.refuted, 'question')} refuted" if one.refuted else "nothing is at odds that could be due"
-    return f"{asked}: {', '.join(one.files)}"
+    return f"{counted(one.refuted, 'question')} refuted: {', '.join(one.files)}"
 
 
-def _json(ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge: Checker | None, tied: Sequence[Tied]) -> Json:
+def _json(
+    ruleset: Ruleset,
+    folder: str,
+    manifest: Mapping[str, Any],
+    shown: Sequence[Shown],
+    judge: Checker | None,
+    tied: Sequence[Tied],
+) -> Json:
     checks: list[Json] = [
         {
             "name": one.result.name,
@@ -91,7 +108,7 @@ def _json(ruleset: Ruleset, folder: str, shown: Sequence[Shown], judge: Checker 
         "certificate": folder,
         "path": ruleset.source.path,
         "sha256": ruleset.source.sha256,
-        "reading": ruleset.reading,
+        **{key: manifest[key] for key in ("reading", "domain", "untimed", "chains")},
         **({} if judge is None else {"holds": True, "checker": {"name": judge.name, "proved": judge.proved}}),
         **({} if judge is None else {"theory": {t.check: {"proved": t.proved, "reason": t.reason} for t in tied}}),
         "checks": checks,

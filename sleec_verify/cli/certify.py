@@ -52,7 +52,6 @@ if TYPE_CHECKING:
 )
 @click.option("--force", is_flag=True, help="With -o: replace the certificate that is there.")
 @options.output_format("full", "json")
-@options.max_size
 @click.pass_context
 def command(
     context: click.Context,
@@ -77,11 +76,11 @@ def command(
     """
     if (output is None) == (checked is None):
         raise click.UsageError("say -o DIR to write a certificate, or --check DIR to have one checked")
-    _refuse_stray(context, ("public", "checker") if checked is None else ("private", "force", "untimed"))
+    _refuse_stray(context, ("public", "checker") if checked is None else ("private", "force"))
     if output is not None:
         return _write(path, output, reading, domain, untimed, fail_level, private, force, form)
     assert checked is not None
-    return _check(path, checked, reading, domain, fail_level, public, checker, form)
+    return _check(path, checked, reading, domain, untimed, fail_level, public, checker, form)
 
 
 def _refuse_stray(context: click.Context, names: tuple[str, ...]) -> None:
@@ -114,7 +113,7 @@ def _write(
     with Progress() as progress:
         made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path))
     save(made, output, private, force)
-    write(told(form, ruleset, output, made.shown, None))
+    write(told(form, ruleset, output, made.manifest, made.shown, None))
     return _exit_code(made.results, fail_level)
 
 
@@ -124,7 +123,7 @@ def save(made: Certificate, output: str, private: str | None = None, force: bool
     from sleec_verify.certificates.directory import write_folder
     from sleec_verify.certificates.signing import sign
 
-    files = [(name, text.encode()) for name, text in made.texts()]
+    files = list(made.contents())
     if private is not None:
         files.append((SIGNATURE, sign(dict(files)[MANIFEST], private)))
     write_folder(output, files, force)
@@ -135,11 +134,13 @@ def _check(
     checked: str,
     reading: Reading | None,
     domain: str | None,
+    untimed: Untimed,
     fail_level: Severity,
     public: str | None,
     checker: str | None,
     form: str,
 ) -> int:
+    from sleec_runtime.certificate import Use
     from sleec_runtime.errors import CertificateRefused
     from sleec_verify.certificates.checker import checker as chosen
     from sleec_verify.certificates.checking import check_certificate
@@ -156,8 +157,7 @@ def _check(
                 ruleset,
                 checked,
                 judge,
-                domain=domain,
-                reading=reading,
+                Use(reading or ruleset.reading, domain, untimed),
                 key=public,
                 oracle=built(),
                 progress=progress.on(ruleset.source.path),
@@ -170,7 +170,7 @@ def _check(
         return exits.UNUSABLE
     if public is None and confirmed.signed:
         note("the certificate is signed; whether by whom it should be, --key PUB tells")
-    write(told(form, confirmed.ruleset, checked, confirmed.shown, judge, confirmed.tied))
+    write(told(form, confirmed.ruleset, checked, confirmed.manifest.whole, confirmed.shown, judge, confirmed.tied))
     return _exit_code([one.result for one in confirmed.shown], fail_level)
 
 

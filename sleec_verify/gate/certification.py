@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from sleec_runtime.certificate import Use
 from sleec_runtime.errors import SleecError
 from sleec_runtime.model import Ruleset
+from sleec_verify.timed.scope import Untimed
 
 SUFFIX = ".certificate"
 
 
-def without_certificate(ruleset: Ruleset) -> str | None:
-    """Why a ruleset has no certificate that holds, or None if it has. Costs what ``certify --check`` does."""
+def without_certificate(ruleset: Ruleset, untimed: Untimed) -> str | None:
+    """Why a ruleset has no certificate that holds of it as it is checked: its whole text in its own reading, with
+    `untimed`. None if it has one. Costs what ``certify --check`` does."""
     from sleec_verify.certificates.checker import checker
     from sleec_verify.certificates.checking import check_certificate
     from sleec_verify.theory.oracle import built
@@ -21,7 +24,7 @@ def without_certificate(ruleset: Ruleset) -> str | None:
     if not folder.exists():
         return f"there is no {folder.name} beside it (sleec-verify certify {path.name} -o {folder.name})"
     try:
-        check_certificate(ruleset, str(folder), checker(None), oracle=built())
+        check_certificate(ruleset, str(folder), checker(None), Use(ruleset.reading, untimed=untimed), oracle=built())
     except SleecError as error:
         return f"{folder.name} is refused: {error.message}"
     return None

@@ -14,6 +14,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 from benchmarks.random_rules import random_rules
+from sleec_runtime.certificate import Use
 from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import Ruleset
 from sleec_verify.certificates.checker import IN_PYTHON, checker
@@ -25,6 +26,7 @@ from sleec_verify.checks import run_checks
 from sleec_verify.checks.conflict import CONFLICT
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Proved
+from sleec_verify.timed.scope import Untimed
 from tests.strategies import rulesets
 from tests.timed_strategies import timed_ruleset
 from tests.verify.small import small_rulesets
@@ -54,7 +56,7 @@ RULE g WHEN C THEN Hum UNLESS Asleep IN WHICH CASE Sing UNLESS Awake IN WHICH CA
 def written(ruleset: Ruleset, folder: Path, made: Certificate | None = None) -> dict[str, Any]:
     """The manifest of a ruleset's certificate, written to a folder."""
     made = made or certify(ruleset)
-    write_folder(str(folder), ((name, text.encode()) for name, text in made.texts()), force=True)
+    write_folder(str(folder), made.contents(), force=True)
     manifest: dict[str, Any] = json.loads((folder / "manifest.json").read_text())
     return manifest
 
@@ -99,14 +101,15 @@ def test_the_manifest(tmp_path: Path) -> None:
     ruleset = source(CONSTRAINED, tmp_path)
     manifest = written(ruleset, tmp_path / "c")
     assert manifest["certificate"] == "sleec-verify"
-    assert manifest["format"] == 1
+    assert manifest["format"] == 2
     assert manifest["ruleset"] == {
         "sha256": hashlib.sha256(CONSTRAINED.encode()).hexdigest(),
         "syntax": "english",
         "rules": 7,
         "domains": ["night", "day"],
     }
-    assert (manifest["reading"], manifest["domain"], manifest["untimed"]) == ("cascade", None, None)
+    assert (manifest["reading"], manifest["domain"]) == ("cascade", None)
+    assert (manifest["untimed"], manifest["chains"]) == (None, False)
     assert of(manifest, "conflict") == ("proved", "proof")
     assert manifest["checks"][0]["files"] == ["conflict.cnf", "conflict.lrat"]
     assert of(manifest, "dead-rule") == ("refuted", "proof")
@@ -123,7 +126,9 @@ def test_a_certificate_of_one_domain_and_of_another_reading(tmp_path: Path) -> N
     ruleset = source(CONSTRAINED, tmp_path).read_as("priority")
     manifest = written(ruleset, tmp_path / "c", certify(ruleset, "day"))
     assert (manifest["reading"], manifest["domain"]) == ("priority", "day")
-    confirmed = check_certificate(load(tmp_path / "rules.sleec"), str(tmp_path / "c"), IN_PYTHON, domain="day")
+    confirmed = check_certificate(
+        load(tmp_path / "rules.sleec"), str(tmp_path / "c"), IN_PYTHON, Use("priority", "day")
+    )
     assert confirmed.ruleset.reading == "priority"
 
 
@@ -149,8 +154,8 @@ def print_digests() -> None:
     """For another process."""
     texts = [CONSTRAINED, random_rules(60, names_per_rule=0.3), random_rules(40, seed=3, names_per_rule=0.1)]
     for ruleset in (*map(parse, texts), *map(timed_ruleset, (0, 1, 2, 4, 5, 6))):
-        for name, text in certify(ruleset).texts():
-            sys.stdout.write(f"{name} {hashlib.sha256(text.encode()).hexdigest()}\n")
+        for name, data in certify(ruleset).contents():
+            sys.stdout.write(f"{name} {hashlib.sha256(data).hexdigest()}\n")
 
 
 @pytest.mark.slow
@@ -186,12 +191,25 @@ def test_certificates_of_random_rulesets_hold(tmp_path: Path, ruleset: Ruleset) 
 @pytest.mark.parametrize("seed", sorted({*range(20)} - {3, 8, 9, 11}))  # these take long
 def test_certificates_of_rulesets_with_times_hold(tmp_path: Path, seed: int) -> None:
     ruleset = source(timed_ruleset(seed).source.text, tmp_path)
-    manifest = written(ruleset, tmp_path / "c", certify(ruleset, untimed="eventually" if seed % 2 else "at"))
-    assert manifest["untimed"] == ("eventually" if seed % 2 else "at")
-    check_certificate(ruleset, str(tmp_path / "c"), IN_PYTHON)
+    untimed: Untimed = "eventually" if seed % 2 else "at"
+    manifest = written(ruleset, tmp_path / "c", certify(ruleset, untimed=untimed))
+    assert (manifest["untimed"], manifest["chains"]) == (untimed, True)
+    check_certificate(ruleset, str(tmp_path / "c"), IN_PYTHON, Use(ruleset.reading, untimed=untimed))
     for check in manifest["checks"]:
         if (check["name"], check["verdict"]) in (("conflict", "proved"), ("vacuous-conflict", "refuted")):
-            assert check["evidence"] == "proof", check
+            assert check["evidence"] == ("proof" if check["refuted"] else "trivial"), check
+
+
+@given(small_rulesets(measures=True))
+@settings(max_examples=100, suppress_health_check=[HealthCheck.too_slow])
+def test_a_formula_without_questions_is_no_proof(ruleset: Ruleset) -> None:
+    """Evidence is a proof exactly if the formulas say more than the empty clause."""
+    made = certify(ruleset)
+    for one in made.shown:
+        formulas = [made.files[name] for name in one.files if name.endswith(".cnf")]
+        said = [line for text in formulas for line in text.splitlines() if not line.startswith("c ")]
+        assert (one.evidence == "trivial") == (said == ["p cnf 0 1", "0"])
+        assert (one.evidence == "proof") == (len(said) > 2)
 
 
 def test_all_that_is_proved_by_search_has_a_proof() -> None:
@@ -199,7 +217,7 @@ def test_all_that_is_proved_by_search_has_a_proof() -> None:
     for text in (CONSTRAINED, *(path.read_text(encoding="utf-8") for path in RULESETS)):
         for one in certify(parse(text)).shown:
             if one.result.name == "conflict" and isinstance(one.result.verdict, Proved):
-                assert one.evidence == "proof"
+                assert one.evidence == ("proof" if one.refuted else "trivial")
             unseen = [f for f in one.result.findings if f.witness is None and f.code in ("SLEEC201", "SLEEC202")]
             if unseen:
                 assert one.refuted >= len(unseen)

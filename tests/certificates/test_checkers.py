@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from sleec_verify.certificates import lrat
-from sleec_verify.certificates.checker import BUILT, checker
+from sleec_verify.certificates.checker import BUILT, IN_PYTHON, checker
 from sleec_verify.certificates.elaboration import NotFollowing
 from sleec_verify.certificates.recording import Asked
 from sleec_verify.certificates.refutation import Disjunction
@@ -216,7 +216,7 @@ def test_the_proved_checker_is_taken_where_it_is_built(monkeypatch: pytest.Monke
     monkeypatch.setattr("sleec_verify.certificates.checker.BUILT", built)
     assert checker().proved
     assert BUILT.name == built.name
-    assert checker().refuses(built, built) is None
+    assert checker().refuses(b"", b"") is None
 
 
 @pytest.mark.parametrize(
@@ -232,4 +232,31 @@ def test_only_a_clean_verdict_counts(script: str, reason: str, tmp_path: Path) -
     program = tmp_path / "program"
     program.write_text(f"#!/bin/sh\n{script}\n")
     program.chmod(0o755)
-    assert checker(str(program)).refuses(program, program) == reason
+    assert checker(str(program)).refuses(b"", b"") == reason
+
+
+@pytest.mark.parametrize("program", [None, "exec sleep 60"])
+def test_a_checker_has_so_much_time(program: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    judge = IN_PYTHON
+    if program is not None:
+        path = tmp_path / "program"
+        path.write_text(f"#!/bin/sh\n{program}\n")
+        path.chmod(0o755)
+        judge = checker(str(path))
+    monkeypatch.setattr("sleec_verify.certificates.checker.MOST_SECONDS", 0.0)
+    assert judge.refuses(FORMULA.encode(), PROOF.encode()) == "it was not judged within 0 s"
+
+
+def test_a_checker_judges_the_bytes_that_it_is_given(tmp_path: Path) -> None:
+    """Whatever becomes of the folder that they come from."""
+    program = tmp_path / "program"
+    program.write_text('#!/bin/sh\ncat "$1" "$2" > "$0.out"\necho VERIFIED\n')
+    program.chmod(0o755)
+    assert checker(str(program)).refuses(b"formula\n", b"proof\n") is None
+    assert (tmp_path / "program.out").read_bytes() == b"formula\nproof\n"
+
+
+def test_long_steps_are_judged_in_linear_time() -> None:
+    """A step of 2 MB, which a word at a time is nothing, and by comparing each with each would take hours."""
+    for proof in (f"5 2 0 {'1 ' * 1_000_000}0\n", f"5 {'2 ' * 1_000_000}0 1 2 0\n", f"5 d {'1 ' * 1_000_000}0\n"):
+        assert not in_python(FORMULA, proof)

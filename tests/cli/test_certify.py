@@ -46,7 +46,7 @@ def test_what_is_told(cli: Cli) -> None:
     out = cli("certify", "clean.sleec", "-o", "new/place", files=FILES).out
     assert "conflict            proved    1 question refuted: conflict.cnf, conflict.lrat\n" in out
     held = cli("certify", "--check", "new/place", "clean.sleec").out
-    assert held.startswith("new/place: the certificate holds of clean.sleec (reading cascade)\n")
+    assert held.startswith("new/place: the certificate holds of clean.sleec (reading cascade; without chains)\n")
     *_, judged, tied = held.splitlines()
     assert judged.startswith("proofs checked by ")
     assert tied.startswith("conflict: ")
@@ -198,7 +198,6 @@ def test_it_is_written_whole_or_not_at_all(cli: Cli, tmp_path: Path, monkeypatch
         (["clean.sleec", "-o", "a", "--checker", "k"], "--checker goes with --check only"),
         (["clean.sleec", "--check", "a", "--sign", "k"], "--sign goes with -o only"),
         (["clean.sleec", "--check", "a", "--force"], "--force goes with -o only"),
-        (["clean.sleec", "--check", "a", "--untimed", "at"], "--untimed goes with -o only"),
         (["clean.sleec", "--check", "a", "--checker", "nowhere"], "nowhere is not a program"),
         (["clean.sleec", "--check", "nowhere"], "nowhere is no certificate"),
         (["clean.sleec", "-o", "a", "--domain", "kitchen"], "no rule has a domain"),
@@ -210,7 +209,51 @@ def test_usage(cli: Cli, arguments: list[str], said: str) -> None:
     assert ran.code == (0 if "--domain" in arguments else 2)
 
 
-def test_a_certificate_checked_for_another_domain_or_reading(cli: Cli) -> None:
-    cli("certify", "clean.sleec", "-o", "a", files=FILES)
-    assert "not for priority" in cli("certify", "--check", "a", "clean.sleec", "--reading", "priority").err
-    assert "not for the domain day" in cli("certify", "--check", "a", "clean.sleec", "--domain", "day").err
+DOMAINS = "DOMAIN day\nRULE a WHEN A THEN X WITHIN 5 seconds\nDOMAIN night\nRULE b WHEN A THEN Y\n"
+
+
+def test_a_certificate_checked_for_another_use(cli: Cli) -> None:
+    def refused(*arguments: str) -> str:
+        ran = cli("certify", "--check", *arguments)
+        assert (ran.code, ran.out) == (2, "")
+        return ran.err
+
+    cli("certify", "clean.sleec", "-o", "a", files={**FILES, "domains.sleec": DOMAINS})
+    assert "not for priority" in refused("a", "clean.sleec", "--reading", "priority")
+    assert "not for the domain day" in refused("a", "clean.sleec", "--domain", "day")
+    assert cli("certify", "--check", "a", "clean.sleec", "--untimed", "eventually").code == 0
+    cli("certify", "domains.sleec", "-o", "b", "--domain", "day", "--reading", "priority", "--untimed", "eventually")
+    said = refused("b", "domains.sleec")
+    assert "the certificate is for the reading priority, not for cascade" in said
+    assert "the certificate is for the domain day, not for each of the domains day, night" in said
+    assert "the certificate is for --untimed eventually, not for at" in said
+    use = ["--domain", "day", "--reading", "priority", "--untimed", "eventually"]
+    assert cli("certify", "--check", "b", "domains.sleec", *use).code == 0
+    for missing in (0, 2, 4):
+        refused("b", "domains.sleec", *use[:missing], *use[missing + 2 :])
+
+
+def test_what_a_certificate_is_for_is_printed(cli: Cli) -> None:
+    def printed(file: str, *options: str) -> tuple[str, dict[str, object]]:
+        """The first line, without the names of files; and the same for programs. Both are said again by --check."""
+        head = cli("certify", file, "-o", "c", "--force", *options).out.split("\n")[0]
+        checked = cli("certify", "--check", "c", file, *options).out.split("\n")[0]
+        _, _, words = head.partition(" (")
+        assert checked.endswith(f" ({words}")
+        told = json.loads(cli("certify", "--check", "c", file, *options, "--format", "json").out)
+        return words.rstrip(")"), {key: told[key] for key in ("reading", "domain", "untimed", "chains")}
+
+    files = {**FILES, "domains.sleec": DOMAINS, "day.sleec": "DOMAIN day\nRULE a WHEN A THEN X\n"}
+    cli("check", "clean.sleec", files=files)
+    plain = {"reading": "cascade", "domain": None, "untimed": None, "chains": False}
+    timed = {"reading": "cascade", "domain": None, "untimed": "at", "chains": True}
+    assert printed("clean.sleec") == ("reading cascade; without chains", plain)
+    made = cli("certify", "clean.sleec", "-o", "c", "--force", "--domain", "day", "--format", "json")
+    assert json.loads(made.out)["domain"] is None
+    assert printed("day.sleec") == ("reading cascade; domain day; without chains", plain)
+    words = "reading cascade; each of the domains day, night; untimed at; with chains"
+    assert printed("domains.sleec") == (words, timed)
+    options = ("--domain", "night", "--reading", "priority", "--untimed", "eventually")
+    words = "reading priority; domain night; untimed eventually; with chains"
+    told = {"reading": "priority", "domain": "night", "untimed": "eventually", "chains": True}
+    assert printed("domains.sleec", *options) == (words, told)

@@ -110,7 +110,7 @@ def checked(folder: Path, rules: Path | str, oracle: Path | None) -> Confirmed:
     if isinstance(rules, str):
         path.write_text(rules, encoding="utf-8")
     ruleset = load(path)
-    write_folder(str(folder), ((name, text.encode()) for name, text in certify(ruleset).texts()), force=True)
+    write_folder(str(folder), certify(ruleset).contents(), force=True)
     return check_certificate(ruleset, str(folder), IN_PYTHON, oracle=oracle)
 
 
