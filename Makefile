@@ -13,7 +13,7 @@ INSTALL := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input i
 # Without build isolation, what builds contextpy3 from its source is locked, too.
 INSTALL_LOCKED := $(INSTALL) --require-hashes -r
 
-.PHONY: help setup demo test lint types check-tests coverage site long proofs theorems bench mutants lock clean
+.PHONY: help setup demo test lint types check-tests coverage site long proofs theorems bench mutants dist sbom lock clean
 
 help:
 	@echo 'make demo     check the shipped rulesets and ask one question of them'
@@ -25,6 +25,8 @@ help:
 	@echo 'make theorems writes the theorems about the shipped rulesets anew, after a change of them'
 	@echo 'make bench    the measurements of benchmarks/'
 	@echo 'make mutants  mutation testing of the core'
+	@echo 'make dist     both distributions of the last commit, in dist/'
+	@echo 'make sbom     both distributions, each with an SBOM'
 	@echo 'make lock     renew the locks from pyproject.toml'
 	@echo 'make clean    remove .venv and what tests and proofs leave behind'
 
@@ -108,12 +110,25 @@ mutants: $(TOOLS_LOCKED)
 	HYPOTHESIS_PROFILE=mutants $(BIN)/mutmut run
 	$(BIN)/mutmut results
 
+# The same bytes everywhere: of committed files only, with the time of the commit.
+DATED = SOURCE_DATE_EPOCH=$$(git log -1 --format=%ct)
+BUILD = $(abspath $(BIN))/python -m hatchling build -d $(CURDIR)/dist
+dist: $(INSTALLED)
+	@test -z "$$(git status --porcelain)" || { echo 'Commit first: a distribution is made of a commit'; exit 1; }
+	@rm -rf dist
+	@cd sleec_runtime && $(DATED) $(BUILD)
+	@$(DATED) $(BUILD)
+
+sbom: dist $(TOOLS_LOCKED)
+	@$(DATED) $(BIN)/python release/sbom.py dist
+
 # One version of each package, which every Python from the oldest on can install; the same one in all locks.
 COMPILE := $(BIN)/uv --no-config pip compile --quiet --upgrade --python $(BIN)/python --universal --python-version 3.10 \
   --fork-strategy fewest --generate-hashes --no-strip-extras --no-header --no-emit-package sleec-runtime
 lock: $(TOOLS_LOCKED)
 	$(COMPILE) pyproject.toml --all-extras --group dev -o requirements/dev.lock
 	$(COMPILE) pyproject.toml -c requirements/dev.lock -o requirements/verify.lock
+	$(COMPILE) sleec_runtime/pyproject.toml -c requirements/dev.lock -o requirements/runtime.lock
 	$(COMPILE) --group build -c requirements/dev.lock -o requirements/build.lock
 	$(COMPILE) --group docs -c requirements/dev.lock -o requirements/docs.lock
 	$(COMPILE) --group tools -c requirements/dev.lock -o requirements/tools.lock

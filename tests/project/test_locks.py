@@ -38,6 +38,7 @@ ASKED = {
     "build": GROUPS["build"],
     "dev": [*NEEDED, *EXTRAS, *GROUPS["build"], *GROUPS["dev"]],
     "docs": GROUPS["docs"],
+    "runtime": RUNTIME["project"]["dependencies"],
     "tools": GROUPS["tools"],
     "verify": NEEDED,
 }
