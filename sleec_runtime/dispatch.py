@@ -283,7 +283,7 @@ def refuse_misfit(label: str, function: Callable[..., Any], args: tuple[Any, ...
         ) from None
 
 
-def one_of(errors: Sequence[tuple[str, Exception]]) -> Exception:
+def one_of(errors: Sequence[tuple[str, BaseException]]) -> BaseException:
     """What one variant raised, as it raised it; of several, an error that holds them all."""
     if len(errors) == 1:
         return errors[0][1]

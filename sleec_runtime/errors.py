@@ -215,7 +215,7 @@ class NeedsAwait(SleecError):
 class VariantsFailed(SleecError):
     """Several variants of one dispatch raised. `errors` pairs the label of each rule with what its variant raised."""
 
-    def __init__(self, errors: Sequence[tuple[str, Exception]]) -> None:
+    def __init__(self, errors: Sequence[tuple[str, BaseException]]) -> None:
         super().__init__(listed([f"{label}: {represent(error)}" for label, error in errors], "; "))
         self.errors = tuple(errors)
 
@@ -231,6 +231,17 @@ class DeadlineMissed(SleecError):
         super().__init__(message)
         self.obligation = obligation
         self.until = until
+
+
+class StillRunning(SleecError):
+    """Code that the clock started has not returned within `seconds`, the limit of the clock."""
+
+    def __init__(self, seconds: float) -> None:
+        super().__init__(
+            f"its code has not returned after {seconds:g} seconds",
+            "mark what takes long with completes=False and return at once, or raise the limit of the clock",
+        )
+        self.seconds = seconds
 
 
 class NotEnforced(UserWarning):

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 DEFAULT_MAX_SIZE = 16 * 1024 * 1024
 """Bytes. The largest published ruleset has 12 kB, and one of 100,000 rules about 10 MB."""
 
+_CHUNK = 1024 * 1024
+
 _max_size: ContextVar[int] = ContextVar("max_size", default=DEFAULT_MAX_SIZE)
 
 
@@ -54,10 +56,23 @@ def read_stream(stream: BinaryIO) -> bytes:
         OSError: it cannot be read, or holds more than the limit.
     """
     limit = _max_size.get()
-    data = stream.read(limit + 1)
-    if len(data) > limit:
+    data = bytearray()
+    # `read(n)` reserves n bytes at once, which a large limit may not leave free.
+    while len(data) <= limit and (chunk := stream.read(min(_CHUNK, limit + 1 - len(data)))):
+        data += chunk
+    check_size(len(data))
+    return bytes(data)
+
+
+def check_size(size: int) -> None:
+    """Refuse a content of more bytes than the limit.
+
+    Raises:
+        OSError: with the limit.
+    """
+    limit = _max_size.get()
+    if size > limit:
         raise OSError(errno.EFBIG, f"it is larger than {_in_words(limit)} (raise the limit with --max-size)")
-    return data
 
 
 def _open_without_waiting(path: str, flags: int) -> int:

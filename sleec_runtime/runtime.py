@@ -280,13 +280,15 @@ class Sleec:
         return () if self._times is None else self._times.failures.kept()
 
     def tick(self) -> None:
-        """Starts and ends all that is due by now; for a clock that wakes nobody. Nothing is raised: see `failures`."""
+        """Starts and ends all that is due by now; for a clock that wakes nobody. What goes wrong is in `failures`, and
+        not raised, except a KeyboardInterrupt in the main thread."""
         if self._times is not None:
             self._times.tick()
 
     def close(self) -> None:
-        """Ends the watching of windows, and the thread that did it. What is pending stays so; a trigger that would
-        bring more of it raises SleecError. ``with sleec:`` does this at its end."""
+        """Ends the watching of windows, and the thread of the default clock. It waits for code that this clock runs, up
+        to the limit of the clock. What is pending stays so; a trigger that would bring more of it raises SleecError.
+        ``with sleec:`` does this at its end."""
         if self._times is not None:
             self._times.close()
         if self._own_clock is not None:

@@ -184,9 +184,11 @@ def _are_cases(path: Path) -> bool:
     """Whether a ``*.cases.toml`` is about rules: other tools have such files too."""
     if path.with_name(path.name.removesuffix(".cases.toml") + ".sleec").is_file():
         return True
+    from sleec_runtime.files import read_file
+
     toml = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
     try:
-        return "ruleset" in toml.loads(path.read_text(encoding="utf-8"))
+        return "ruleset" in toml.loads(read_file(path).decode())
     except (OSError, ValueError):
         return False
 

@@ -10,6 +10,7 @@ import stat
 from collections.abc import Callable, Collection, Sequence
 
 from sleec_runtime.errors import UnreadableFile
+from sleec_runtime.files import check_size
 from sleec_verify import git
 from sleec_verify.folders import SUFFIX, files_at, leads_below
 from sleec_verify.git import GitError
@@ -132,8 +133,17 @@ class Repository:
         return found
 
     def content(self, blob: str) -> bytes:
-        """The bytes of an object. Raises `GitError` where it is missing, as in a partial clone: nothing is fetched."""
-        done = git.run("cat-file", "blob", blob)
+        """The bytes of an object.
+
+        Raises:
+            GitError: it is missing, as in a partial clone: nothing is fetched.
+            OSError: it is larger than the limit.
+        """
+        check_size(int(self._cat("-s", blob)))
+        return self._cat("blob", blob)
+
+    def _cat(self, what: str, blob: str) -> bytes:
+        done = git.run("cat-file", what, blob)
         if done.returncode:
             raise GitError(
                 f"git cannot read the object {blob}: {git.complaint(done)}",

@@ -36,7 +36,10 @@ class Place(NamedTuple):
         """The text. Raises `UnreadableFile`."""
         if self.repository is None or self.blob is None:
             return read_source(self.name)
-        return source_of(self.name, self.repository.content(self.blob))
+        try:
+            return source_of(self.name, self.repository.content(self.blob))
+        except OSError as error:
+            raise UnreadableFile(f"{self.name} cannot be read: {error.strerror}") from None
 
 
 class Versions(NamedTuple):

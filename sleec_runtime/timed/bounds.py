@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import WrongType
+from sleec_runtime.timed.executor import Execute, execute_here
 from sleec_runtime.values import exact
 
 if TYPE_CHECKING:
@@ -30,10 +31,12 @@ def checked_time(time: object) -> Time:
 
 
 class CheckedClock:
-    """A clock of the user, whose times are checked: `now` raises WrongType for one that is out of bounds."""
+    """A clock of the user, whose times are checked: `now` raises WrongType for one that is out of bounds. `execute` is
+    that of the clock, if it has one."""
 
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
+        self.execute: Execute = getattr(clock, "execute", execute_here)
 
     def now(self) -> Time:
         return checked_time(self._clock.now())

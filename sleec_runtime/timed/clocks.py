@@ -10,15 +10,21 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
+from math import inf
 from typing import TYPE_CHECKING, Protocol, Union
 
 from sleec_runtime.errors import WrongType
 from sleec_runtime.timed.bounds import FURTHEST, checked_time
+from sleec_runtime.timed.executor import Executor
+from sleec_runtime.timed.failures import call_and_log
 from sleec_runtime.values import exact
 
 if TYPE_CHECKING:
     from asyncio import AbstractEventLoop
     from fractions import Fraction
+
+    from sleec_runtime.timed.executor import Report
 
 Time = Union[int, float, "Fraction"]
 """Seconds on some clock."""
@@ -27,7 +33,11 @@ Cancel = Callable[[], None]
 
 
 class Clock(Protocol):
-    """What the runtime asks of a clock, in any thread that uses the instance; `wake` under the instance's lock."""
+    """What the runtime asks of a clock, in any thread that uses the instance; `wake` under the instance's lock.
+
+    The calls that `wake` sets run code. A clock with a method `execute` (see `executor.Execute`) runs that code itself,
+    so that it holds up no other call.
+    """
 
     def now(self) -> Time:
         """The time, which never goes back."""
@@ -50,27 +60,28 @@ class _Alarms:
     """Calls to be made, by time."""
 
     def __init__(self) -> None:
-        self._calls: dict[object, tuple[Time, Callable[[], object]]] = {}
+        self._calls: dict[object, tuple[Time, Callable[[], object], bool]] = {}
 
-    def add(self, at: Time, call: Callable[[], object]) -> object:
+    def add(self, at: Time, call: Callable[[], object], lasts: bool = False) -> object:
+        """`lasts`: it is not cleared."""
         key = object()
-        self._calls[key] = at, call
+        self._calls[key] = at, call, lasts
         return key
 
     def drop(self, key: object) -> None:
         self._calls.pop(key, None)
 
     def clear(self) -> None:
-        self._calls.clear()
+        self._calls = {key: alarm for key, alarm in self._calls.items() if alarm[2]}
 
     def earliest(self) -> Time | None:
         # An instance has one alarm set at a time, so these are as many as share the clock.
-        return min((at for at, _ in self._calls.values()), default=None)
+        return min((at for at, _, _ in self._calls.values()), default=None)
 
     def take(self, until: Time) -> tuple[Time, Callable[[], object]] | None:
         """The earliest call that is not later than `until`, taken out."""
         key = min(self._calls, key=lambda key: self._calls[key][0], default=None)
-        return self._calls.pop(key) if key is not None and self._calls[key][0] <= until else None
+        return self._calls.pop(key)[:2] if key is not None and self._calls[key][0] <= until else None
 
 
 class VirtualClock:
@@ -131,22 +142,53 @@ def _nothing() -> None:
 
 class MonotonicClock:
     """The computer's monotonic clock, with a thread that wakes: it lives only while there is something to wait for, and
-    ends with the program."""
+    ends with the program.
 
-    def __init__(self) -> None:
+    That thread only watches. Code runs on other threads, in the order in which it is started: code that takes longer
+    than a tenth of a second holds up nothing that comes after it. Code that takes longer than `limit` seconds is
+    reported with StillRunning.
+    """
+
+    def __init__(self, limit: float = 5) -> None:
+        number = exact(limit)
+        if number is None or number <= 0:
+            raise WrongType("limit", limit, "a number of seconds above 0")
+        self._limit = float(number)
         self._changed = threading.Condition()
         self._alarms = _Alarms()
         self._thread: threading.Thread | None = None
+        self._executor = Executor(partial(self._wake, lasts=True), self._limit)
 
     def now(self) -> Time:
         return time.monotonic()
 
     def wake(self, at: Time, call: Callable[[], object]) -> Cancel:
+        return self._wake(at, call)
+
+    def execute(self, call: Callable[[], object], report: Report) -> None:
+        self._executor.execute(call, report)
+
+    def close(self) -> None:
+        """Calls all off, and waits up to `limit` seconds for code that runs; does not wait if such code, or the clock,
+        calls it."""
         with self._changed:
-            key = self._alarms.add(at, call)
+            self._alarms.clear()
+            self._changed.notify()
+            thread = self._thread
+        if thread is not None and thread is not threading.current_thread() and not self._executor.runs_this_thread():
+            thread.join(self._limit)
+
+    def _wake(self, at: Time, call: Callable[[], object], lasts: bool = False) -> Cancel:
+        try:
+            seconds = float(at)
+        except OverflowError:
+            seconds = inf
+        with self._changed:
             if self._thread is None:
-                self._thread = threading.Thread(target=self._watch, name="sleec clock", daemon=True)
-                self._thread.start()
+                thread = threading.Thread(target=self._watch, name="sleec clock", daemon=True)
+                thread.start()
+                self._thread = thread
+            key = self._alarms.add(seconds, call, lasts)
             self._changed.notify()
 
         def cancel() -> None:
@@ -156,27 +198,20 @@ class MonotonicClock:
 
         return cancel
 
-    def close(self) -> None:
-        """Calls all off, and waits until the thread has ended; within a call that the clock makes, it does not wait."""
-        with self._changed:
-            self._alarms.clear()
-            self._changed.notify()
-            thread = self._thread
-        if thread is not None and thread is not threading.current_thread():
-            thread.join()
-
     def _watch(self) -> None:
-        while True:
-            with self._changed:
-                alarm = self._alarms.take(self.now())
-                while alarm is None:
-                    earliest = self._alarms.earliest()
-                    if earliest is None:
-                        self._thread = None
-                        return
-                    self._changed.wait(min(max(float(earliest - self.now()), 0), threading.TIMEOUT_MAX))
-                    alarm = self._alarms.take(self.now())
-            alarm[1]()
+        while (call := self._next()) is not None:
+            call_and_log(call)
+
+    def _next(self) -> Callable[[], object] | None:
+        """Waits for the next alarm; None if there is none."""
+        with self._changed:
+            while (earliest := self._alarms.earliest()) is not None:
+                alarm = self._alarms.take(time.monotonic())
+                if alarm is not None:
+                    return alarm[1]
+                self._changed.wait(min(max(float(earliest) - time.monotonic(), 0), threading.TIMEOUT_MAX))
+            self._thread = None
+            return None
 
 
 class AsyncioClock:

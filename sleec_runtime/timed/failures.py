@@ -1,7 +1,8 @@
-"""What went wrong while nobody was calling: told, and kept."""
+"""What went wrong while nobody was calling: reported, and kept."""
 
 from __future__ import annotations
 
+import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,50 +12,71 @@ from sleec_runtime.messages import listed, text_of
 
 if TYPE_CHECKING:
     from sleec_runtime.timed.clocks import Time
+    from sleec_runtime.timed.executor import Execute
 
 KEPT = 1_000
 
 
 @dataclass(frozen=True)
 class Failure:
-    """What `rule` asked for failed at `time`: `error` is what a callable raised that the clock had started, why the
-    clock could not start it, or a DeadlineMissed. `obligations` are those concerned."""
+    """What `rule` asked for failed at `time`. `error` is what a callable raised that the clock had started, a
+    StillRunning if it does not return, why the clock could not start it, or a DeadlineMissed. `obligations` are those
+    concerned."""
 
     time: Time
     rule: str
     obligations: tuple[str, ...]
-    error: Exception
+    error: BaseException
 
     def __str__(self) -> str:
-        from sleec_runtime.timed.words import time_in_words
-
-        return f"at {time_in_words(self.time)}, {listed(self.obligations)} ({self.rule}): {text_of(self.error)}"
+        error = text_of(self.error) or type(self.error).__name__
+        return f"{listed(self.obligations)} ({self.rule}): {error}"
 
 
 class Failures:
-    """The last thousand failures. Each is told to `on_error`, or, without it, to the log ``sleec_runtime``; and what
-    `on_error` raises, too."""
+    """The last thousand failures. Each is given to `on_error`, by `execute`, or, without it, to the log
+    ``sleec_runtime``. The log also has what goes wrong with `on_error`."""
 
-    def __init__(self, on_error: Callable[[Failure], object] | None) -> None:
+    def __init__(self, on_error: Callable[[Failure], object] | None, execute: Execute) -> None:
         self._on_error = on_error
+        self._execute = execute
         self._kept: deque[Failure] = deque(maxlen=KEPT)
 
     def __call__(self, failure: Failure) -> None:
         self._kept.append(failure)
+        self._execute(lambda: self._tell(failure), lambda error: log_error("on_error: %s", error))
+
+    def _tell(self, failure: Failure) -> None:
         if self._on_error is None:
-            _log("%s", failure)
+            log_error("%s", failure, failure.error)
             return
         try:
             self._on_error(failure)
-        except Exception:  # noqa: BLE001 - the clock must go on
-            _log("on_error failed at: %s", failure, with_traceback=True)
+        except BaseException as error:  # noqa: BLE001 - the clock must go on
+            log_error("on_error failed at: %s", failure, error)
+            raise_interrupt(error)
 
     def kept(self) -> tuple[Failure, ...]:
         """The oldest first."""
         return tuple(self._kept)
 
 
-def _log(message: str, failure: Failure, with_traceback: bool = False) -> None:
+def raise_interrupt(error: BaseException) -> None:
+    """Raises `error` if it is what Ctrl-C raises, where Ctrl-C raises it: a program must be able to end."""
+    if isinstance(error, KeyboardInterrupt) and threading.current_thread() is threading.main_thread():
+        raise error
+
+
+def call_and_log(call: Callable[[], object]) -> None:
+    """Calls `call`, for a thread that must go on: what it raises is logged."""
+    try:
+        call()
+    except BaseException as error:  # noqa: BLE001 - the thread must go on
+        log_error("a call by the clock failed: %s", repr(error), error)
+
+
+def log_error(message: str, about: object, error: BaseException | None = None) -> None:
+    """Logs `message` about something, with the traceback of `error`."""
     from logging import getLogger
 
-    getLogger("sleec_runtime").error(message, failure, exc_info=True if with_traceback else failure.error)
+    getLogger("sleec_runtime").error(message, about, exc_info=error)

@@ -27,7 +27,7 @@ from sleec_runtime.timed.stages import Moment, Stage, called_by, in_place_of, wi
 from sleec_runtime.timed.starts import Starts
 from sleec_runtime.timed.tasks import Task
 from sleec_runtime.timed.units import Unit
-from sleec_runtime.timed.words import prohibitions_in_words, time_in_words
+from sleec_runtime.timed.words import prohibitions_in_words
 
 if TYPE_CHECKING:
     from sleec_runtime.instance import Instance
@@ -50,11 +50,11 @@ class Timekeeper:
         on_error: Callable[[Failure], object] | None,
     ) -> None:
         self.clock = CheckedClock(clock)
-        self.failures = Failures(on_error)
+        self.failures = Failures(on_error, self.clock.execute)
         self._state = state
         self._chains = chains
         self._ledger = Ledger(self.clock, self.tick)
-        self._starts = Starts(self, self._ledger, self.failures)
+        self._starts = Starts(self, self._ledger, self.failures, self.clock.execute)
 
     # Triggers -------------------------------------------------------------------------------------------------
 
@@ -276,5 +276,5 @@ class Timekeeper:
 
 
 def _done_though_forbidden(name: str, prohibitions: Sequence[Task], now: Time) -> Prohibited:
-    message = f"{name} was done at {time_in_words(now)}, and {prohibitions_in_words(prohibitions)}"
+    message = f"{name} was done, and {prohibitions_in_words(prohibitions, now)}"
     return prohibited(message, name, prohibitions, "it was begun before that")

@@ -71,7 +71,9 @@ class Pending:
         return hash(self._task)
 
     def __str__(self) -> str:
-        return f"{self._task.literal} ({self.rule}): {self.state}, {window_in_words(self._task)}"
+        now = self._keeper.clock.now()
+        window = f", {window_in_words(self._task, now)}" if self._task.is_open_at(now) else ""
+        return f"{self._task.literal} ({self.rule}): {self._task.state_at(now)}{window}"
 
     def __repr__(self) -> str:
         return f"<Pending {self}>"

@@ -33,7 +33,7 @@ def refuse(
     for name in (*(() if settled else events), *(task.name for task in starting)):
         forbidden = agenda.prohibitions(name, now)
         if forbidden:
-            raise prohibited(f"{name} is due, and {prohibitions_in_words(forbidden)}", name, forbidden)
+            raise prohibited(f"{name} is due, and {prohibitions_in_words(forbidden, now)}", name, forbidden)
     _refuse_what_stays_forbidden(stages, agenda, now)
     in_force = tuple(
         Decision(task.origin.rule, task.origin.decision.clause, (task.literal,), ()) for task in agenda.forbidden(now)
@@ -77,8 +77,8 @@ def _refuse_if_forbidden(task: Task, prohibitions: Iterable[Task], now: Time) ->
     for other in prohibitions:
         if other.name == task.name and other.covers_all(max(task.first, now), task.last):
             raise prohibited(
-                f"{task.name} is due {window_in_words(task)} ({task.origin.rule.label}), and "
-                f"{prohibitions_in_words([other])}",
+                f"{task.name} is due ({task.origin.rule.label}, {window_in_words(task, now)}), and "
+                f"{prohibitions_in_words([other], now)}",
                 task.name,
                 [other],
             )

@@ -59,7 +59,7 @@ class Run:
     """
 
     def __init__(self, keeper: Timekeeper, stages: Sequence[Stage], now: Time) -> None:
-        self.errors: list[tuple[str, Exception]] = []
+        self.errors: list[tuple[str, BaseException]] = []
         self.fulfilled: list[tuple[str, Obligation]] = []
         self._keeper = keeper
         self._now = now
@@ -86,31 +86,55 @@ class Run:
                 if unit.at <= self._now:
                     yield unit
 
-    def go(self) -> None:
-        """Runs all units."""
-        for unit in self.units():
-            variant = self._begin(unit)
-            (result,), errors = run_all((variant,), unit.origin.args, dict(unit.origin.kwargs))
-            error = errors[0][1] if errors else None
-            if type(result) is CoroutineType or type(result) is Unfinished:
-                result.close()
-                error = NeedsAwait(
-                    f"a variant of {unit.origin.rule.label} returned a coroutine",
-                    "await trigger_async(…) instead; what the clock starts needs an AsyncioClock",
-                )
-            self.ended(unit, variant, result, error)
+    def go(self, unattended: bool = False) -> None:
+        """Runs all units. An exception that is no `Exception`, such as SystemExit, interrupts this; if it is
+        `unattended`, it is kept like the others."""
+        try:
+            for unit in self.units():
+                variant = self._begin(unit)
+                result: object = None
+                error: BaseException | None = None
+                try:
+                    (result,), errors = run_all((variant,), unit.origin.args, dict(unit.origin.kwargs))
+                    error = errors[0][1] if errors else None
+                except BaseException as raised:
+                    if not unattended:
+                        raise
+                    error = raised
+                if type(result) is CoroutineType or type(result) is Unfinished:
+                    result.close()
+                    error = NeedsAwait(
+                        f"a variant of {unit.origin.rule.label} returned a coroutine",
+                        "await trigger_async(…) instead; what the clock starts needs an AsyncioClock",
+                    )
+                self.ended(unit, variant, result, error)
+        except BaseException:
+            self._abandon()
+            raise
 
-    async def go_async(self) -> None:
-        """Runs all units, awaiting those that are coroutines."""
-        for unit in self.units():
-            variant = self._begin(unit)
-            result: object = None
-            error = None
-            try:
-                result = await await_under(variant, unit.origin.args, dict(unit.origin.kwargs))
-            except Exception as raised:  # noqa: BLE001 - kept with the others
-                error = raised
-            self.ended(unit, variant, result, error)
+    async def go_async(self, unattended: bool = False) -> None:
+        """Runs all units as `go` does, awaiting those that are coroutines. What cancels a coroutine interrupts this."""
+        try:
+            for unit in self.units():
+                variant = self._begin(unit)
+                result: object = None
+                error: BaseException | None = None
+                try:
+                    result = await await_under(variant, unit.origin.args, dict(unit.origin.kwargs))
+                except (Exception, SystemExit, KeyboardInterrupt) as raised:
+                    if not unattended and not isinstance(raised, Exception):
+                        raise
+                    error = raised
+                self.ended(unit, variant, result, error)
+        except BaseException:
+            self._abandon()
+            raise
+
+    def _abandon(self) -> None:
+        """It is interrupted: what the rest would be called for by does not happen."""
+        for stage in self._stages:
+            if stage.event is not None and stage.event not in self._happened:
+                self._keeper.withdraw(stage.tasks)
 
     def _begin(self, unit: Unit) -> Variant:
         tasks = self._keeper.begin(unit)
@@ -127,7 +151,7 @@ class Run:
         self._happened.add(task.name)
         self.errors += [(task.origin.rule.label, error) for error in self._keeper.happened(task.name, task)]
 
-    def ended(self, unit: Unit, variant: Variant, result: object, error: Exception | None) -> None:
+    def ended(self, unit: Unit, variant: Variant, result: object, error: BaseException | None) -> None:
         """A unit has run. What it left undone, because it raised, may have something in its place."""
         self._variants.append(variant)
         self._results.append(result)

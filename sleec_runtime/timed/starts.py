@@ -10,15 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.errors import DeadlineMissed, Prohibited
 from sleec_runtime.timed.agenda import CLOSES
-from sleec_runtime.timed.failures import Failure, Failures
+from sleec_runtime.timed.failures import Failure, Failures, raise_interrupt
 from sleec_runtime.timed.instants import Instant
 from sleec_runtime.timed.stages import Stage, in_place_of, opened
-from sleec_runtime.timed.words import time_in_words
+from sleec_runtime.timed.words import duration_in_words
 
 if TYPE_CHECKING:
     from asyncio import AbstractEventLoop
 
     from sleec_runtime.timed.clocks import Time
+    from sleec_runtime.timed.executor import Execute
     from sleec_runtime.timed.keeper import Timekeeper
     from sleec_runtime.timed.ledger import Ledger
     from sleec_runtime.timed.run import Run
@@ -27,25 +28,32 @@ if TYPE_CHECKING:
 
 
 class Starts:
-    """Starts what opens, and what is due because something closes undone. Nothing that goes wrong is raised: all of it
-    is told to `failures`."""
+    """Starts, by `execute`, what opens, and what is due because something closes undone. What goes wrong is reported to
+    `failures`, and not raised: only a KeyboardInterrupt in the main thread is both."""
 
-    def __init__(self, keeper: Timekeeper, ledger: Ledger, failures: Failures) -> None:
+    def __init__(self, keeper: Timekeeper, ledger: Ledger, failures: Failures, execute: Execute) -> None:
         self._keeper = keeper
         self._ledger = ledger
         self._failures = failures
+        self._execute = execute
         self._instant = Instant(ledger.clock.now())
         self._running: set[object] = set()
 
     def tick(self) -> None:
         """Starts and ends all that is due by now."""
+        interrupt = None
         while True:
             with self._ledger.lock:
                 next_one = self._ledger.next_call()
             if next_one is None:
-                return
+                break
             at, call = next_one
-            call(at)
+            try:
+                call(at)
+            except KeyboardInterrupt as error:
+                interrupt = error
+        if interrupt is not None:
+            raise interrupt
 
     def open(self, unit: Unit, at: Time) -> None:
         """Its window opens."""
@@ -66,14 +74,9 @@ class Starts:
         if alternatives is None:
             label = task.origin.rule.label
             assert task.last is not None, "what has no end does not close"
-            self._fail(
-                (task,),
-                DeadlineMissed(
-                    f"{task.name} was to be done by {time_in_words(task.last)} ({label}), and was not",
-                    task.name,
-                    task.last,
-                ),
-            )
+            length = duration_in_words(task.last - task.origin.moment)
+            message = f"{task.name} was not done within {length} of the trigger of rule {label}"
+            self._fail((task,), DeadlineMissed(message, task.name, task.last))
         elif alternatives:
             self._start(in_place_of(task, alternatives, snapshot), alternatives, at)
 
@@ -113,8 +116,7 @@ class Starts:
         if loop is not None and run.asynchronous:
             self._spawn(loop, self._finish(run, stage))
         else:
-            run.go()
-            self._report(run, stage)
+            self._execute(partial(self._go, run, stage), partial(self._fail, stage.tasks))
 
     def _admit_when_allowed(self, stage: Stage, instant: Instant, in_loop: bool) -> Run | None:
         moment = self._keeper.moment()
@@ -138,9 +140,23 @@ class Starts:
             instant.note(stages, moment.now)
             return None
 
+    def _go(self, run: Run, stage: Stage) -> None:
+        try:
+            run.go(unattended=True)
+        except BaseException as error:
+            self._fail(stage.tasks, error)
+            raise
+        finally:
+            self._report(run, stage)
+
     async def _finish(self, run: Run, stage: Stage) -> None:
-        await run.go_async()
-        self._report(run, stage)
+        try:
+            await run.go_async(unattended=True)
+        except BaseException as error:
+            self._fail(stage.tasks, error)
+            raise
+        finally:
+            self._report(run, stage)
 
     def _spawn(self, loop: AbstractEventLoop, work: Coroutine[Any, Any, None]) -> None:
         task = loop.create_task(work)
@@ -151,6 +167,8 @@ class Starts:
     def _report(self, run: Run, stage: Stage) -> None:
         for label, error in run.errors:
             self._failures(Failure(self._ledger.clock.now(), label, tuple(task.name for task in stage.tasks), error))
+        for _, error in run.errors:
+            raise_interrupt(error)
 
     def _give_up(self, tasks: Sequence[Task], error: Exception, at: Time) -> None:
         """What was to be started now is not. What has a window stays due until that closes."""
@@ -166,7 +184,7 @@ class Starts:
             if alternatives:
                 self._start(in_place_of(task, alternatives, snapshot), alternatives, at)
 
-    def _fail(self, tasks: Sequence[Task], error: Exception) -> None:
+    def _fail(self, tasks: Sequence[Task], error: BaseException) -> None:
         label = tasks[0].origin.rule.label
         self._failures(Failure(self._ledger.clock.now(), label, tuple(task.name for task in tasks), error))
 

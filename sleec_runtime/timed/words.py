@@ -1,11 +1,10 @@
-"""Times, windows and prohibitions in words."""
+"""Windows and prohibitions in words, by the time that is left. The readings of a clock mean nothing to people."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from sleec_runtime.language.formula_printer import print_number
 from sleec_runtime.messages import listed
 
 if TYPE_CHECKING:
@@ -13,23 +12,33 @@ if TYPE_CHECKING:
     from sleec_runtime.timed.tasks import Task
 
 
-def time_in_words(time: Time) -> str:
-    """A time as people read it: exact, but for floats, which are rounded to milliseconds."""
-    return f"{time:.3f}".rstrip("0").rstrip(".") if isinstance(time, float) else print_number(time)
+def duration_in_words(length: Time, more: str = "") -> str:
+    """A length of time, as "3.2 seconds", to the millisecond. `more` goes before the unit, as in "3.2 more seconds"."""
+    number = f"{max(float(length), 0.001):,.3f}".rstrip("0").rstrip(".")
+    return f"{number} {more}second{'' if number == '1' else 's'}"
 
 
-def window_in_words(task: Task) -> str:
-    """From when until when, on the clock."""
-    start = f"from {time_in_words(task.first)}"
-    return f"{start} on" if task.last is None else f"{start} to {time_in_words(task.last)}"
+def window_in_words(task: Task, now: Time) -> str:
+    """When the window of `task` opens and closes, as seen at `now`."""
+    opens = f"opens in {duration_in_words(task.first - now)}, " if now < task.first else ""
+    if task.last is None:
+        return f"{opens}never closes"
+    if task.last <= now:
+        return f"closed {duration_in_words(now - task.last)} ago" if task.last < now else f"{opens}closes now"
+    return f"{opens}closes in {duration_in_words(task.last - now)}"
 
 
-def prohibitions_in_words(prohibitions: Iterable[Task]) -> str:
-    """Which rules forbid it, until when."""
-    return listed([f"{task.origin.rule.label} forbids it {_until(task)}" for task in prohibitions], " and ")
+def prohibitions_in_words(prohibitions: Iterable[Task], now: Time) -> str:
+    """Which rules forbid it, and for how long from `now` on."""
+    return listed([f"{task.origin.rule.label} forbids it {_for_how_long(task, now)}" for task in prohibitions], " and ")
 
 
-def _until(task: Task) -> str:
-    if task.at_once:
-        return "then"
-    return "for good" if task.last is None else f"until {time_in_words(task.last)}"
+def _for_how_long(task: Task, now: Time) -> str:
+    if now < task.first:
+        later = f"{duration_in_words(task.first - now)} from now"
+        if task.last is None:
+            return f"for good, {later}"
+        return later if task.at_once else f"for {duration_in_words(task.last - task.first)}, {later}"
+    if task.at_once or task.last == now:
+        return "at this moment"
+    return "for good" if task.last is None else f"for {duration_in_words(task.last - now, 'more ')}"

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 @options.output_format("toml", "json")
 @click.option("-o", "--output", metavar="FILE", type=options.PATH, help="Write to this file instead; it must be new.")
 @click.option("--force", is_flag=True, help="With -o: replace the file.")
+@options.max_size
 def command(
     path: str,
     criterion: str,

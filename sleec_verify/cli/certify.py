@@ -52,6 +52,7 @@ if TYPE_CHECKING:
 )
 @click.option("--force", is_flag=True, help="With -o: replace the certificate that is there.")
 @options.output_format("full", "json")
+@options.max_size
 @click.pass_context
 def command(
     context: click.Context,

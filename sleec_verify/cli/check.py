@@ -48,6 +48,7 @@ if TYPE_CHECKING:
 )
 @options.no_cache
 @click.option("--watch", "watched", is_flag=True, help="Check again whenever a file changes, until Ctrl-C.")
+@options.max_size
 def command(
     paths: tuple[str, ...],
     reading: Reading | None,

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 @click.option("--to", "form", type=click.Choice(FORMS), required=True, help="What to write.")
 @options.domain
 @options.reading
+@options.max_size
 def command(path: str, form: str, domain: str | None, reading: Reading | None) -> int:
     """Compile the rules in FILE (- for standard input) into classical logic.
 

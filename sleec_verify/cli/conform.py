@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 @options.fail_level
 @options.output_format(*FORMATS)
 @options.output
+@options.max_size
 def command(
     target: str,
     path: str,

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     help="The reading of the result; hedges are rewritten where it changes. The DSL has only priority.",
 )
 @click.option("--domain", metavar="NAME", help="Only the rules of this domain, which then apply everywhere.")
+@options.max_size
 def command(path: str, to: Target, reading: Reading | None, domain: str | None) -> int:
     """Write the rules in FILE (- for standard input) in another language or for another reading.
 

@@ -69,6 +69,7 @@ _READINGS = click.Choice(("cascade", "priority"))
     "new; or never for what changes. An assertion that does not hold is always 1.",
 )
 @options.output_format("full", "concise", "json")
+@options.max_size
 def command(
     paths: tuple[str, ...],
     revision: str | None,
@@ -130,7 +131,8 @@ def _versions(paths: Sequence[str], revision: str | None) -> tuple[list[Versions
             raise click.UsageError(
                 "two files or two folders are compared: name the old and the new one, or say --git REV"
             )
-        return of_paths(*paths, note_link), (paths[0], paths[1])
+        old_path, new_path = paths
+        return of_paths(old_path, new_path, note_link), (old_path, new_path)
     repository = Repository(note_link)
     old, new = repository.range(revision)
     return with_renames(repository.versions(old, new, paths or (".",)))[0], (old[0], new[0])

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 @options.reading
 @options.untimed
 @options.output_format("full", "concise", "json")
+@options.max_size
 def command(
     path: str,
     when: tuple[str, ...],

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 @options.domain
 @options.reading
 @options.untimed
+@options.max_size
 def command(
     path: str,
     when: tuple[str, ...],

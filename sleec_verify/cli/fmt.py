@@ -26,6 +26,7 @@ from sleec_verify.report.outcome import Unusable, counted
 @click.option("--write", "mode", flag_value="write", help="Change the files in place.")
 @click.option("--check", "mode", flag_value="check", help="Change nothing; exit with 1 if --write would.")
 @click.option("--diff", "mode", flag_value="diff", help="Change nothing; show what --write would; exit as --check.")
+@options.max_size
 def command(paths: tuple[str, ...], mode: str | None) -> int:
     """Print the rules in FILE in their usual layout: files, folders, or - for standard input.
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from sleec_runtime.errors import SleecError
+from sleec_runtime.files import read_file
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.output import complain, note_link, write
 from sleec_verify.report import FORMATS
@@ -59,6 +60,7 @@ STEP_SUMMARY = "GITHUB_STEP_SUMMARY"
 @options.output_format(*FORMATS)
 @options.output
 @options.no_cache
+@options.max_size
 def command(
     paths: tuple[str, ...],
     base: str | None,
@@ -192,11 +194,10 @@ def _check_files(output: str | None, summary: str | None) -> None:
     for path in (output, summary):
         if path is not None:
             require_writable(path, ())
-    if summary is None or not os.path.lexists(summary):
+    if summary is None or not os.path.isfile(summary):
         return
     try:
-        with open(summary, encoding="utf-8", errors="replace") as file:
-            ours = file.read(len(MARK)) == MARK
+        ours = read_file(summary).startswith(MARK.encode())
     except OSError as error:
         raise SleecError(f"{summary} cannot be read: {error.strerror}") from None
     if not ours:

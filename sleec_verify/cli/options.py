@@ -7,6 +7,8 @@ from typing import Any, TypeVar
 
 import click
 
+from sleec_runtime.files import DEFAULT_MAX_SIZE, size_limit
+from sleec_verify.cli.sizes import size_in_bytes
 from sleec_verify.finding import SEVERITIES
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
@@ -51,6 +53,25 @@ given = click.option(
 )
 
 
+def _limit(context: click.Context, parameter: click.Parameter, written: str) -> None:
+    del parameter
+    try:
+        size = size_in_bytes(written)
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
+    # The root context is closed even where a later option is refused.
+    context.find_root().with_resource(size_limit(size))
+
+
+max_size = click.option(
+    "--max-size",
+    metavar="SIZE",
+    default=f"{DEFAULT_MAX_SIZE // 2**20}MiB",
+    show_default=True,
+    callback=_limit,
+    expose_value=False,
+    help="Refuse to read a file that is larger than this, as in 200kB, 16MiB or 1000000.",
+)
 fail_level = click.option(
     "--fail-level",
     type=click.Choice(SEVERITIES),

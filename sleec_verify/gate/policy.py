@@ -12,6 +12,7 @@ from sleec_verify.compare import by_obligation
 from sleec_verify.finding import SEVERITIES, ClauseRef, Finding, Unknown
 from sleec_verify.gate.config import Policy
 from sleec_verify.gate.result import Block, Conformed, Examined, Gated
+from sleec_verify.report.told import told_once
 from sleec_verify.report.words import in_short, listed
 
 if TYPE_CHECKING:
@@ -60,9 +61,9 @@ def _on_ruleset(one: Examined, policy: Policy) -> Iterator[Block]:
         yield _block("suppressions", one.path, what, problem.span)
     if policy.unused_suppressions:
         for unused in one.unused:
-            what = f"line {one.line(unused.span)} allows {listed(unused.allowed)}, and there is no such finding"
+            what = f"line {one.line(unused.span)} allows {unused.allowed}, and there is no such finding"
             yield _block("unused-suppressions", one.path, what, unused.span)
-    for finding in one.findings:
+    for finding in told_once(one.findings):
         if _grave(finding, policy):
             yield _finding(one.path, finding)
         elif policy.dead_hedges and finding.code == DEAD_HEDGE:

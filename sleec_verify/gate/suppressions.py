@@ -19,9 +19,10 @@ _EXAMPLE = "write: # sleec: allow SLEEC202 because the sensor comes next year"
 
 
 class Suppression(NamedTuple):
-    """What is allowed (codes, or checks) in the lines from `first` to `last`, and why. `span` is the comment."""
+    """What is allowed (a code, or a check) in the lines from `first` to `last`, and why. `span` is the comment, which
+    may list several codes: each is a suppression of its own."""
 
-    allowed: tuple[str, ...]
+    allowed: str
     reason: str
     first: int
     last: int
@@ -29,9 +30,7 @@ class Suppression(NamedTuple):
 
     def covers(self, ruleset: Ruleset, finding: Finding) -> bool:
         """Whether a finding is what is allowed here: one of its places in the rules lies in these lines."""
-        if finding.code not in self.allowed and finding.check not in self.allowed:
-            return False
-        if finding.source is not None:
+        if self.allowed not in (finding.code, finding.check) or finding.source is not None:
             return False
         places = map(ruleset.source.place, (finding.span, *(span for span, _ in finding.related)))
         return any(place.line <= self.last and place.end_line >= self.first for place in places)
@@ -58,8 +57,8 @@ def suppressions(ruleset: Ruleset, known: Collection[str]) -> tuple[list[Suppres
                 assert said is not None
                 alone = not line[: mark.start()].strip()
                 first, last = _lines_below(lines, number, extents) if alone else (number, number)
-                allowed = tuple(name.strip() for name in said.group(1).split(","))
-                found.append(Suppression(allowed, said.group(2), first, last, span))
+                allowed = (name.strip() for name in said.group(1).split(","))
+                found += (Suppression(name, said.group(2), first, last, span) for name in allowed)
         position += len(line) + 1
     return found, problems
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from sleec_verify.report.difference import WORDS, change_in_words, conflict_in_words, extent_text, witness_text
 from sleec_verify.report.outcome import counted, one_line
+from sleec_verify.report.told import told_once
 from sleec_verify.report.words import in_short, listed
 
 if TYPE_CHECKING:
@@ -63,7 +64,7 @@ def _full(found: Gated, palette: Palette) -> Iterator[str]:
         if one.difference is not None:
             yield from (line + "\n" for line in on_difference(one.difference, palette))
             yield "\n"
-        for finding in one.findings:
+        for finding in told_once(one.findings):
             assert one.ruleset is not None, "only what was read has findings"
             source = finding.source or one.ruleset.source
             yield from (line + "\n" for line in finding_lines(finding, source, palette))
@@ -102,7 +103,7 @@ def _set_aside(one: Examined, palette: Palette) -> Iterator[str]:
     if one.known:
         yield f"{one.path}: {palette('faint', 'baseline')}: {counted(len(one.known), 'finding')} that the baseline has"
     for unused in one.unused:
-        what = f"line {one.line(unused.span)} allows {listed(unused.allowed)}, and there is no such finding"
+        what = f"line {one.line(unused.span)} allows {unused.allowed}, and there is no such finding"
         yield f"{one.path}: {palette('warning', 'unused suppression')}: {what}"
 
 
@@ -160,7 +161,7 @@ def _row(one: Examined) -> str:
     change = "cannot be read"
     if one.difference is not None:
         change = f"{one.difference.relation}: {WORDS[one.difference.relation]}"
-    counts = [counted(len(one.findings), "finding")]
+    counts = [counted(len(told_once(one.findings)), "finding")]
     counts += [f"{len(one.allowed)} allowed"] if one.allowed else []
     counts += [f"{len(one.known)} in the baseline"] if one.known else []
     counts += [f"{counted(len(one.unused), 'unused suppression')}"] if one.unused else []

@@ -69,9 +69,7 @@ def _examined(one: Examined) -> Json:
             for finding, suppression in one.allowed
         ],
         "baseline": len(one.known),
-        "unused_suppressions": [
-            {"line": one.line(unused.span), "allowed": list(unused.allowed)} for unused in one.unused
-        ],
+        "unused_suppressions": [{"line": one.line(unused.span), "allowed": [unused.allowed]} for unused in one.unused],
         "coverage": None
         if reached is None or reached.why is not None
         else {"reached": reached.reached, "clauses": reached.clauses, "missed": list(reached.missed)},

@@ -30,7 +30,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
         for finding in outcome.told:
             source = finding.source or outcome.ruleset.source
             text = "\n".join([finding.message, *described(finding)])
-            title = f"{finding.code} {finding.check}"
+            title = " ".join(dict.fromkeys((finding.code, finding.check)))  # a policy of the gate has one name
             yield _annotation(_COMMANDS[finding.severity], source.path, source.place(finding.span), title, text)
         path = outcome.ruleset.source.path
         for name, why in outcome.unlisted:

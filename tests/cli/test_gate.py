@@ -261,6 +261,24 @@ def test_a_suppression_elsewhere_allows_nothing_and_is_reported(cli: Cli, reposi
     assert "unused suppression: line 5 allows SLEEC202" in cli("gate", "--base", "main").out
 
 
+def test_each_code_of_a_suppression_counts(cli: Cli, repository: Repository) -> None:
+    repository.write(a_sleec="# sleec: allow SLEEC202, SLEEC501, dead-rule because it comes next year\n" + DEAD)
+    config(repository, block="dead-hedges = true\nunused-suppressions = true")
+    code, said = gated(cli)
+    assert (code, policies(said)) == (1, {"unused-suppressions"})
+    assert said["rulesets"][0]["unused_suppressions"] == [
+        {"line": 1, "allowed": ["SLEEC501"]},
+        {"line": 1, "allowed": ["dead-rule"]},
+    ]
+    assert [block["what"] for block in said["blocks"]] == [
+        "line 1 allows SLEEC501, and there is no such finding",
+        "line 1 allows dead-rule, and there is no such finding",
+    ]
+    ran = cli("gate", "--base", "main", "--summary", "out.md")
+    assert ran.out.count("unused suppression: line 1 allows") == 2
+    assert "2 unused suppressions" in (repository.folder / "out.md").read_text()
+
+
 @pytest.mark.parametrize(("setting", "code"), [("true", 1), ("false", 0)])
 def test_unused_suppressions_can_block(cli: Cli, repository: Repository, setting: str, code: int) -> None:
     repository.write(a_sleec="# sleec: allow SLEEC101 because of history\n" + OLD)

@@ -100,6 +100,56 @@ def test_whatever_blocks_is_told(form: str, policy: str, cli: Cli, repository: R
     assert any(message in words for _, _, words in called), found
 
 
+REASONS: dict[str, tuple[str | None, str]] = {
+    "a conflict": (CLASH, ""),
+    "a dead hedge, which is redundant, too": (DEAD, "findings = 'note'"),
+    "a dead rule, which is redundant, too": (OLD + "RULE b\nWHEN u AND d AND NOT d THEN o\n", "findings = 'note'"),
+    "several": (CLASH + "UNLESS false IN WHICH CASE q\n", "findings = 'note'\nlost-obligations = ['*']"),
+    "a file that is gone": (None, "lost-obligations = ['*']"),
+    "suppressions that are unused": (
+        "# sleec: allow SLEEC101, SLEEC501 because of history\n" + OLD,
+        "unused-suppressions = true\nfindings = 'note'",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REASONS)
+def test_as_many_reasons_are_counted_as_are_shown(name: str, cli: Cli, repository: Repository) -> None:
+    text, block = REASONS[name]
+    repository.write(a_sleec=text)
+    config(repository, block=block)
+
+    def gate(form: str, *arguments: str) -> str:
+        ran = cli("gate", "--base", "main", "--format", form, "--summary", "out.md", *arguments)
+        assert ran.code == 1, ran
+        return ran.err or ran.out
+
+    full = gate("full")
+    reasons = full.count("\nblocks: ") + full.startswith("blocks: ")
+    assert reasons >= 1
+    word = "1 reason to block" if reasons == 1 else f"{reasons} reasons to block"
+    for said in (full, gate("concise"), gate("github"), gate("sarif", "-o", "report")):
+        assert said.splitlines()[-1].endswith(f"; {word}")
+    summary = (repository.folder / "out.md").read_text(encoding="utf-8")
+    assert f"; {word}." in summary
+    assert summary.partition("### What blocks")[2].partition("|")[0].count("\n- **") == reasons
+    assert len(re.findall(r"^a\.sleec:\d+:\d+: ", gate("concise"), re.M)) == reasons
+    assert len(commands_in(gate("github"))) == reasons
+    assert len(json.loads(gate("json"))["blocks"]) == reasons
+
+
+@pytest.mark.parametrize("form", FORMATS)
+@pytest.mark.parametrize("policy", POLICIES)
+def test_no_title_says_a_name_twice(form: str, policy: str, cli: Cli, repository: Repository) -> None:
+    text, block, _ = POLICIES[policy]
+    repository.write(a_sleec=text)
+    config(repository, block=block)
+    ran = cli("gate", "--base", "main", "--format", form, "--summary", "out.md")
+    assert ran.code == 1
+    for said in (ran.out, (repository.folder / "out.md").read_text(encoding="utf-8")):
+        assert not re.findall(r"\b([\w-]{4,}) \1\b", said)
+
+
 @pytest.mark.parametrize("form", PROGRAMS)
 def test_assertions_are_told(form: str, cli: Cli, repository: Repository) -> None:
     found = one_report(cli, form, 1, "--assert", "never p")

@@ -48,12 +48,13 @@ def taking_time(ruleset, random: Random) -> set[str]:
 class World:
     """A run of the rules, and a log of it."""
 
-    def __init__(self, seed: int) -> None:
+    def __init__(self, seed: int, start: int = 0) -> None:
         self.random = Random(seed)
         self.ruleset = in_minutes(seed)
-        self.clock = VirtualClock()
+        self.clock = VirtualClock(start)
         self.instants: dict[int, set[str]] = {}
         self.values: dict[int, dict[str, Value]] = {}
+        self.refusals: list[errors.ConflictInContext] = []
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", errors.NotEnforced)
             self.sleec = Sleec(self.ruleset, clock=self.clock, chains=True, on_error=lambda failure: None)
@@ -103,8 +104,9 @@ class World:
         before = {time: set(names) for time, names in self.instants.items()}
         try:
             self.sleec.trigger_all(chosen)
-        except errors.ConflictInContext:
+        except errors.ConflictInContext as refusal:
             # Refused before anything ran: as if it had not happened.
+            self.refusals.append(refusal)
             assert self.instants == before
         else:
             for name in chosen:

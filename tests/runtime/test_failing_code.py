@@ -1,0 +1,398 @@
+"""Code that the clock starts, and that raises whatever it likes or never returns: no other obligation is lost."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+import time
+from collections.abc import Iterator
+
+import pytest
+
+from sleec_runtime import AsyncioClock, Failure, MonotonicClock, PolledClock, Sleec, VirtualClock, errors, obligation
+from sleec_runtime.language import parse
+from sleec_runtime.timed import executor
+
+ISSUE = """
+RULE a WHEN T1 THEN A WITHIN 1 TO 5 seconds
+RULE b WHEN T2 THEN B WITHIN 2 seconds OTHERWISE C
+RULE d WHEN T3 THEN D WITHIN 1 TO 3 seconds
+"""
+QUICK = """
+RULE a WHEN A THEN X WITHIN 1 TO 1000 seconds
+RULE b WHEN B THEN Y WITHIN 1 TO 1000 seconds
+"""
+PATIENCE = 20
+HASTE = 50
+NOT_EXCEPTIONS = (SystemExit, KeyboardInterrupt, GeneratorExit, asyncio.CancelledError)
+
+pytestmark = pytest.mark.filterwarnings("ignore::sleec_runtime.errors.NotEnforced")
+
+
+class Hasty(MonotonicClock):
+    """Windows on it are shorter than their seconds."""
+
+    def now(self):
+        return super().now() * HASTE
+
+    def wake(self, at, call):
+        return super().wake(at / HASTE, call)
+
+
+class HastyLoop(AsyncioClock):
+    """Windows on it are shorter than their seconds."""
+
+    def now(self):
+        return super().now() * HASTE
+
+    def wake(self, at, call):
+        return super().wake(at / HASTE, call)
+
+
+def raising(error: type[BaseException]):
+    def code() -> None:
+        raise error
+
+    return code
+
+
+def slow() -> None:
+    """Begun, and not done."""
+
+
+@pytest.fixture
+def never() -> Iterator[threading.Event]:
+    """What is waited for until the test ends, so that no thread outlives it."""
+    event = threading.Event()
+    yield event
+    event.set()
+
+
+class Robot:
+    """Rules at work on a clock of their own, where `a` fails: events say what was done."""
+
+    def __init__(self, a, text: str = ISSUE, **options) -> None:
+        self.told: list[Failure] = []
+        self.sleec = Sleec(parse(text), on_error=self.told.append, **options)
+        self.done = {name: threading.Event() for name in "CD"}
+        self.sleec.implement(
+            {"A": a, "B": obligation("B", completes=False)(slow), "C": self.do("C"), "D": self.do("D")}
+        )
+
+    def do(self, name: str):
+        return lambda: self.done[name].set()
+
+    def does(self, name: str) -> bool:
+        return self.done[name].wait(PATIENCE)
+
+    def errors(self) -> list[type[BaseException]]:
+        return [type(failure.error) for failure in self.sleec.failures]
+
+
+# On a thread ----------------------------------------------------------------------------------------------
+
+
+def test_whatever_code_does_other_deadlines_are_kept_and_later_triggers_watched(never):
+    raised = (*NOT_EXCEPTIONS, OSError)
+    codes = [*map(raising, raised), lambda: never.wait(PATIENCE)]
+    robots = [Robot(code) for code in (*codes, *codes)]
+    for number, robot in enumerate(robots):
+        if number < len(codes):
+            robot.sleec.trigger_all(["T1", "T2", "T3"])
+        else:
+            for trigger in ("T1", "T2", "T3"):
+                robot.sleec.trigger(trigger)
+    for robot in robots:
+        assert robot.does("C")
+        assert robot.does("D")
+        robot.done["C"].clear()
+        robot.sleec.trigger("T2")
+    for robot in robots:
+        assert robot.does("C"), "the clock still watches"
+    started = time.monotonic()
+    for robot in robots:
+        robot.sleec.close()
+    assert time.monotonic() - started < PATIENCE
+    for error, robot in zip((*raised, None, *raised), robots):
+        assert error is None or robot.errors()[0] is error
+        assert all(failure.obligations == ("A",) for failure in robot.sleec.failures)
+        assert robot.told == list(robot.sleec.failures)
+
+
+def test_code_that_does_not_return_is_reported_and_the_end_does_not_wait_for_it(never):
+    told: list[Failure] = []
+    reported = threading.Event()
+
+    def on_error(failure: Failure) -> None:
+        told.append(failure)
+        reported.set()
+
+    clock = Hasty(limit=0.2)
+    sleec = Sleec(parse(QUICK), clock=clock, on_error=on_error)
+    sleec.implement({"X": lambda: never.wait(PATIENCE), "Y": slow})
+    sleec.trigger("A")
+    assert reported.wait(PATIENCE)
+    (failure,) = told
+    assert isinstance(failure.error, errors.StillRunning)
+    assert (failure.rule, failure.obligations, failure.error.seconds) == ("a", ("X",), 0.2)
+    assert "its code has not returned after 0.2 seconds (mark what takes long with completes=False" in str(failure)
+    sleec.close()
+    clock.close()
+    assert sleec.failures == (failure,)
+
+
+def test_the_end_waits_for_code_that_is_about_to_return():
+    began, ended = threading.Event(), threading.Event()
+
+    def takes_a_moment() -> None:
+        began.set()
+        time.sleep(0.2)
+        ended.set()
+
+    clock = Hasty(limit=PATIENCE)
+    sleec = Sleec(parse(QUICK), clock=clock)
+    sleec.implement({"X": takes_a_moment, "Y": slow})
+    sleec.trigger("A")
+    assert began.wait(PATIENCE)
+    sleec.close()
+    clock.close()
+    assert ended.is_set()
+    assert sleec.failures == ()
+
+
+def test_code_may_close_the_clock():
+    clock = Hasty(limit=PATIENCE)
+    closed = threading.Event()
+
+    def close() -> None:
+        clock.close()
+        closed.set()
+
+    sleec = Sleec(parse(QUICK), clock=clock)
+    sleec.implement({"X": close, "Y": slow})
+    started = time.monotonic()
+    sleec.trigger("A")
+    assert closed.wait(PATIENCE)
+    assert time.monotonic() - started < PATIENCE / 2, "it does not wait for itself"
+
+
+def test_an_error_handler_that_does_not_return_holds_up_nothing(never, caplog):
+    entered: list[Failure] = []
+
+    def on_error(failure: Failure) -> None:
+        entered.append(failure)
+        never.wait(PATIENCE)
+
+    done = threading.Event()
+    clock = Hasty(limit=0.2)
+    sleec = Sleec(parse(QUICK), clock=clock, on_error=on_error)
+    sleec.implement({"X": raising(OSError), "Y": done.set})
+    sleec.trigger("A")
+    sleec.trigger("B")
+    assert done.wait(PATIENCE)
+    while "on_error: its code has not returned after 0.2 seconds" not in caplog.text:
+        time.sleep(0.01)
+    sleec.close()
+    clock.close()
+    assert [type(failure.error) for failure in sleec.failures] == [OSError]
+    assert entered == list(sleec.failures)
+
+
+@pytest.mark.parametrize("error", [*NOT_EXCEPTIONS, OSError])
+def test_an_error_handler_may_raise_anything(error, caplog):
+    done = threading.Event()
+    clock = Hasty()
+    sleec = Sleec(parse(QUICK), clock=clock, on_error=lambda failure: raising(error)())
+    sleec.implement({"X": raising(OSError), "Y": done.set})
+    sleec.trigger("A")
+    sleec.trigger("B")
+    assert done.wait(PATIENCE)
+    sleec.close()
+    clock.close()
+    assert [type(failure.error) for failure in sleec.failures] == [OSError]
+    assert "on_error failed at" in caplog.text
+
+
+def test_what_the_clock_starts_at_one_time_begins_in_the_order_of_the_rules(monkeypatch):
+    monkeypatch.setattr(executor, "OVERLAP", PATIENCE)
+    count = 200
+    text = "\n".join(f"RULE r{i} WHEN T THEN X{i} WITHIN 1 TO 1000 seconds" for i in range(count))
+    log: list[int] = []
+    ended = threading.Event()
+
+    def code(number: int):
+        def run() -> None:
+            log.append(number)
+            if number == count - 1:
+                ended.set()
+
+        return run
+
+    clock = Hasty()
+    sleec = Sleec(parse(text), clock=clock)
+    sleec.implement({f"X{i}": code(i) for i in range(count)})
+    sleec.trigger("T")
+    assert ended.wait(PATIENCE)
+    assert log == list(range(count))
+    sleec.close()
+    clock.close()
+
+
+def test_a_missing_thread_is_reported(monkeypatch):
+    start = threading.Thread.start
+
+    def refuse(thread: threading.Thread) -> None:
+        if thread.name == "sleec code":
+            raise RuntimeError("can't start new thread")
+        start(thread)
+
+    told: list[str] = []
+    clock = MonotonicClock()
+    monkeypatch.setattr(threading.Thread, "start", refuse)
+    clock.execute(lambda: None, lambda error: told.append(str(error)))
+    assert told == ["no thread can be started for it: can't start new thread (end code that does not return)"]
+    monkeypatch.undo()
+    done = threading.Event()
+    clock.execute(done.set, lambda error: told.append(str(error)))
+    assert done.wait(PATIENCE)
+    clock.close()
+
+
+@pytest.mark.parametrize("error", [*NOT_EXCEPTIONS, OSError])
+def test_a_call_by_the_clock_may_raise_anything(error, caplog):
+    clock = MonotonicClock()
+    done = threading.Event()
+    clock.wake(clock.now(), raising(error))
+    clock.wake(10**1000, slow)
+    clock.wake(clock.now(), done.set)
+    assert done.wait(PATIENCE)
+    clock.close()
+    assert error.__name__ in caplog.text
+
+
+@pytest.mark.parametrize("limit", [0, -1, "1", True, None, float("inf")])
+def test_a_limit_is_a_number_of_seconds(limit):
+    with pytest.raises(errors.WrongType, match="limit is a number of seconds above 0"):
+        MonotonicClock(limit=limit)
+
+
+# In the thread of the user --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("error", [SystemExit, GeneratorExit, asyncio.CancelledError])
+def test_on_a_virtual_clock_a_failure_is_reported_and_not_raised(error):
+    clock = VirtualClock()
+    robot = Robot(raising(error), clock=clock)
+    robot.sleec.trigger_all(["T1", "T2", "T3"])
+    clock.advance(4)
+    assert robot.done["C"].is_set()
+    assert robot.done["D"].is_set()
+    assert robot.errors() == [error]
+    assert robot.told == list(robot.sleec.failures)
+    assert [one.state for one in robot.sleec.pending()] == ["waiting"], "it can still be done"
+
+
+def test_in_the_main_thread_an_interrupt_is_raised_once_all_that_is_due_is_served():
+    clock = VirtualClock()
+    robot = Robot(raising(KeyboardInterrupt), clock=clock)
+    robot.sleec.trigger_all(["T1", "T2", "T3"])
+    with pytest.raises(KeyboardInterrupt):
+        clock.advance(4)
+    assert clock.now() == 1
+    assert robot.done["D"].is_set()
+    assert robot.errors() == [KeyboardInterrupt]
+    clock.advance(1)
+    assert robot.done["C"].is_set()
+
+
+def test_an_interrupt_of_an_error_handler_is_raised_in_the_main_thread(caplog):
+    clock = VirtualClock()
+    sleec = Sleec(parse(ISSUE), clock=clock, on_error=lambda failure: raising(KeyboardInterrupt)())
+    sleec.implement({"A": raising(OSError), "B": slow, "C": slow, "D": slow})
+    sleec.trigger("T1")
+    with pytest.raises(KeyboardInterrupt):
+        clock.advance(2)
+    assert len(sleec.failures) == 1
+
+
+@pytest.mark.parametrize("error", [SystemExit, GeneratorExit, OSError])
+def test_a_polled_clock_raises_nothing(error, monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    robot = Robot(raising(error), clock=PolledClock())
+    robot.sleec.trigger_all(["T1", "T2", "T3"])
+    now[0] = 2.5
+    robot.sleec.tick()
+    assert robot.done["C"].is_set()
+    assert robot.done["D"].is_set()
+    assert robot.errors() == [error]
+
+
+@pytest.mark.parametrize("coroutine", [False, True], ids=["function", "coroutine function"])
+@pytest.mark.parametrize("error", [SystemExit, GeneratorExit, asyncio.CancelledError, OSError])
+def test_an_event_loop_goes_on(error, coroutine):
+    async def awaited() -> None:
+        await asyncio.sleep(0)
+        raise error
+
+    async def main() -> None:
+        robot = Robot(awaited if coroutine else raising(error), clock=HastyLoop())
+        robot.sleec.trigger_all(["T1", "T2", "T3"])
+        for name in "CD":
+            assert await asyncio.to_thread(robot.does, name)
+        assert robot.errors() == [error]
+        assert robot.told == list(robot.sleec.failures)
+        robot.sleec.close()
+
+    asyncio.run(main())
+
+
+def test_what_a_loop_cancels_at_its_end_is_reported():
+    told: list[Failure] = []
+
+    async def waits() -> None:
+        await asyncio.sleep(PATIENCE)
+
+    async def main() -> None:
+        sleec = Sleec(parse(QUICK), clock=HastyLoop(), on_error=told.append)
+        sleec.implement({"X": waits, "Y": slow})
+        await sleec.trigger_async("A")
+        while not any(one.state == "under way" for one in sleec.pending()):
+            await asyncio.sleep(0.01)
+
+    asyncio.run(main())
+    (failure,) = told
+    assert isinstance(failure.error, asyncio.CancelledError)
+    assert str(failure).endswith("X (a): CancelledError")
+
+
+# What an interrupted dispatch leaves ----------------------------------------------------------------------
+
+CHAIN = "RULE a WHEN A THEN X\nRULE b WHEN A THEN Y\nRULE x WHEN Y THEN Z WITHIN 5 seconds OTHERWISE W"
+
+
+def test_an_interrupted_trigger_asks_for_nothing_that_was_not_called_for():
+    clock = VirtualClock()
+    sleec = Sleec(parse(CHAIN), clock=clock, chains=True)
+    sleec.implement(
+        {"X": raising(KeyboardInterrupt), "Y": slow, "Z": obligation("Z", completes=False)(slow), "W": slow}
+    )
+    with pytest.raises(KeyboardInterrupt):
+        sleec.trigger("A")
+    assert sleec.pending() == ()
+    clock.advance(10)
+    assert sleec.failures == ()
+
+
+def test_what_fails_unattended_has_its_alternative_whatever_it_raised():
+    clock = VirtualClock()
+    log: list[str] = []
+    sleec = Sleec(
+        parse("RULE a WHEN A THEN X WITHIN 1 TO 1 seconds OTHERWISE Y\nRULE b WHEN A THEN X ELSE Y"), clock=clock
+    )
+    sleec.implement({"X": raising(SystemExit), "Y": lambda: log.append("Y")})
+    with pytest.raises(SystemExit):
+        sleec.trigger("A")
+    clock.advance(2)
+    assert log == ["Y"]
+    assert [type(failure.error) for failure in sleec.failures] == [SystemExit]
