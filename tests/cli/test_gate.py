@@ -9,20 +9,14 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-import jsonschema
 import pytest
-from referencing import Registry, Resource
 
 from sleec_verify.report import FORMATS
 from tests.cli.conftest import Cli, Ran
 from tests.cli.repository import Repository
+from tests.cli.schemas import validator
 
-SCHEMAS = Path(__file__).parents[2] / "docs" / "schema"
-CHECK, THIS = (json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8")) for name in ("check", "gate"))
-jsonschema.Draft202012Validator.check_schema(THIS)
-GATE = jsonschema.Draft202012Validator(
-    THIS, registry=Registry().with_resource("check.schema.json", Resource.from_contents(CHECK))
-)
+GATE = validator("gate")
 
 pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
 

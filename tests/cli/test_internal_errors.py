@@ -10,17 +10,15 @@ from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import fromstring
 
-import jsonschema
 import pytest
-from referencing import Registry, Resource
 
 from sleec_runtime.model import Ruleset, Source
 from sleec_verify.report import FORMATS
 from tests.cli.conftest import Cli
+from tests.cli.schemas import validator
 
 GOOD = "WHEN A THEN B\n"
 BETTER = "WHEN A THEN C\n"
-SCHEMAS = Path(__file__).parents[2] / "docs" / "schema"
 FILES = {"bad.sleec": GOOD, "good.sleec": GOOD}
 
 PARSING = "sleec_runtime.language.parse_english"
@@ -54,13 +52,8 @@ def fail_in(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
 
 def validate(schema: str, text: str) -> Any:
     found = json.loads(text)
-    registry = Registry().with_resource("check.schema.json", Resource.from_contents(_schema("check")))
-    jsonschema.Draft202012Validator(_schema(schema), registry=registry).validate(found)
+    validator(schema).validate(found)
     return found
-
-
-def _schema(name: str) -> Any:
-    return json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("target", [PARSING, CHECKING])

@@ -13,17 +13,9 @@ import pytest
 from sleec_verify.checks import CHECKS
 from sleec_verify.solver import Undecided
 from tests.cli.conftest import Cli
+from tests.cli.schemas import SCHEMAS
 
-SCHEMAS = Path(__file__).parents[2] / "docs" / "schema"
-
-
-def schema(name: str) -> dict[str, Any]:
-    read: dict[str, Any] = json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8"))
-    jsonschema.Draft202012Validator.check_schema(read)
-    return read
-
-
-REPORT, ENTAILMENT, KINDS, CASES, DIFFERENCE = (schema(name) for name in ("check", "entail", "rules", "cases", "diff"))
+REPORT, ENTAILMENT, KINDS, CASES, DIFFERENCE = (SCHEMAS[name] for name in ("check", "entail", "rules", "cases", "diff"))
 
 CLASH = """\
 MEASURE Pain: number

@@ -13,9 +13,8 @@ import pytest
 
 import sleec_runtime
 import sleec_verify
-from tests.project.test_locks import RUNTIME, VERIFY
+from tests.project.pyprojects import ROOT, RUNTIME, VERIFY
 
-ROOT = Path(__file__).parents[2]
 VERSION = sleec_runtime.__version__
 DISTRIBUTIONS = ["sleec-runtime", "sleec-verify"]
 

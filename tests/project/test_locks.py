@@ -3,26 +3,17 @@
 from __future__ import annotations
 
 import re
-import sys
-from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-ROOT = Path(__file__).parents[2]
+from tests.project.pyprojects import ROOT, RUNTIME, VERIFY
+
 LOCKS = sorted(path.stem for path in (ROOT / "requirements").glob("*.lock"))
 
 
-def pyproject(folder: str = ".") -> dict[str, Any]:
-    toml = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
-    content: dict[str, Any] = toml.loads((ROOT / folder / "pyproject.toml").read_text(encoding="utf-8"))
-    return content
-
-
-VERIFY, RUNTIME = pyproject(), pyproject("sleec_runtime")
 NEEDED = [
     *RUNTIME["project"]["dependencies"],
     *VERIFY["tool"]["hatch"]["metadata"]["hooks"]["custom"]["dependencies"],
