@@ -35,7 +35,7 @@ def parse_situation(ruleset: Ruleset, when: str, given: str) -> Context:
     triggers = frozenset(_trigger(ruleset, name) for name in _items(when))
     values: dict[str, Value] = {}
     for item in _items(given):
-        name, value = _assignment(ruleset, item)
+        name, value = parse_assignment(ruleset, item)
         if name in values and values[name] != value:
             raise SituationError(f"two values are given for {name}", "give one")
         values[name] = value
@@ -74,7 +74,8 @@ def _trigger(ruleset: Ruleset, name: str) -> str:
     raise _unknown(name, "trigger", _triggers(ruleset))
 
 
-def _assignment(ruleset: Ruleset, item: str) -> tuple[str, Value]:
+def parse_assignment(ruleset: Ruleset, item: str) -> tuple[str, Value]:
+    """The name and the value of one item of `given`. Raises SituationError."""
     if item in _conditions(ruleset):
         return item, True
     name, equals, written = (part.strip() for part in item.partition("="))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.files import read_file
 from sleec_verify.gate.config import ConfigError
+from sleec_verify.report.words import shortened
 
 if TYPE_CHECKING:
     from sleec_verify.finding import Finding
@@ -35,7 +36,7 @@ def read_baseline(path: str) -> set[Key]:
     try:
         table = json.loads(read_file(path))
         if table["version"] != _VERSION:
-            raise ConfigError(f"{path} is a baseline of version {table['version']!r}", _RENEW)
+            raise ConfigError(f"{path} is a baseline of version {shortened(repr(table['version']))}", _RENEW)
         return {_key(entry) for entry in table["findings"]}
     except FileNotFoundError:
         raise ConfigError(f"there is no baseline {path}", "make it: sleec-verify gate --write-baseline …") from None

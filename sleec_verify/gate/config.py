@@ -6,14 +6,12 @@ Every key is checked, because a misspelt one would let through what it was meant
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Callable, Mapping, Sequence
-from importlib import import_module
 from typing import Any, Literal, NamedTuple
 
 from sleec_runtime.errors import SleecError
-from sleec_runtime.files import read_file
 from sleec_verify.finding import SEVERITIES, Severity
+from sleec_verify.toml import read_toml
 
 OWN = "sleec-verify.toml"
 SHARED = "pyproject.toml"
@@ -110,19 +108,7 @@ def read_config(path: str) -> Config:
 
 
 def _table(path: str) -> dict[str, Any]:
-    toml = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
-    shown = os.path.relpath(path)
-    try:
-        table: dict[str, Any] = toml.loads(read_file(path).decode("utf-8-sig"))
-    except FileNotFoundError:
-        raise ConfigError(f"there is no file {shown}", "check the spelling of its name and folder") from None
-    except OSError as error:
-        raise ConfigError(f"{shown} cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise ConfigError(f"{shown} is not UTF-8", "save it as UTF-8") from None
-    except (ValueError, RecursionError) as error:
-        raise ConfigError(f"{shown} is no TOML: {error}") from None
-    return table
+    return read_toml(path, os.path.relpath(path), ConfigError)
 
 
 class _Reader:
