@@ -8,19 +8,21 @@ BIN := $(VENV)/bin
 LOCKED := $(VENV)/lock-$(lastword $(shell $(PYTHON) --version))-$(firstword $(shell cksum <requirements/dev.lock))
 INSTALLED := $(VENV)/installed
 DOCS_LOCKED := $(VENV)/docs-lock-$(firstword $(shell cksum <requirements/docs.lock))
+FUZZ_LOCKED := $(VENV)/fuzz-lock-$(firstword $(shell cksum <requirements/fuzz.lock))
 TOOLS_LOCKED := $(VENV)/tools-lock-$(firstword $(shell cksum <requirements/tools.lock))
 INSTALL := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input install --no-build-isolation --use-pep517
 # Without build isolation, what builds contextpy3 from its source is locked, too.
 INSTALL_LOCKED := $(INSTALL) --require-hashes -r
 
-.PHONY: help setup demo test lint types check-tests coverage site long proofs theorems bench mutants dist sbom lock clean
+.PHONY: help setup demo test lint types check-tests coverage site fuzz long proofs theorems bench mutants dist sbom lock clean
 
 help:
 	@echo 'make demo     check the shipped rulesets and ask one question of them'
 	@echo 'make test     lint, types, and every test but the long ones'
 	@echo 'make coverage the branches that the tests reach, with a bound that fails'
 	@echo 'make site     the docs as a site, in site/'
-	@echo 'make long     the long tests'
+	@echo 'make fuzz     fuzz everything that reads a file; SECONDS=60 for all targets, TARGET=english for one'
+	@echo 'make long     the long tests, and ten minutes of fuzzing'
 	@echo 'make proofs   all that is proved, checked by Coq, and the programs extracted from it (needs coq and ocaml-findlib)'
 	@echo 'make theorems writes the theorems about the shipped rulesets anew, after a change of them'
 	@echo 'make bench    the measurements of benchmarks/'
@@ -90,8 +92,19 @@ site: $(DOCS_LOCKED)
 	@NO_MKDOCS_2_WARNING=true $(BIN)/python -m mkdocs build --strict
 	@echo 'The site is in site/; read it with: $(BIN)/python -m http.server --directory site'
 
+# The fuzzer comes with a libFuzzer of its own, 130 MB, which nothing else needs.
+$(FUZZ_LOCKED): requirements/fuzz.lock | $(INSTALLED)
+	@$(INSTALL_LOCKED) $<
+	@touch $@
+
+SECONDS = 60
+TARGET =
+fuzz: $(FUZZ_LOCKED)
+	@$(BIN)/python -m tests.fuzz --seconds $(SECONDS) $(TARGET)
+
 long: $(INSTALLED)
 	HYPOTHESIS_PROFILE=long $(BIN)/pytest -m long --timeout=7200
+	@$(MAKE) --no-print-directory fuzz SECONDS=600
 
 # Needs no Python; where Coq is missing, it says in one line how to get it.
 proofs:
@@ -131,9 +144,10 @@ lock: $(TOOLS_LOCKED)
 	$(COMPILE) sleec_runtime/pyproject.toml -c requirements/dev.lock -o requirements/runtime.lock
 	$(COMPILE) --group build -c requirements/dev.lock -o requirements/build.lock
 	$(COMPILE) --group docs -c requirements/dev.lock -o requirements/docs.lock
+	$(COMPILE) --group fuzz -c requirements/dev.lock -o requirements/fuzz.lock
 	$(COMPILE) --group tools -c requirements/dev.lock -o requirements/tools.lock
 
 clean:
 	@$(MAKE) --no-print-directory -C proofs clean
 	@$(MAKE) --no-print-directory -C proofs/checker clean
-	rm -rf $(VENV) $(VENV)-* build site dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis .coverage* mutants
+	rm -rf $(VENV) $(VENV)-* build site dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis .fuzz .coverage* mutants

@@ -1,0 +1,107 @@
+"""Files besides rules: the configuration, cases, baselines and the cache."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from sleec_runtime.evaluation import due
+from sleec_runtime.language import parse_source
+from sleec_runtime.language.source import source_of
+from sleec_verify.cache import Cache, _encoded, _head
+from sleec_verify.cases.read import read_cases
+from sleec_verify.checks import run_checks
+from sleec_verify.finding import CheckResult
+from sleec_verify.gate.baseline import baseline_text, key, read_baseline
+from sleec_verify.gate.config import OWN, SHARED, read_config
+from tests.fuzz.property import unless_refused
+
+RULESET = parse_source(
+    source_of(
+        "fuzz.sleec",
+        b"""\
+MEASURE Age: number
+MEASURE Steps: integer
+MEASURE Risk: low < middle < high
+CONSTANT LegalAge = 18
+EXCLUSIVE Open, Close
+DOMAIN home
+WHEN Ring THEN Open UNLESS Age < LegalAge AND Steps > 2 IN WHICH CASE (Close AND NOT Speak) UNLESS Risk >= middle
+WHEN the night begins THEN Close UNLESS too warm IN WHICH CASE Open
+DOMAIN ward
+WHEN Ring AND Asleep THEN Speak
+""",
+    )
+)
+
+
+def configuration(data: bytes, folder: Path) -> None:
+    """Settings are read or refused, and their paths can be spelled out."""
+    path = folder / (SHARED if b"[tool" in data else OWN)
+    path.write_bytes(data)
+    config = unless_refused(read_config, str(path))
+    if config is not None:
+        for named in (*config.rulesets, *config.assertions, *(target.code for target in config.targets)):
+            assert config.at(named)
+
+
+def cases(data: bytes, folder: Path) -> None:
+    """Each case that is read is a situation of the rules."""
+    path = folder / "fuzz.cases.toml"
+    path.write_bytes(data)
+    found = unless_refused(read_cases, path, RULESET)
+    for case in () if found is None else found.cases:
+        assert set(case.obligations) <= RULESET.obligations
+        due(RULESET, case.context())
+
+
+def cases_seeds() -> Iterator[bytes]:
+    yield b"""\
+reading = "priority"
+[[case]]
+name = "a guest rings"
+domain = "home"
+when = ["Ring", "the night begins"]
+given = { Age = 17.5, Steps = 3, Risk = "middle", "too warm" = true }
+obligations = ["Close"]
+prohibitions = ["Speak"]
+reaches = ["rule_1.hc1"]
+[[case]]
+when = "Ring"
+given = "Asleep, Age=LegalAge"
+conflict = true
+"""
+
+
+def baseline(data: bytes, folder: Path) -> None:
+    """What is read is written again as the same."""
+    path = folder / "baseline.json"
+    path.write_bytes(data)
+    known = unless_refused(read_baseline, str(path))
+    if known is not None:
+        path.write_text(baseline_text(known))
+        assert read_baseline(str(path)) == known
+
+
+def baseline_seeds() -> Iterator[bytes]:
+    findings = (finding for result in _results() for finding in result.findings)
+    yield baseline_text(key("fuzz.sleec", finding) for finding in findings).encode()
+
+
+def cache(data: bytes, folder: Path) -> None:
+    """An entry with any content, whose hash fits, is read or ignored."""
+    kept = Cache(str(folder), lambda message: None)
+    path = kept._path(RULESET, None, "at")
+    assert path is not None
+    Path(path).parent.mkdir(exist_ok=True)
+    Path(path).write_bytes(_head(path, data) + b"\n" + data)
+    results = kept.kept(RULESET, None, "at")
+    assert results is None or all(isinstance(result, CheckResult) for result in results)
+
+
+def cache_seeds() -> Iterator[bytes]:
+    yield _encoded(_results())
+
+
+def _results() -> tuple[CheckResult, ...]:
+    return run_checks(RULESET)

@@ -1,0 +1,36 @@
+"""The Python of a robot, as `conform` reads it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from sleec_runtime.language import load
+from sleec_verify.conformance.structure import check_structure
+from sleec_verify.conformance.structure.target import python_files
+from sleec_verify.report import renderer
+from sleec_verify.report.outcome import Checked
+from sleec_verify.report.palette import PLAIN
+from tests.fuzz.property import unless_refused
+
+ROOT = Path(__file__).parents[2]
+RULESET = load(ROOT / "rulesets" / "household.sleec")
+
+
+def python(data: bytes, folder: Path) -> None:
+    """Whatever the code is, there is a verdict, and every finding is in the text."""
+    path = folder / "robot.py"
+    path.write_bytes(data)
+    files = unless_refused(python_files, str(path))
+    if files is None:
+        return
+    result = check_structure(RULESET, files)
+    assert "".join(renderer("full")([Checked(RULESET, (result,))], PLAIN))
+
+
+def seeds() -> Iterator[bytes]:
+    """The robots of the tests: each document of them holds files, some of them Python."""
+    for path in sorted((ROOT / "tests" / "conformance" / "structure" / "documents").glob("*/*.txt")):
+        text = path.read_text(encoding="utf-8")
+        yield from (found.encode() for found in re.findall(r"^=== file \S+\.py\n(.*?)(?=^===|\Z)", text, re.M | re.S))

@@ -1,0 +1,80 @@
+"""Texts of rules: structured English and the DSL, what `fmt` and `convert` make of them, and what `check` finds."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from sleec_runtime.evaluation import due
+from sleec_runtime.language import parse, parse_source, print_ruleset
+from sleec_runtime.language.source import source_of
+from sleec_runtime.model import Context
+from sleec_verify.checks import CHECKS, run_checks
+from sleec_verify.compilation import FORMS, compile_to
+from sleec_verify.conversion import TARGETS, convert, of_domain
+from sleec_verify.entailment import entail
+from sleec_verify.gate.suppressions import suppressions
+from sleec_verify.report import FORMATS, renderer
+from sleec_verify.report.outcome import Checked
+from sleec_verify.report.palette import PLAIN
+from sleec_verify.timed.scope import speaks_of_traces
+from tests.fuzz.property import unless_refused
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Ruleset
+
+
+def read(data: bytes) -> Ruleset | None:
+    """The ruleset that these bytes are, None where they are refused."""
+    try:
+        data.decode()
+    except UnicodeDecodeError:
+        unless_refused(source_of, "fuzz.sleec", data)
+        # So that one broken character does not make an input useless.
+        data = data.decode(errors="replace").encode()
+    source = unless_refused(source_of, "fuzz.sleec", data)
+    return None if source is None else unless_refused(parse_source, source)
+
+
+def language(data: bytes, folder: Path) -> None:
+    """What is read prints, and is read again as the same; what is converted obliges the same."""
+    ruleset = read(data)
+    if ruleset is None:
+        return
+    printed = print_ruleset(ruleset)
+    again = parse(printed)
+    assert again == ruleset
+    assert print_ruleset(again) == printed
+    suppressions(ruleset, CHECKS)
+    for to in TARGETS:
+        converted = unless_refused(convert, ruleset, to)
+        if converted is not None and not (ruleset.is_timed or converted.ruleset.is_timed):
+            assert_oblige_the_same(ruleset, converted.ruleset)
+    for domain in ruleset.domains:
+        unless_refused(convert, of_domain(ruleset, domain), "english", "priority")
+
+
+def assert_oblige_the_same(one: Ruleset, other: Ruleset) -> None:
+    """Both oblige the same in two situations: all conditions false, and all true."""
+    for value in (False, True):
+        context = Context(one.triggers, dict.fromkeys(one.conditions, value))
+        before, after = due(one, context), due(other, context)
+        assert set(before.obligations) == set(after.obligations)
+        assert set(before.prohibitions) == set(after.prohibitions)
+
+
+def check(data: bytes, folder: Path) -> None:
+    """Rules without times are checked, compiled and asked, and every format shows what came of it."""
+    ruleset = read(data)
+    if ruleset is None or speaks_of_traces(ruleset):
+        return
+    outcome = Checked(ruleset, run_checks(ruleset))
+    for form in FORMATS:
+        assert "".join(renderer(form)([outcome], PLAIN))
+    for form in FORMS:
+        unless_refused(compile_to, ruleset, form)
+    context = Context(ruleset.triggers, dict.fromkeys(ruleset.conditions, True))
+    answer = unless_refused(entail, ruleset, context)
+    if answer is not None and answer.consistent:
+        # Two roads to the same answer: by a solver, and by evaluation.
+        assert set(answer.obligations) == set(due(ruleset, context).obligations)
