@@ -77,6 +77,8 @@ def load(
     strict_times: bool = False,
     certificate: str | Path | None = None,
     key: str | Path | None = None,
+    require_proved: bool = False,
+    require_tied: bool = False,
 ) -> Sleec:
     """Reads the rules of a file and sets them to work.
 
@@ -84,7 +86,8 @@ def load(
     `strict` makes a decision that depends on unreported conditions an error; without it they count as false, as
     Definition 1 of the paper has it. `clock`, `chains`, `on_error` and `strict_times` are for rules with times: see
     `Sleec`. `certificate` is the folder of one that must prove that these rules are free of conflict as they are used
-    here: in this reading and domain, with or without `chains`. With `key`, the file of a public key, it must be signed
+    here: in this reading and domain, with or without `chains`. With `key`, the file of a public key, it must be signed;
+    with `require_proved` or `require_tied`, it must have been made with `--require-proved` or `--require-tied`
     (docs/certificates.md).
 
     Raises UnreadableFile, LanguageError and UnknownDomain, UnsupportedTimes with `strict_times`, and CertificateRefused
@@ -104,6 +107,8 @@ def load(
         strict_times=strict_times,
         certificate=certificate,
         key=key,
+        require_proved=require_proved,
+        require_tied=require_tied,
     )
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sleec_runtime.errors import CertificateRefused, SleecError
 from sleec_runtime.files import read_file
-from sleec_runtime.manifest import Manifest, parse
+from sleec_runtime.manifest import Manifest, Required, parse
 from sleec_runtime.messages import listed
 
 if TYPE_CHECKING:
@@ -106,20 +106,21 @@ def _in_words(domain: str | None, ruleset: Ruleset) -> str:
 
 class Demand:
     """What a runtime asks of rules before they are in force: the certificate in `folder`, signed by `key` if there is
-    one, must cover how the runtime uses them, and prove that they are free of conflict. `chains` is whether what is
-    done triggers rules there.
+    one, must cover how the runtime uses them, prove that they are free of conflict, and say that it was made with what
+    is `required`. `chains` is whether what is done triggers rules there.
 
     Raises, when made, what `read_manifest` does.
     """
 
-    def __init__(self, folder: str | Path, key: str | Path | None, chains: bool) -> None:
+    def __init__(self, folder: str | Path, key: str | Path | None, chains: bool, required: Required) -> None:
         self._key = key
         self._chains = chains
+        self._required = required
         self._manifest = read_manifest(folder, key)
 
     def of(self, folder: str | Path) -> Demand:
         """The same demand of another certificate."""
-        return Demand(folder, self._key, self._chains)
+        return Demand(folder, self._key, self._chains, self._required)
 
     def check(self, ruleset: Ruleset, domain: str | None) -> None:
         """Refuse a ruleset that is to be in force in `domain` unless the certificate covers that.
@@ -164,6 +165,13 @@ class Demand:
                 f"the certificate does not prove that the rules are free of conflict: {', '.join(open_checks)}",
                 "`sleec-verify check` shows the situations in which they are not",
             )
+        for name, wanted in self._required._asdict().items():
+            if wanted and not getattr(self._manifest.required, name):
+                yield Uncovered(
+                    f"not-{name}",
+                    f"the certificate was made without --require-{name}",
+                    f"certify the rules with --require-{name}",
+                )
 
 
 def _is_its_text(ruleset: Ruleset) -> bool:

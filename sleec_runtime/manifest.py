@@ -10,7 +10,7 @@ import json
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.messages import represent
@@ -23,14 +23,25 @@ FORMAT = 2
 """The version of what stands in a certificate. Another one is refused."""
 
 
+class Required(NamedTuple):
+    """What is required of a certificate besides that it holds.
+
+    `proved`: the checker that is proved in Coq accepts every refutation. `tied`: every verdict that rests on a
+    refutation is proved of the rules themselves, by what is extracted from the theory in Coq.
+    """
+
+    proved: bool = False
+    tied: bool = False
+
+
 @dataclass(frozen=True)
 class Manifest:
     """What a certificate says.
 
     `ruleset` describes the text of the rules, with its SHA-256. `domain` is None where the rules were checked in each
     of their domains. `untimed` says when a response without a window is due, None for rules without time; `chains`
-    whether what is done triggers rules. `verdicts` are those of the checks, and `files` the SHA-256 of all other files,
-    by name. `whole` is all of it.
+    whether what is done triggers rules. `required` was so when the certificate was written. `verdicts` are those of the
+    checks, and `files` the SHA-256 of all other files, by name. `whole` is all of it.
     """
 
     ruleset: Mapping[str, Any]
@@ -38,6 +49,7 @@ class Manifest:
     domain: str | None
     untimed: str | None
     chains: bool
+    required: Required
     verdicts: Mapping[str, str]
     files: Mapping[str, str]
     whole: Mapping[str, Any]
@@ -95,7 +107,7 @@ def _strict(data: bytes, whole: Mapping[str, Any]) -> Manifest:
     if whole["chains"] != (whole["untimed"] is not None):
         raise _Malformed("chains and untimed do not fit each other")
     taken = {key: whole[key] for key in ("ruleset", "reading", "domain", "untimed", "chains", "files")}
-    return Manifest(verdicts=verdicts, whole=whole, **taken)
+    return Manifest(required=Required(**whole["required"]), verdicts=verdicts, whole=whole, **taken)
 
 
 def _refuse_constant(name: str) -> None:
@@ -250,6 +262,7 @@ _MANIFEST = _record(
         "domain": _or_null(_TEXT),
         "untimed": _one_of("at", "eventually", None),
         "chains": _FLAG,
+        "required": _record({"proved": _FLAG, "tied": _FLAG}),
         "checks": _list(_CHECK),
         "files": _table(_FILE, _DIGEST),
     }

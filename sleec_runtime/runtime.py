@@ -49,8 +49,8 @@ class Sleec:
 
     With `certificate`, the folder of one, only rules that it, or another one given to `replace`, proves to be free of
     conflict are ever in force, and only as it was made for them: in its domain and reading, with its times and chains.
-    With `key`, the file of a public key, it must be signed (docs/certificates.md). Others are refused with
-    CertificateRefused.
+    With `key`, the file of a public key, it must be signed; with `require_proved` or `require_tied`, it must have been
+    made with `--require-proved` or `--require-tied` (docs/certificates.md). Others are refused with CertificateRefused.
     """
 
     def __init__(
@@ -66,13 +66,17 @@ class Sleec:
         strict_times: bool = False,
         certificate: str | Path | None = None,
         key: str | Path | None = None,
+        require_proved: bool = False,
+        require_tied: bool = False,
     ) -> None:
         whole = _read(ruleset, reading)
-        for name, choice in (("strict", strict), ("chains", chains), ("strict_times", strict_times)):
+        choices = {"strict": strict, "chains": chains, "strict_times": strict_times}
+        required = {"require_proved": require_proved, "require_tied": require_tied}
+        for name, choice in {**choices, **required}.items():
             if not isinstance(choice, bool):
                 raise WrongType(name, choice, "a choice, True or False", "give True or False")
         program = Program(whole, domain, strict)
-        self._demand = _demand(certificate, key, chains)
+        self._demand = _demand(certificate, key, chains, required)
         if self._demand is not None:
             self._demand.check(whole, domain)
         self._reading = reading
@@ -330,7 +334,7 @@ class Sleec:
         with self._lock:
             demand = self._demand
             if certificate is not None:
-                demand = _demand(certificate, None, self._chains) if demand is None else demand.of(certificate)
+                demand = _demand(certificate, None, self._chains, {}) if demand is None else demand.of(certificate)
             instance = self._instance.copied()
             instance.admit(whole)
             instance.bind(bind)
@@ -485,14 +489,18 @@ def _read(ruleset: Ruleset, reading: Reading | None) -> Ruleset:
     return ruleset if reading is None else ruleset.read_as(reading)
 
 
-def _demand(certificate: str | Path | None, key: str | Path | None, chains: bool) -> Demand | None:
+def _demand(
+    certificate: str | Path | None, key: str | Path | None, chains: bool, required: Mapping[str, bool]
+) -> Demand | None:
     if certificate is None:
-        if key is not None:
-            raise SleecError("a key without a certificate checks nothing", "give certificate= as well")
+        for name, given in {"key": key is not None, **required}.items():
+            if given:
+                raise SleecError(f"{name} without a certificate checks nothing", "give certificate= as well")
         return None
     from sleec_runtime.certificate import Demand
+    from sleec_runtime.manifest import Required
 
-    return Demand(certificate, key, chains)
+    return Demand(certificate, key, chains, Required(*required.values()))
 
 
 def _together(names: Iterable[str]) -> tuple[str, ...]:

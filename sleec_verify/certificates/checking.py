@@ -6,7 +6,7 @@ import errno
 import json
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from hashlib import sha256
@@ -17,9 +17,9 @@ from sleec_runtime.certificate import MANIFEST, SIGNATURE, Use, read_manifest, u
 from sleec_runtime.errors import CertificateRefused, SleecError
 from sleec_runtime.files import read_file
 from sleec_verify import __version__
-from sleec_verify.certificates.making import Rebuilt, rebuild
+from sleec_verify.certificates.making import NOTHING_REQUIRED, Rebuilt, rebuild
 from sleec_verify.certificates.manifest import check_json, manifest
-from sleec_verify.certificates.tying import Tied, tie
+from sleec_verify.certificates.tying import NotTied, Tied, tie
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Witness
 from sleec_verify.replay import replays
@@ -27,7 +27,7 @@ from sleec_verify.report.json import witness_json
 from sleec_verify.timed.scope import speaks_of_traces
 
 if TYPE_CHECKING:
-    from sleec_runtime.manifest import Manifest
+    from sleec_runtime.manifest import Manifest, Required
     from sleec_runtime.model import Reading, Ruleset, Value
     from sleec_verify.certificates.checker import Checker
     from sleec_verify.certificates.manifest import Shown
@@ -60,6 +60,7 @@ def check_certificate(
     folder: str,
     judge: Checker,
     use: Use | None = None,
+    required: Required = NOTHING_REQUIRED,
     *,
     key: str | None = None,
     oracle: Path | None = None,
@@ -69,7 +70,7 @@ def check_certificate(
     again, the refutations of these, judged by `judge`, and the witnesses, replayed. It must cover the `use` that is
     made of the rules, by default that of the whole text in its own reading, and be signed by the public `key`, if there
     is one. Of what rests on refutations, the `oracle`, if there is one, makes the formula once more, by what is proved,
-    and judges its refutation.
+    and judges its refutation. What is `required` here, or was when the certificate was written, must be so.
 
     Raises CertificateRefused with all the reasons that are found.
     """
@@ -78,14 +79,18 @@ def check_certificate(
     read = ruleset.read_as(cast("Reading", claimed.reading))
     examined = _Examined(read, claimed, Path(folder), judge)
     problems = [*examined.files(), *examined.contents(progress)]
+    if (required.proved or claimed.required.proved) and not judge.proved:
+        problems.append(Problem("not-proved", f"the proofs are judged by {judge.name}, which is not proved correct"))
     tied: list[Tied] = []
     for one in () if problems else tie(examined.shown, read, claimed.domain, oracle):
-        if isinstance(one, Tied):
-            tied.append(one)
-        else:
+        if isinstance(one, NotTied):
             problems.append(Problem("theory", str(one)))
+        elif not one.proved and (required.tied or claimed.required.tied):
+            problems.append(Problem("not-tied", f"the verdict of {one.check} is not tied to the rules: {one.reason}"))
+        else:
+            tied.append(one)
     if problems:
-        raise CertificateRefused(problems, _hint(claimed))
+        raise CertificateRefused(problems, _hint(claimed, problems))
     return Confirmed(read, claimed, tuple(examined.shown), judge, (Path(folder) / SIGNATURE).exists(), tuple(tied))
 
 
@@ -102,11 +107,13 @@ def _check_use(ruleset: Ruleset, claimed: Manifest, use: Use) -> None:
         raise CertificateRefused(problems, not_covered[0].hint if not_covered else None)
 
 
-def _hint(claimed: Manifest) -> str | None:
+def _hint(claimed: Manifest, problems: Sequence[Problem]) -> str | None:
     version = claimed.whole["tool"]["version"]
-    if version == __version__:
-        return None
-    return f"it was made by version {version}, and this is {__version__}; certify the rules again with this one"
+    if version != __version__:
+        return f"it was made by version {version}, and this is {__version__}; certify the rules again with this one"
+    built = {"not-proved": "make -C proofs/checker", "not-tied": "make proofs"}
+    needed = [command for reason, command in built.items() if any(one.reason == reason for one in problems)]
+    return f"`{'` and `'.join(needed)}`, in a copy of the sources, builds what is required" if needed else None
 
 
 class _Examined:
@@ -153,7 +160,7 @@ class _Examined:
             else:
                 yield from self._entry(one, entry)
         digests = {name: claimed.files.get(name, "") for one in self.shown for name in one.files}
-        expected = manifest(ruleset, claimed.domain, claimed.untimed, self.shown, digests)
+        expected = manifest(ruleset, claimed.domain, claimed.untimed, claimed.required, self.shown, digests)
         for key in expected.keys() - {"checks", "tool"}:
             if not _same(expected[key], claimed.whole[key]):
                 yield Problem("manifest", f"what the {MANIFEST} says under {key!r} is not what the rules give")

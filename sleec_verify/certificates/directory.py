@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from sleec_runtime.certificate import MANIFEST, SIGNATURE, read_manifest
@@ -42,8 +42,13 @@ def check_free(folder: str, force: bool) -> None:
         raise Occupied(f"{folder} holds a certificate already", "certify with --force to replace it")
 
 
-def write_folder(folder: str, files: Iterable[tuple[str, bytes]], force: bool) -> None:
-    """Write a certificate whole, or nothing.
+def write_folder(
+    folder: str,
+    files: Iterable[tuple[str, bytes]],
+    force: bool,
+    accept: Callable[[str], object] = lambda made: None,
+) -> None:
+    """Write a certificate whole, or nothing: not if `accept`, given the folder that is to take its place, raises.
 
     Raises Occupied where there is something already, SleecError where it cannot be written.
     """
@@ -57,6 +62,7 @@ def write_folder(folder: str, files: Iterable[tuple[str, bytes]], force: bool) -
             new.mkdir()
             for name, data in files:
                 (new / name).write_bytes(data)
+            accept(str(new))
             try:
                 if target.exists():
                     target.rename(made / "old")

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from hashlib import sha256
 from typing import TYPE_CHECKING
 
+from sleec_runtime.certificate import Use
+from sleec_runtime.manifest import Required
 from sleec_verify.certificates.manifest import Shown, manifest
 from sleec_verify.certificates.recording import Asked, Recorder
 from sleec_verify.certificates.refutation import Disjunction, disjunctions
@@ -21,6 +23,9 @@ if TYPE_CHECKING:
     from sleec_verify.finding import CheckResult
     from sleec_verify.report.json import Json
     from sleec_verify.timed.scope import Untimed
+
+
+NOTHING_REQUIRED = Required()
 
 
 @dataclass(frozen=True)
@@ -42,8 +47,10 @@ class Rebuilt:
 
 @dataclass(frozen=True)
 class Certificate:
-    """What goes into the folder: the manifest, and every other file by its name."""
+    """What goes into the folder: the manifest, and every other file by its name. `use` is what it is for."""
 
+    use: Use
+    required: Required
     shown: tuple[Shown, ...]
     manifest: dict[str, Json]
     files: dict[str, str]
@@ -66,9 +73,11 @@ def certify(
     domain: str | None = None,
     untimed: Untimed = "at",
     progress: Callable[[str, int, int], None] | None = None,
+    required: Required = NOTHING_REQUIRED,
 ) -> Certificate:
     """Run every check that there is for the ruleset, as `run_checks` does, and refute again, with a proof, what a
-    solver answered with no. A `domain` counts for rules that have any."""
+    solver answered with no. A `domain` counts for rules that have any. That what is `required` is so is written here,
+    and decided by `check_certificate`."""
     if not ruleset.domains:
         domain = None
     shown, files = [], {}
@@ -79,7 +88,8 @@ def certify(
             files[f"{name}.lrat"] = formula.lrat()
     digests = {name: sha256(text.encode()).hexdigest() for name, text in files.items()}
     told = untimed if speaks_of_traces(ruleset) else None
-    return Certificate(tuple(shown), manifest(ruleset, domain, told, shown, digests), files)
+    whole = manifest(ruleset, domain, told, required, shown, digests)
+    return Certificate(Use(ruleset.reading, domain, untimed), required, tuple(shown), whole, files)
 
 
 def rebuild(

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from sleec_runtime.manifest import FORMAT
+from sleec_runtime.manifest import FORMAT, Required
 from sleec_verify import __version__
 from sleec_verify.finding import Refuted, Unknown
 from sleec_verify.report.json import VERDICTS, Json, finding_json
@@ -49,6 +49,7 @@ def manifest(
     ruleset: Ruleset,
     domain: str | None,
     untimed: str | None,
+    required: Required,
     shown: Sequence[Shown],
     files: Mapping[str, str],
 ) -> dict[str, Json]:
@@ -69,6 +70,7 @@ def manifest(
         "domain": domain,
         "untimed": untimed,
         "chains": untimed is not None,
+        "required": dict(required._asdict()),
         "checks": checks,
         "files": dict(files),
     }

@@ -15,8 +15,9 @@ from threading import current_thread, main_thread
 from sleec_verify.certificates.elaboration import Elaborated, Elaborator, Learnt
 from sleec_verify.certificates.recording import Asked
 
-MOST_LITERALS = 2_000_000
-"""Literals after which a further pair of files is begun, as checkers hold a formula in memory."""
+MOST_LITERALS = 1_000_000
+"""Literals after which a further pair of files is begun, as checkers hold a formula in memory. They take less than half
+of the 16 MiB that a file may have (`sleec_runtime.files`)."""
 
 
 class Disjunction:

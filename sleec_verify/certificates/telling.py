@@ -66,6 +66,7 @@ def _covered(manifest: Mapping[str, Any]) -> str:
     if manifest["untimed"] is not None:
         words.append(f"untimed {manifest['untimed']}")
     words.append("with chains" if manifest["chains"] else "without chains")
+    words += [f"required: {name}" for name, required in manifest["required"].items() if required]
     return "; ".join(words)
 
 
@@ -108,7 +109,7 @@ def _json(
         "certificate": folder,
         "path": ruleset.source.path,
         "sha256": ruleset.source.sha256,
-        **{key: manifest[key] for key in ("reading", "domain", "untimed", "chains")},
+        **{key: manifest[key] for key in ("reading", "domain", "untimed", "chains", "required")},
         **({} if judge is None else {"holds": True, "checker": {"name": judge.name, "proved": judge.proved}}),
         **({} if judge is None else {"theory": {t.check: {"proved": t.proved, "reason": t.reason} for t in tied}}),
         "checks": checks,

@@ -13,6 +13,7 @@ from sleec_verify.cli.output import note, write
 from sleec_verify.finding import SEVERITIES, Severity, Unknown
 
 if TYPE_CHECKING:
+    from sleec_runtime.manifest import Required
     from sleec_runtime.model import Reading, Ruleset
     from sleec_verify.certificates.making import Certificate
     from sleec_verify.finding import CheckResult
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
     "--checker", metavar="PROGRAM", type=options.PATH, help="With --check: what judges the proofs, as check-lrat does."
 )
 @click.option("--force", is_flag=True, help="With -o: replace the certificate that is there.")
+@options.requirements("")
 @options.output_format("full", "json")
 @options.max_size
 @click.pass_context
@@ -67,21 +69,28 @@ def command(
     public: str | None,
     checker: str | None,
     force: bool,
+    require_proved: bool,
+    require_tied: bool,
     form: str,
 ) -> int:
     """Check the rules in FILE and write a certificate: for what was proved, the clauses and their refutation (DIMACS,
     LRAT), for what was refuted the witnesses, and a manifest. With --check, have a certificate checked: all of it is
     computed again from the text of the rules.
 
+    What is required with -o is so before the certificate is written, and again whenever it is checked.
+
     Exit codes are those of `check`; a certificate that is refused is unusable, 2.
     """
     if (output is None) == (checked is None):
         raise click.UsageError("say -o DIR to write a certificate, or --check DIR to have one checked")
     _refuse_stray(context, ("public", "checker") if checked is None else ("private", "force"))
+    from sleec_runtime.manifest import Required
+
+    required = Required(require_proved, require_tied)
     if output is not None:
-        return _write(path, output, reading, domain, untimed, fail_level, private, force, form)
+        return _write(path, output, reading, domain, untimed, fail_level, private, force, required, form)
     assert checked is not None
-    return _check(path, checked, reading, domain, untimed, fail_level, public, checker, form)
+    return _check(path, checked, reading, domain, untimed, fail_level, public, checker, required, form)
 
 
 def _refuse_stray(context: click.Context, names: tuple[str, ...]) -> None:
@@ -102,6 +111,7 @@ def _write(
     fail_level: Severity,
     private: str | None,
     force: bool,
+    required: Required,
     form: str,
 ) -> int:
     from sleec_verify.certificates.directory import check_free
@@ -112,22 +122,33 @@ def _write(
     check_free(output, force)
     ruleset = one_ruleset(path, reading, domain)
     with Progress() as progress:
-        made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path))
-    save(made, output, private, force)
+        made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path), required)
+        save(made, ruleset, output, private, force)
     write(told(form, ruleset, output, made.manifest, made.shown, None))
     return _exit_code(made.results, fail_level)
 
 
-def save(made: Certificate, output: str, private: str | None = None, force: bool = False) -> None:
-    """Write a certificate to the folder `output`, signed if there is a key."""
+def save(made: Certificate, ruleset: Ruleset, output: str, private: str | None = None, force: bool = False) -> None:
+    """Write a certificate to the folder `output`, signed if there is a key.
+
+    Raises CertificateRefused where it says that something is required that is not so. Then nothing is written.
+    """
     from sleec_runtime.certificate import MANIFEST, SIGNATURE
+    from sleec_verify.certificates.checker import checker
+    from sleec_verify.certificates.checking import check_certificate
     from sleec_verify.certificates.directory import write_folder
     from sleec_verify.certificates.signing import sign
+    from sleec_verify.theory.oracle import built
 
     files = list(made.contents())
     if private is not None:
         files.append((SIGNATURE, sign(dict(files)[MANIFEST], private)))
-    write_folder(output, files, force)
+
+    def accept(folder: str) -> None:
+        if any(made.required):
+            check_certificate(ruleset, folder, checker(), made.use, oracle=built())
+
+    write_folder(output, files, force, accept)
 
 
 def _check(
@@ -139,6 +160,7 @@ def _check(
     fail_level: Severity,
     public: str | None,
     checker: str | None,
+    required: Required,
     form: str,
 ) -> int:
     from sleec_runtime.certificate import Use
@@ -159,6 +181,7 @@ def _check(
                 checked,
                 judge,
                 Use(reading or ruleset.reading, domain, untimed),
+                required,
                 key=public,
                 oracle=built(),
                 progress=progress.on(ruleset.source.path),

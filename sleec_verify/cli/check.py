@@ -46,6 +46,7 @@ if TYPE_CHECKING:
 @click.option(
     "--certify", "certificate", metavar="DIR", type=options.PATH, help="Write a certificate of it to this folder, too."
 )
+@options.requirements("With --certify: ")
 @options.no_cache
 @click.option("--watch", "watched", is_flag=True, help="Check again whenever a file changes, until Ctrl-C.")
 @options.max_size
@@ -59,6 +60,8 @@ def command(
     form: str,
     output: str | None,
     certificate: str | None,
+    require_proved: bool,
+    require_tied: bool,
     no_cache: bool,
     watched: bool,
 ) -> int:
@@ -76,6 +79,8 @@ def command(
         require_writable(output, (path for path in files(paths) if not isinstance(path, Unusable)))
     cache = None if no_cache else cache_of_environment()
 
+    if certificate is None and (require_proved or require_tied):
+        raise click.UsageError("what is required is required of a certificate: say --certify DIR")
     if certificate is not None:
         from sleec_verify.certificates.directory import check_free
 
@@ -87,7 +92,7 @@ def command(
         found = rulesets(paths, reading, domain)
         if certificate is not None and len(found) > 1:
             raise click.UsageError("a certificate is of one ruleset: name one file")
-        outcomes = _outcomes(found, domain, untimed, realizable, cache, certificate)
+        outcomes = _outcomes(found, domain, untimed, realizable, cache, certificate, (require_proved, require_tied))
         report(outcomes, form, output)
         return _exit_code(outcomes, fail_level)
 
@@ -105,6 +110,7 @@ def _outcomes(
     realizable: int | None,
     cache: Cache | None,
     certificate: str | None,
+    required: tuple[bool, bool],
 ) -> list[Outcome]:
     from sleec_verify.cli.progress import Progress
     from sleec_verify.timed.scope import speaks_of_traces
@@ -122,7 +128,7 @@ def _outcomes(
                         if certificate is None:
                             results = kept_or_new(ruleset, domain, untimed, cache, progress.on(path))
                         else:
-                            results = _certified(ruleset, domain, untimed, certificate, progress)
+                            results = _certified(ruleset, domain, untimed, certificate, required, progress)
                         if realizable is not None:
                             # A strategy is no refutation, of which certificates speak.
                             results += _realizability(ruleset, domain, untimed, realizable, progress)
@@ -134,13 +140,19 @@ def _outcomes(
 
 
 def _certified(
-    ruleset: Ruleset, domain: str | None, untimed: Untimed, certificate: str, progress: Progress
+    ruleset: Ruleset,
+    domain: str | None,
+    untimed: Untimed,
+    certificate: str,
+    required: tuple[bool, bool],
+    progress: Progress,
 ) -> tuple[CheckResult, ...]:
+    from sleec_runtime.manifest import Required
     from sleec_verify.certificates.making import certify
     from sleec_verify.cli.certify import save
 
-    made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path))
-    save(made, certificate)
+    made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path), Required(*required))
+    save(made, ruleset, certificate)
     return made.results
 
 

@@ -57,6 +57,7 @@ STEP_SUMMARY = "GITHUB_STEP_SUMMARY"
     type=options.PATH,
     help=f"Write a summary in Markdown; an earlier one is replaced. Where ${STEP_SUMMARY} is set, it goes there too.",
 )
+@options.requirements("Ask for certificates. ")
 @options.output_format(*FORMATS)
 @options.output
 @options.no_cache
@@ -71,6 +72,8 @@ def command(
     baseline: str | None,
     write_baseline: bool,
     summary: str | None,
+    require_proved: bool,
+    require_tied: bool,
     form: str,
     output: str | None,
     no_cache: bool,
@@ -88,6 +91,7 @@ def command(
     from sleec_verify.repository import NOW, Repository
 
     config = find_config() if config_file is None else read_config(config_file)
+    config = config._replace(block=config.block.requiring(require_proved, require_tied))
     known_file = baseline or (None if config.baseline is None else config.at(config.baseline))
     chosen = paths or tuple(map(config.at, config.rulesets))
     check = _check(untimed, no_cache)

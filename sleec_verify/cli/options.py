@@ -63,6 +63,19 @@ def _limit(context: click.Context, parameter: click.Parameter, written: str) -> 
     context.find_root().with_resource(size_limit(size))
 
 
+def requirements(where: str) -> Callable[[_Command], _Command]:
+    """``--require-proved`` and ``--require-tied``, with a word on where they count."""
+
+    def decorate(command: _Command) -> _Command:
+        proved = "the checker that is proved in Coq judges every refutation"
+        tied = "every verdict that rests on a refutation is proved of the rules themselves"
+        for name, what in (("--require-tied", tied), ("--require-proved", proved)):
+            command = click.option(name, is_flag=True, help=f"{where}Refuse a certificate unless {what}.")(command)
+        return command
+
+    return decorate
+
+
 max_size = click.option(
     "--max-size",
     metavar="SIZE",

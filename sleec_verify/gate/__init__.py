@@ -190,7 +190,7 @@ def _fill_in(
         if config.block.certificates:
             from sleec_verify.gate.certification import without_certificate
 
-            found.uncertified = without_certificate(found.ruleset, untimed)
+            found.uncertified = without_certificate(found.ruleset, untimed, config.block)
     if not found.errors:
         new = found.ruleset
         found.difference = compare(

@@ -6,15 +6,17 @@ from pathlib import Path
 
 from sleec_runtime.certificate import Use
 from sleec_runtime.errors import SleecError
+from sleec_runtime.manifest import Required
 from sleec_runtime.model import Ruleset
+from sleec_verify.gate.config import Policy
 from sleec_verify.timed.scope import Untimed
 
 SUFFIX = ".certificate"
 
 
-def without_certificate(ruleset: Ruleset, untimed: Untimed) -> str | None:
+def without_certificate(ruleset: Ruleset, untimed: Untimed, policy: Policy) -> str | None:
     """Why a ruleset has no certificate that holds of it as it is checked: its whole text in its own reading, with
-    `untimed`. None if it has one. Costs what ``certify --check`` does."""
+    `untimed`, and with what the `policy` requires. None if it has one. Costs what ``certify --check`` does."""
     from sleec_verify.certificates.checker import checker
     from sleec_verify.certificates.checking import check_certificate
     from sleec_verify.theory.oracle import built
@@ -24,7 +26,9 @@ def without_certificate(ruleset: Ruleset, untimed: Untimed) -> str | None:
     if not folder.exists():
         return f"there is no {folder.name} beside it (sleec-verify certify {path.name} -o {folder.name})"
     try:
-        check_certificate(ruleset, str(folder), checker(None), Use(ruleset.reading, untimed=untimed), oracle=built())
+        use = Use(ruleset.reading, untimed=untimed)
+        required = Required(policy.require_proved, policy.require_tied)
+        check_certificate(ruleset, str(folder), checker(), use, required, oracle=built())
     except SleecError as error:
         return f"{folder.name} is refused: {error.message}"
     return None

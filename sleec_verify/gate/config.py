@@ -39,7 +39,8 @@ class Policy(NamedTuple):
     and those of the base did. `dead_hedges`: a hedge that decides nowhere. `unknown`: whatever is not
     decided. `unused_suppressions`: a suppression that nothing needs. `clause_coverage`: fewer clauses than this, in
     percent, reached by the cases beside a ruleset; None asks nothing. `certificates`: a ruleset without one beside it
-    that holds.
+    that holds. `require_proved` and `require_tied` ask for `certificates`, and for more of them
+    (`sleec_runtime.manifest.Required`).
     """
 
     findings: Severity | Literal["never"] = "error"
@@ -51,6 +52,14 @@ class Policy(NamedTuple):
     unused_suppressions: bool = False
     clause_coverage: float | None = None
     certificates: bool = False
+    require_proved: bool = False
+    require_tied: bool = False
+
+    def requiring(self, proved: bool, tied: bool) -> Policy:
+        """This policy, with what is required of certificates besides. Whoever requires anything asks for them."""
+        proved, tied = proved or self.require_proved, tied or self.require_tied
+        asked = self.certificates or proved or tied
+        return self._replace(certificates=asked, require_proved=proved, require_tied=tied)
 
 
 class Config(NamedTuple):
@@ -197,6 +206,8 @@ _POLICIES: Mapping[str, _Read] = {
     "unused-suppressions": _truth,
     "clause-coverage": _percent,
     "certificates": _truth,
+    "require-proved": _truth,
+    "require-tied": _truth,
 }
 
 _SETTINGS: Mapping[str, _Read] = {

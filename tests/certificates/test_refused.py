@@ -16,7 +16,7 @@ import pytest
 from sleec_runtime.certificate import Use
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.language import load
-from sleec_runtime.manifest import FORMAT, canonical
+from sleec_runtime.manifest import FORMAT, Required, canonical
 from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.certificates.checking import check_certificate
 from tests.certificates.test_certificates import CONSTRAINED, source, written
@@ -384,4 +384,7 @@ def test_every_reason_is_in_the_docs() -> None:
     told = set(re.findall(r"^\| `([a-z-]+)` \|", section.partition("\n## ")[0], flags=re.MULTILINE))
     modules = ("sleec_verify/certificates/checking.py", "sleec_runtime/certificate.py", "sleec_runtime/manifest.py")
     code = "".join((ROOT / name).read_text(encoding="utf-8") for name in modules)
-    assert told == set(re.findall(r'(?:Problem|Uncovered|_refused|CertificateRefused)[(\[\s]+"([a-z-]+)",', code))
+    required = {f"not-{name}" for name in Required._fields}
+    assert told == required | set(
+        re.findall(r'(?:Problem|Uncovered|_refused|CertificateRefused)[(\[\s]+"([a-z-]+)",', code)
+    )

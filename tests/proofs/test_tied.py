@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 
+import sleec_runtime
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset
@@ -245,3 +246,10 @@ def test_the_command_says_so(
     assert told["theory"] == {"conflict": {"proved": True, "reason": None}}
     monkeypatch.setattr(oracle_module, "BUILT", tmp_path / "nowhere")
     assert "is not proved: the oracle is not built (make proofs)" in called("--check", folder, rules)
+
+
+def test_rules_tied_to_their_certificate_can_be_required(oracle: Path, tmp_path: Path) -> None:
+    rules, folder = str(RULESETS / "household.sleec"), str(tmp_path / "c")
+    assert run(["certify", rules, "-o", folder, "--require-tied"]) == 0
+    assert run(["certify", "--check", folder, rules]) == 0
+    sleec_runtime.load(rules, certificate=folder, require_tied=True)
