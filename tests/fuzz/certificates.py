@@ -11,7 +11,7 @@ from typing import Any
 from sleec_runtime.certificate import MANIFEST, Demand
 from sleec_runtime.language import parse_source
 from sleec_runtime.language.source import source_of
-from sleec_runtime.manifest import canonical
+from sleec_runtime.manifest import Required, canonical
 from sleec_runtime.model import Ruleset
 from sleec_verify.certificates import lrat
 from sleec_verify.certificates.checker import IN_PYTHON
@@ -50,7 +50,7 @@ def manifest(data: bytes, folder: Path) -> None:
         (folder / name).write_text(text)
     for written in filter(None, (data, _canonical(data))):
         (folder / MANIFEST).write_bytes(written)
-        demand = unless_refused(Demand, folder, None, False)
+        demand = unless_refused(Demand, folder, None, False, Required())
         if demand is not None:
             unless_refused(demand.check, ruleset, None)
         confirmed = unless_refused(check_certificate, ruleset, str(folder), IN_PYTHON)
