@@ -1,4 +1,4 @@
-"""Pages of the site that stand elsewhere in the project: the rulesets and the changelog."""
+"""Pages of the site that stand elsewhere in the project: the rulesets, the changelog, and those for contributors."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ import re
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-PAGES = {"CHANGELOG.md": "changelog.md", "rulesets/README.md": "rulesets.md"}
+AS_THEY_ARE = {"CHANGELOG.md": "changelog.md", "CONTRIBUTING.md": "contributing.md", "SECURITY.md": "security.md"}
+PAGES = {**AS_THEY_ARE, "rulesets/README.md": "rulesets.md"}
 """The pages by the files whose text they have."""
 
 
 def pages() -> dict[str, str]:
     """The pages by their paths in the site."""
-    return {"rulesets.md": _rulesets(), "changelog.md": (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")}
+    same = {page: (ROOT / file).read_text(encoding="utf-8") for file, page in AS_THEY_ARE.items()}
+    return {"rulesets.md": _rulesets(), **same}
 
 
 def _rulesets() -> str:

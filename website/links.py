@@ -9,20 +9,26 @@ from website import copied
 
 _LINK = re.compile(r"\[([^\]\n]*(?:\n[^\]\n]*)?)\]\(([^)\s#:]+)(#[\w-]+)?\)")
 _PAGES = {**copied.PAGES, "README.md": "index.md"}
+_SOURCES = {page: file for file, page in copied.PAGES.items()}
 
 
 def within_the_site(markdown: str, page: str) -> str:
-    """The text of `page`, a path below docs/, where such a link leads to the page that has the same, or is plain text
-    if there is none. A link to a page by the name of its file says the title instead."""
+    """The text of `page`, an address in the site, where such a link leads to the page that has the same, or is plain
+    text if there is none. A link to a page by the name of its file says the title instead."""
+
+    folder = dirname(_SOURCES.get(page, f"docs/{page}"))
 
     def changed(link: re.Match[str]) -> str:
         words, path, anchor = link.groups()
-        target = normpath(join("docs", dirname(page), path))
+        target = normpath(join(folder, path))
         if target.startswith("docs/"):
-            return f"[{_title(target)}]({path}{anchor or ''})" if words == path else link.group()
-        if target not in _PAGES:
+            address = target.removeprefix("docs/")
+            words = _title(target) if words == path else words
+        elif target in _PAGES:
+            address = _PAGES[target]
+        else:
             return str(words)
-        return f"[{words}]({relpath(_PAGES[target], dirname(page) or '.')}{anchor or ''})"
+        return f"[{words}]({relpath(address, dirname(page) or '.')}{anchor or ''})"
 
     return _LINK.sub(changed, markdown)
 

@@ -2,52 +2,22 @@
 
 from __future__ import annotations
 
-import os
 import re
 import shutil
 import subprocess
 import sys
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
 
 import pytest
 import yaml
 
 from sleec_verify.report import FORMATS
 from tests.cli.repository import Repository
+from tests.project.action import ACTION, STEPS, Runner, act, run_step
+from tests.project.pyprojects import ROOT
+from tests.project.sessions import blocks
 
-ROOT = Path(__file__).parents[2]
-ACTION: dict[str, Any] = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
-STEPS: dict[str, dict[str, Any]] = {step["id"]: step for step in ACTION["runs"]["steps"]}
 CLASH = "WHEN Rung THEN Open\n\nWHEN Storm THEN NOT Open\n"
-
-
-@dataclass(frozen=True)
-class Runner:
-    """The folders of a job: the checkout, which a pull request writes, and the runner's own."""
-
-    checkout: Path
-    temp: Path
-
-    @property
-    def outputs(self) -> Path:
-        return self.temp / "outputs"
-
-
-class Ran(NamedTuple):
-    code: int
-    out: str
-    err: str
-    outputs: str
-
-
-@pytest.fixture
-def runner(tmp_path: Path) -> Runner:
-    job = Runner(tmp_path / "checkout", tmp_path / "temp")
-    job.checkout.mkdir()
-    job.temp.mkdir()
-    return job
 
 
 def test_the_action_is_a_composite_one() -> None:
@@ -68,37 +38,6 @@ def test_every_input_is_described_and_used() -> None:
     assert used == set(ACTION["inputs"])
     assert all(given["description"] and "default" in given for given in ACTION["inputs"].values())
     assert ACTION["inputs"]["format"]["default"] in FORMATS
-
-
-def run_step(name: str, runner: Runner, values: dict[str, str], **environment: str) -> Ran:
-    """Run a step's script as GitHub does, with these values of the expressions in it."""
-    step = STEPS[name]
-
-    def value(text: str) -> str:
-        return re.sub(r"\$\{\{ ([\w.-]+) \}\}", lambda match: values[match[1]], text)
-
-    runner.outputs.write_text("")
-    done = subprocess.run(
-        ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"]],
-        cwd=value(step["working-directory"]) if "working-directory" in step else runner.checkout,
-        env={
-            **os.environ,
-            **environment,
-            **{variable: value(expression) for variable, expression in step["env"].items()},
-            "RUNNER_TEMP": str(runner.temp),
-            "GITHUB_OUTPUT": str(runner.outputs),
-        },
-        capture_output=True,
-        text=True,
-    )
-    return Ran(done.returncode, done.stdout, done.stderr, runner.outputs.read_text())
-
-
-def act(runner: Runner, python: str = sys.executable, environment: dict[str, str] | None = None, **inputs: str) -> Ran:
-    """Run the step that checks, with these inputs, the others' defaults, and this Python."""
-    values = {f"inputs.{name}": str(given["default"]) for name, given in ACTION["inputs"].items()}
-    values.update({f"inputs.{name.replace('_', '-')}": given for name, given in inputs.items()})
-    return run_step("check", runner, {**values, "steps.install.outputs.python": python}, **(environment or {}))
 
 
 def test_the_action_annotates_and_fails(runner: Runner) -> None:
@@ -205,6 +144,20 @@ def test_a_hostile_checkout_runs_nothing_in_the_installation(runner: Runner, tmp
     assert (ran.code, ran.outputs) == (1, "exit-code=1\n"), ran.err
     assert ran.out.startswith("::error file=clash.sleec,line=1,")
     assert not (tmp_path / "marks").exists()
+
+
+def test_the_page_on_security_shows_what_the_action_installs() -> None:
+    """The action runs it with more options, which say how and not what."""
+
+    def installed(text: str) -> list[set[str]]:
+        lines = re.findall(r"^(?:python -I -m pip install|\"\$\{install\[@\]\}\") (.*)$", text, re.MULTILINE)
+        how = {"--no-build-isolation", "--use-pep517"}
+        return [{part.strip('"').replace("$SOURCE", ".") for part in line.split()} - how for line in lines]
+
+    shown, _ = blocks((ROOT / "SECURITY.md").read_text(encoding="utf-8"))
+    in_the_action = installed(STEPS["install"]["run"].replace("$SOURCE/requirements", "requirements"))
+    assert len(in_the_action) == 3
+    assert installed(shown.body) == in_the_action
 
 
 def test_what_the_action_uses_is_pinned_by_commit() -> None:

@@ -15,7 +15,10 @@ from tests.project.sessions import ROOT, as_printed, blocks, commands
 from website.refused import with_answers
 
 DOCS = ROOT / "docs"
-PAGES = [ROOT / "README.md", ROOT / "sleec_runtime" / "README.md", *sorted(DOCS.rglob("*.md"))]
+PAGES = [
+    *(ROOT / name for name in ("README.md", "sleec_runtime/README.md", "SECURITY.md", "CONTRIBUTING.md")),
+    *sorted(DOCS.rglob("*.md")),
+]
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
 
 PARSED = {"sleec", "sleec-bad", "dsl", "dsl-bad"}
@@ -30,6 +33,7 @@ IN_TESTS_OF_THEIR_PAGES = {
     "docs/gate.md": {"toml", "yaml"},
     "README.md": {""},
     "sleec_runtime/README.md": {"sh"},
+    "SECURITY.md": {"sh"},
 }
 """What is not run by commands, and what the tests of the page run in some way of their own."""
 

@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 import sleec_runtime
+from tests.project.sessions import blocks
 
 pytestmark = pytest.mark.slow  # each test builds or installs, which takes seconds
 
@@ -175,6 +176,22 @@ def test_a_robot_gets_the_runtime_and_contextpy3_only(tmp_path: Path) -> None:
         "rules.trigger('Rung')"
     )
     assert environment.run("-c", code, str(tmp_path / "a.sleec")) == "open\n"
+
+
+def test_a_robot_gets_locked_wheels_from_a_desk(tmp_path: Path) -> None:
+    """As SECURITY.md shows it."""
+    for name in ("requirements", "sleec_runtime"):
+        shutil.copytree(ROOT / name, tmp_path / "desk" / name, ignore=shutil.ignore_patterns("__pycache__"))
+    _, wheels = (block.body for block in blocks((ROOT / "SECURITY.md").read_text(encoding="utf-8")))
+    subprocess.run(
+        ["sh", "-e", "-c", wheels],
+        cwd=tmp_path / "desk",
+        env={**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"},
+        check=True,
+    )
+    environment = Environment(tmp_path / "robot")
+    environment.pip("install", "--no-index", "--find-links", str(tmp_path / "desk" / "wheels"), "sleec-runtime")
+    assert environment.installed() == {"sleec-runtime": VERSION, "contextpy3": "1.0"}
 
 
 WITH_EXTRAS = {"hypothesis", "pytest"}

@@ -91,6 +91,11 @@ def test_links_out_of_the_docs_lead_to_the_same_in_the_site() -> None:
         "See [the\nrules](../rulesets.md), [the paper](../index.md#the-paper), [it](robot.md#a), x."
     )
     assert links.within_the_site("[a](../CHANGELOG.md)", "times.md") == "[a](changelog.md)"
+    # A page that is copied from elsewhere has its links from there.
+    assert (
+        links.within_the_site("[a](docs/ci.md#x) [b](SECURITY.md)", "contributing.md")
+        == "[a](ci.md#x) [b](security.md)"
+    )
 
 
 def test_links_by_the_name_of_a_file_say_the_title() -> None:
