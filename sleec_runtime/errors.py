@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from sleec_runtime.messages import bounded, listed, represent
+from sleec_runtime.messages import bounded, escaped, listed, represent
 
 if TYPE_CHECKING:
     from sleec_runtime.conflicts import Conflict
@@ -26,7 +26,12 @@ class SleecError(Exception):
         super().__init__(self.message)
 
     def __str__(self) -> str:
-        return f"{self.message} ({self.hint})" if self.hint else self.message
+        """All of it, a line for each thing that is wrong. What could steer a terminal or forge a line is escaped."""
+        return "\n".join(map(escaped, self.sentences()))
+
+    def sentences(self) -> list[str]:
+        """Each thing that is wrong, with what to do about it, as it is."""
+        return [f"{self.message} ({self.hint})" if self.hint else self.message]
 
 
 @dataclass(frozen=True)
@@ -44,9 +49,9 @@ class LanguageError(SleecError):
     def __init__(self, source: Source, problems: Sequence[Problem]) -> None:
         self.source = source
         self.problems = tuple(problems)
-        super().__init__("\n".join(self._lines()))
+        super().__init__("\n".join(self.sentences()))
 
-    def _lines(self) -> list[str]:
+    def sentences(self) -> list[str]:
         lines = []
         for problem in self.problems:
             place = self.source.place(problem.span)
@@ -70,6 +75,10 @@ class CertificateRefused(SleecError):
     def __init__(self, problems: Sequence[tuple[str, str]], hint: str | None = None) -> None:
         super().__init__("\n".join(message for _, message in problems), hint)
         self.problems = tuple(problems)
+
+    def sentences(self) -> list[str]:
+        messages = [message for _, message in self.problems]
+        return [*messages[:-1], f"{messages[-1]} ({self.hint})" if self.hint else messages[-1]]
 
 
 # What the runtime refuses, before anything is executed ----------------------------------------------------

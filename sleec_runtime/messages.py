@@ -1,4 +1,4 @@
-"""Text of bounded length for messages, whatever the values are that it speaks of."""
+"""Text for messages, whatever the values are that it speaks of: of bounded length, and without control characters."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ LONGEST = 2_000
 
 SHOWN = 5
 """How many items of a list a message names."""
+
+_JOINERS = "\u200c\u200d"
+"""Zero-width characters that spell words of several languages."""
 
 
 def bounded(text: str) -> str:
@@ -38,6 +41,21 @@ def text_of(value: object) -> str:
         return bounded(str(value))
     except Exception:  # noqa: BLE001 - the str of a user's object
         return f"<{type(value).__name__} object>"
+
+
+def escaped(text: str, keep: str = "") -> str:
+    r"""`text` with escapes such as ``\n``, ``\x1b`` and ``\u202e`` for what is not printable, except what is in `keep`:
+    control characters, line separators, bidirectional and other invisible controls, and lone surrogates."""
+    if text.isprintable():
+        return text
+    from unicodedata import category
+
+    return "".join(
+        c
+        if c.isprintable() or c in keep or c in _JOINERS or category(c) == "Zs"
+        else c.encode("unicode_escape").decode("ascii")
+        for c in text
+    )
 
 
 class _Short(Repr):

@@ -12,7 +12,10 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from io import TextIOWrapper
-from typing import NoReturn, TextIO
+from typing import TYPE_CHECKING, NoReturn, TextIO
+
+if TYPE_CHECKING:
+    from click.exceptions import ClickException
 
 INTERRUPTED = 130
 BROKEN_PIPE = 141
@@ -66,7 +69,7 @@ def _told(arguments: Sequence[str]) -> int:
     try:
         return _invoke(list(arguments))
     except ClickException as error:
-        error.show()
+        _show(error)
         return int(error.exit_code)
     except (KeyboardInterrupt, Abort):
         print(file=sys.stderr)  # ends the line in which a terminal shows ^C
@@ -90,6 +93,20 @@ def _invoke(arguments: list[str]) -> int:
             return int(sleec_verify.invoke(context) or 0)
     except Exit as error:  # after --help and --version
         return error.exit_code
+
+
+def _show(error: ClickException) -> None:
+    """What click says of an error, in one line, with the arguments escaped. What is missing is a list of its own."""
+    from click.exceptions import ClickException, MissingParameter, UsageError
+
+    from sleec_verify.report.escape import as_line
+
+    if isinstance(error, MissingParameter):
+        error.show()
+        return
+    message = as_line(error.format_message())
+    shown = UsageError(message, error.ctx) if isinstance(error, UsageError) else ClickException(message)
+    shown.show()
 
 
 def _failed(error: Exception) -> int:

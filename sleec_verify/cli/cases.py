@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
-import sys
 from typing import TYPE_CHECKING
 
 import click
 
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
-from sleec_verify.cli.output import write_data
+from sleec_verify.cli.output import tell, write_data
 from sleec_verify.report.outcome import counted
 
 if TYPE_CHECKING:
@@ -68,7 +67,7 @@ def command(
         write_data((text,))
     else:
         _create(output, text, force)
-    print(_in_short(found), file=sys.stderr)
+    tell(_in_short(found))
     return exits.HOLDS
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING
 
 import click
 
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
-from sleec_verify.cli.output import write_data
+from sleec_verify.cli.output import note, write_data
 from sleec_verify.conversion import TARGETS, Target, convert, of_domain
 
 if TYPE_CHECKING:
@@ -38,7 +37,7 @@ def command(path: str, to: Target, reading: Reading | None, domain: str | None) 
     """
     ruleset = one_ruleset(path, None, domain)
     converted = convert(ruleset if domain is None else of_domain(ruleset, domain), to, reading)
-    for note in converted.notes:
-        print(f"note: {note}", file=sys.stderr)
+    for message in converted.notes:
+        note(message)
     write_data((converted.text,))
     return exits.HOLDS

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-
 import click
 
 from sleec_runtime.errors import SleecError
@@ -12,8 +10,9 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.files import write_whole
 from sleec_verify.cli.inputs import files
-from sleec_verify.cli.output import complain, note_link, write, write_data
+from sleec_verify.cli.output import complain, note_link, tell, write_data, write_line
 from sleec_verify.internal_error import internal_errors_of
+from sleec_verify.report.escape import as_line
 from sleec_verify.report.outcome import Unusable, counted
 
 
@@ -60,7 +59,7 @@ def command(paths: tuple[str, ...], mode: str | None) -> int:
     if mode is not None:
         done = "changed" if mode == "write" else "to change"
         more = f", {unusable} unusable" if unusable else ""
-        print(f"{counted(len(found), 'file')}, {changed or 'none'} {done}{more}", file=sys.stderr)
+        tell(f"{counted(len(found), 'file')}, {changed or 'none'} {done}{more}")
     if unusable:
         return exits.UNUSABLE
     return exits.FINDINGS if changed and mode != "write" else exits.HOLDS
@@ -80,14 +79,14 @@ def _laid_out(ruleset: Ruleset) -> str:
 
 def _show(path: str, ruleset: Ruleset, laid_out: str, mode: str) -> None:
     if mode == "write":
-        print(f"laid out {path}", file=sys.stderr)
+        tell(f"laid out {path}")
     elif mode == "check":
-        write((f"{ruleset.source.path} would change\n",))
+        write_line(f"{ruleset.source.path} would change")
     else:
         from difflib import unified_diff
         from io import StringIO
 
-        name = ruleset.source.path
+        name = as_line(ruleset.source.path)
         before, after = (StringIO(text).readlines() for text in (ruleset.source.text, laid_out))
         for line in unified_diff(before, after, name, name):
             write_data((line if line.endswith("\n") else line + "\n\\ No newline at end of file\n",))

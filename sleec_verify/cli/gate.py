@@ -12,7 +12,7 @@ import click
 from sleec_runtime.errors import SleecError
 from sleec_runtime.files import read_file
 from sleec_verify.cli import exits, options
-from sleec_verify.cli.output import complain, note_link, write
+from sleec_verify.cli.output import complain, note_link, tell, write
 from sleec_verify.report import FORMATS
 
 if TYPE_CHECKING:
@@ -149,7 +149,7 @@ def _report(found: Gated, form: str, output: str | None) -> None:
     from sleec_verify.cli.files import write_whole
 
     write_whole(output, "".join(render(found, form, PLAIN)).encode("utf-8", "surrogateescape"))
-    print(f"{output}: {verdict(found, PLAIN)}", end="", file=sys.stderr)
+    tell(f"{output}: {verdict(found, PLAIN)}")
 
 
 def _asserting(config: Config, texts: Sequence[str]) -> Asserting:
@@ -186,7 +186,7 @@ def _write_baseline(paths: Sequence[str], config: Config, target: str | None, ch
         about = {*places, *(one.code for one in config.targets)}
         keys |= {one for one in before if one[0] not in about}
     write_whole(target, baseline_text(keys).encode())
-    print(f"{target}: {counted(len(keys), 'finding')}", file=sys.stderr)
+    tell(f"{target}: {counted(len(keys), 'finding')}")
     return exits.HOLDS
 
 

@@ -31,19 +31,30 @@ def report(outcomes: Sequence[Outcome], form: str, output: str | None) -> None:
     from sleec_verify.report.outcome import in_short
 
     write_whole(output, "".join(renderer(form)(outcomes, PLAIN)).encode("utf-8", "surrogateescape"))
-    print(f"{output}: {in_short(outcomes)}", file=sys.stderr)
+    tell(f"{output}: {in_short(outcomes)}")
 
 
 def write(parts: Iterable[str]) -> None:
-    """Write to standard output as is: what people read, and JSON, which is ASCII."""
+    """Write to standard output what a renderer made, which is escaped already."""
     sys.stdout.writelines(parts)
+
+
+def write_line(text: str) -> None:
+    """Write one line to standard output."""
+    from sleec_verify.report.escape import as_line
+
+    print(as_line(text))
 
 
 def write_data(parts: Iterable[str]) -> None:
     """Write a text for other programs to standard output: in UTF-8 whatever the locale, line breaks as they are.
 
-    Names of files are written with the bytes that they have.
+    Names of files are written with the bytes that they have. A terminal gets escapes for what would steer it.
     """
+    if sys.stdout.isatty():
+        from sleec_runtime.messages import escaped
+
+        parts = (escaped(part, "\t\r\n") for part in parts)
     sys.stdout.flush()
     sys.stdout.buffer.writelines(part.encode("utf-8", "surrogateescape") for part in parts)
 
@@ -52,8 +63,15 @@ def note(message: str) -> None:
     """Tell of what may not be as expected on standard error; it changes neither the output nor the exit code."""
     from sleec_verify.report.palette import Palette
 
+    tell(f"{Palette.of(sys.stderr)('note', 'note')}: {message}")
+
+
+def tell(line: str) -> None:
+    """Write one line to standard error, after all that was written to standard output."""
+    from sleec_verify.report.escape import as_line
+
     sys.stdout.flush()
-    print(f"{Palette.of(sys.stderr)('note', 'note')}: {message}", file=sys.stderr)
+    print(as_line(line), file=sys.stderr, flush=True)
 
 
 def note_link(path: str) -> None:
@@ -66,10 +84,10 @@ def complain(error: SleecError) -> None:
     from sleec_verify.report.full import error_lines
     from sleec_verify.report.palette import Palette
 
-    sys.stdout.flush()
     for line in error_lines(error, Palette.of(sys.stderr)):
-        print(line, file=sys.stderr)
+        tell(line)
     if tracebacks:
-        from traceback import print_exception
+        from traceback import format_exception
 
-        print_exception(type(error), error, error.__traceback__)
+        for line in "".join(format_exception(type(error), error, error.__traceback__)).splitlines():
+            tell(line)

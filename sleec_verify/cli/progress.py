@@ -8,6 +8,8 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import TYPE_CHECKING
 
+from sleec_runtime.messages import escaped
+
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
@@ -40,7 +42,9 @@ class Progress:
                 if time.monotonic() - self._started < PATIENCE:
                     return
                 self._bar = _bar()
-            self._bar.update(self._bar.task_ids[0], description=f"{path}: {check}", completed=done, total=total)
+            self._bar.update(
+                self._bar.task_ids[0], description=escaped(f"{path}: {check}"), completed=done, total=total
+            )
 
         return report
 

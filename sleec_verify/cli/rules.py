@@ -13,6 +13,7 @@ from sleec_verify.checks.catalogue import Entry, by_code
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.output import write
 from sleec_verify.conformance import structure
+from sleec_verify.report.escape import as_text
 from sleec_verify.report.palette import Palette
 
 if TYPE_CHECKING:
@@ -76,23 +77,25 @@ def _near(kinds: _ByCode, code: str) -> str | None:
     return nearest(written, same) or next(slips, None) or nearest(code, [*CHECKS, structure.NAME])
 
 
+@as_text
 def _listed(kinds: _ByCode, palette: Palette) -> Iterator[str]:
     width = max(len(entry.check) for entry in kinds.values())
     for code, (check, _, kind, _) in kinds.items():
-        yield f"{palette('strong', code)}  {palette(kind.severity, f'{kind.severity:7}')}  "
-        yield f"{check:{width}}  {kind.title}\n"
+        severity = palette(kind.severity, f"{kind.severity:7}")
+        yield f"{palette('strong', code)}  {severity}  {check:{width}}  {kind.title}"
 
 
+@as_text
 def _explained(entry: Entry, palette: Palette) -> Iterator[str]:
-    from textwrap import fill, indent
+    from textwrap import indent, wrap
 
     check, question, kind, what = entry
-    yield f"{palette('strong', kind.code)}: {kind.title}\n"
-    yield f"{palette(kind.severity, kind.severity)} of the check {check}: {question}\n\n"
-    yield fill(kind.explanation, 100) + "\n\n"
-    yield fill(f"To mend it: {kind.mend}", 100) + "\n"
+    yield f"{palette('strong', kind.code)}: {kind.title}"
+    yield f"{palette(kind.severity, kind.severity)} of the check {check}: {question}"
+    yield from ("", *wrap(kind.explanation, 100))
+    yield from ("", *wrap(f"To mend it: {kind.mend}", 100))
     for title, example in ((f"{what} that have it:", kind.bad), (f"{what} that have not:", kind.good)):
-        yield f"\n{title}\n\n{indent(example.strip(), '    ')}\n"
+        yield from ("", title, "", *indent(example.strip(), "    ").split("\n"))
 
 
 def _json(entry: Entry) -> Json:

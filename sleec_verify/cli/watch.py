@@ -12,7 +12,7 @@ import click
 from sleec_runtime.errors import SleecError
 from sleec_verify.cli import exits
 from sleec_verify.cli.inputs import files
-from sleec_verify.cli.output import complain
+from sleec_verify.cli.output import complain, tell
 from sleec_verify.report.outcome import Unusable
 
 PAUSE = 0.3
@@ -51,8 +51,7 @@ def _tell(once: Callable[[], int]) -> None:
         once()
     except SleecError as error:
         complain(error)
-    sys.stdout.flush()
-    print(f"{time.strftime('%H:%M:%S')}, waiting for changes; Ctrl-C ends this", file=sys.stderr, flush=True)
+    tell(f"{time.strftime('%H:%M:%S')}, waiting for changes; Ctrl-C ends this")
 
 
 def _state(paths: Sequence[str]) -> list[tuple[object, ...]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from sleec_verify.report.escape import as_text
 from sleec_verify.report.outcome import Outcome, Unusable, checked, in_short, one_line
 from sleec_verify.report.words import listed
 
@@ -12,22 +13,23 @@ if TYPE_CHECKING:
     from sleec_verify.report.palette import Palette
 
 
+@as_text
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """A line for each finding and each check without a verdict, in the order of the rulesets and their texts."""
     for outcome in outcomes:
         if isinstance(outcome, Unusable):
-            yield f"{outcome.path}: {palette('error', 'unusable')}: {one_line(outcome.error)}\n"
+            yield f"{outcome.path}: {palette('error', 'unusable')}: {one_line(outcome.error)}"
             continue
         rules = outcome.ruleset.source
         for finding in outcome.told:
             source = finding.source or rules
             place = source.place(finding.span)
             label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
-            yield f"{source.path}:{place.line}:{place.column}: {label} {finding.message}\n"
+            yield f"{source.path}:{place.line}:{place.column}: {label} {finding.message}"
         for name, why in outcome.unlisted:
-            yield f"{rules.path}: {palette('note', f'note[{name}]')} {why}\n"
+            yield f"{rules.path}: {palette('note', f'note[{name}]')} {why}"
         for name, why in outcome.undecided:
-            yield f"{rules.path}: {palette('unknown', f'unknown[{name}]')} {why}\n"
+            yield f"{rules.path}: {palette('unknown', f'unknown[{name}]')} {why}"
     readings = sorted({outcome.ruleset.reading for outcome in checked(outcomes)})
     read_as = f" (reading {listed(readings)})" if readings else ""
-    yield f"{in_short(outcomes)}{read_as}\n"
+    yield f"{in_short(outcomes)}{read_as}"

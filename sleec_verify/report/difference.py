@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_verify.compare.result import by_obligation, relation
+from sleec_verify.report.escape import as_text
 from sleec_verify.report.outcome import counted
 from sleec_verify.report.words import given, in_short, listed, occurring, quoted, value_text
 
@@ -84,7 +85,9 @@ def _full(report: Report, palette: Palette) -> Iterator[str]:
         parts.append(list(on_assertions(report.asked, palette)))
     if len(report.compared) + report.unchanged > 1:
         parts.append([_in_all(report, palette)])
-    yield "\n".join("".join(f"{line}\n" for line in part) for part in parts)
+    for number, part in enumerate(parts):
+        yield from ("",) if number else ()
+        yield from part
 
 
 def on_difference(found: Difference, palette: Palette) -> Iterator[str]:
@@ -350,26 +353,26 @@ def _concise(report: Report, palette: Palette) -> Iterator[str]:
         path = found.new.source.path
         for change, obligation, way in by_obligation(found.changes):
             sign = palette("good", "+") if way == "added" else palette("error", "-")
-            yield f"{path}: {sign} {in_short(obligation)} {_short_cause(change)}\n"
+            yield f"{path}: {sign} {in_short(obligation)} {_short_cause(change)}"
         for conflict in found.conflicts:
             sign = palette("error", "+ conflict") if conflict.way == "added" else palette("good", "- conflict")
             at_odds = ", ".join(map(str, conflict.literals)) or "constraints"
-            yield f"{path}: {sign} {at_odds} {_short_cause(conflict)}\n"
+            yield f"{path}: {sign} {at_odds} {_short_cause(conflict)}"
         for situation in found.situations:
-            yield f"{path}: {'+' if situation.way == 'added' else '-'} situations: {situation.what}\n"
+            yield f"{path}: {'+' if situation.way == 'added' else '-'} situations: {situation.what}"
         for way, kind, name in found.names:
-            yield f"{path}: {'+' if way == 'added' else '-'} {kind} {name}\n"
+            yield f"{path}: {'+' if way == 'added' else '-'} {kind} {name}"
         for what, why in found.undecided:
-            yield f"{path}: {palette('unknown', 'unknown')} {what}: {why}\n"
-        yield f"{path}: {palette(_ROLES[found.relation], found.relation)}\n"
+            yield f"{path}: {palette('unknown', 'unknown')} {what}: {why}"
+        yield f"{path}: {palette(_ROLES[found.relation], found.relation)}"
     for assertion, ruleset, answer in report.asked:
         if isinstance(answer, Broken):
             broken = f"{palette('error', 'broken')} {assertion.text}"
-            yield f"{ruleset.source.path}: {broken}: {_short_witness(answer.witness)}\n"
+            yield f"{ruleset.source.path}: {broken}: {_short_witness(answer.witness)}"
         elif answer is not None:
-            yield f"{ruleset.source.path}: {palette('unknown', 'unknown')} {assertion.text}: {answer}\n"
+            yield f"{ruleset.source.path}: {palette('unknown', 'unknown')} {assertion.text}: {answer}"
     if len(report.compared) + report.unchanged > 1:
-        yield f"{counted(len(report.compared) + report.unchanged, 'ruleset')}: {report.relation}\n"
+        yield f"{counted(len(report.compared) + report.unchanged, 'ruleset')}: {report.relation}"
 
 
 def _short_cause(one: Change | ConflictChange) -> str:
@@ -389,7 +392,7 @@ def _json(report: Report, palette: Palette) -> Iterator[str]:
 
 
 RENDERERS: Mapping[str, Callable[[Report, Palette], Iterator[str]]] = {
-    "full": _full,
-    "concise": _concise,
+    "full": as_text(_full),
+    "concise": as_text(_concise),
     "json": _json,
 }

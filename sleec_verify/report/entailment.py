@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume
 from sleec_verify.chains import lines
+from sleec_verify.report.escape import as_text
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.words import listed, quoted, value_text
 
@@ -22,32 +23,32 @@ if TYPE_CHECKING:
 def _full(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
     source = ruleset.source
     for finding in answer.conflicts:
-        yield from (line + "\n" for line in finding_lines(finding, source, palette))
-        yield "\n"
+        yield from finding_lines(finding, source, palette)
+        yield ""
     if answer.consistent:
-        yield f"{palette('strong', 'due')}: {', '.join(answer.obligations) or 'nothing'}\n"
+        yield f"{palette('strong', 'due')}: {', '.join(answer.obligations) or 'nothing'}"
         if answer.prohibitions:
-            yield f"{palette('strong', 'forbidden')}: {', '.join(answer.prohibitions)}\n"
+            yield f"{palette('strong', 'forbidden')}: {', '.join(answer.prohibitions)}"
     else:
-        yield f"{palette('error', 'The rules contradict one another here')}: nothing is listed as due.\n"
+        yield f"{palette('error', 'The rules contradict one another here')}: nothing is listed as due."
     for because in answer.because:
         line = source.place(because.span).line
         says = " AND ".join(because.in_words()) or "nothing"
-        yield f"  {because.layer or because.rule} ({source.path}:{line}): {says}\n"
+        yield f"  {because.layer or because.rule} ({source.path}:{line}): {says}"
     yield from once_done(answer, palette)
     yield from scheduled(answer, context, palette)
     yield from caveats(ruleset, answer, palette)
-    yield f"reading: {ruleset.reading}\n"
+    yield f"reading: {ruleset.reading}"
 
 
 def _concise(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
     del context  # asked about by who reads this
-    yield from (f"{name}\n" for name in answer.obligations)
-    yield from (f"NOT {name}\n" for name in answer.prohibitions)
+    yield from answer.obligations
+    yield from (f"NOT {name}" for name in answer.prohibitions)
     for finding in answer.conflicts:
         place = ruleset.source.place(finding.span)
         label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
-        yield f"{ruleset.source.path}:{place.line}:{place.column}: {label} {finding.message}\n"
+        yield f"{ruleset.source.path}:{place.line}:{place.column}: {label} {finding.message}"
 
 
 def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
@@ -93,8 +94,8 @@ def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palet
 def once_done(answer: Entailment, palette: Palette) -> Iterator[str]:
     """What becomes due once what is due is done, where anything does."""
     if answer.chain:
-        yield f"{palette('strong', 'once that is done')}:\n"
-        yield from (line + "\n" for line in lines(answer.chain))
+        yield f"{palette('strong', 'once that is done')}:"
+        yield from lines(answer.chain)
 
 
 def scheduled(answer: Entailment, context: Context, palette: Palette) -> Iterator[str]:
@@ -103,9 +104,9 @@ def scheduled(answer: Entailment, context: Context, palette: Palette) -> Iterato
         return
     from sleec_verify.report.schedule import chart, in_words
 
-    yield f"{palette('strong', 'schedule')}:\n"
-    yield from (f"  {line}\n" for line in in_words(answer.schedule))
-    yield from (f"    {line}\n" for line in chart(answer.schedule, context))
+    yield f"{palette('strong', 'schedule')}:"
+    yield from (f"  {line}" for line in in_words(answer.schedule))
+    yield from (f"    {line}" for line in chart(answer.schedule, context))
 
 
 def _has_times(answer: Entailment) -> bool:
@@ -138,30 +139,30 @@ def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[
     with_these = listed(_as_given(answer)) if answer.possible else ""
     if answer.broken_assumptions:
         by = _named(ruleset, answer.broken_assumptions)
-        yield f"{palette('warning', 'warning')}: this situation cannot be, by {by}; checks leave it out\n"
+        yield f"{palette('warning', 'warning')}: this situation cannot be, by {by}; checks leave it out"
         if answer.possible:
-            yield f"{palette('help', 'help')}: what is not given counts as false; it can be with {with_these}\n"
+            yield f"{palette('help', 'help')}: what is not given counts as false; it can be with {with_these}"
     elif answer.unsettled:
         names = [quoted(name) for name, _ in answer.possible]
         are, them = ("is", "it") if len(names) == 1 else ("are", "them")
         by = _named(ruleset, answer.unsettled)
         yield (
             f"{palette('warning', 'warning')}: {listed(names)} {are} not given, and if all that compares with {them} "
-            f"is false, this situation cannot be, by {by}\n"
+            f"is false, this situation cannot be, by {by}"
         )
-        yield f"{palette('help', 'help')}: give {them}; it can be with {with_these}\n"
+        yield f"{palette('help', 'help')}: give {them}; it can be with {with_these}"
     for event, forbidding in answer.at_odds:
         verb = "forbids" if len(forbidding) == 1 else "forbid"
-        yield f"{palette('warning', 'warning')}: {quoted(event)} occurs, and {listed(forbidding)} {verb} it\n"
+        yield f"{palette('warning', 'warning')}: {quoted(event)} occurs, and {listed(forbidding)} {verb} it"
     if answer.timed:
         yield (
             f"{palette('note', 'note')}: what is due at other times is not weighed here; `sleec-verify check` tells "
-            "whether it can all be kept\n"
+            "whether it can all be kept"
         )
     if answer.missing:
         yield (
             f"{palette('note', 'note')}: {listed(answer.missing)} {'is' if len(answer.missing) == 1 else 'are'} "
-            f"not given: what compares with {'it' if len(answer.missing) == 1 else 'them'} counts as false\n"
+            f"not given: what compares with {'it' if len(answer.missing) == 1 else 'them'} counts as false"
         )
 
 
@@ -187,7 +188,7 @@ def _as_given(answer: Entailment) -> list[str]:
 
 
 RENDERERS: Mapping[str, Callable[[Ruleset, Context, Entailment, Palette], Iterator[str]]] = {
-    "full": _full,
-    "concise": _concise,
+    "full": as_text(_full),
+    "concise": as_text(_concise),
     "json": _json,
 }

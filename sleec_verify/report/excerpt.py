@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from sleec_verify.report.escape import in_one_column
+
 if TYPE_CHECKING:
     from sleec_runtime.model import Source, Span
     from sleec_verify.report.palette import Palette
@@ -53,7 +55,7 @@ def excerpt(source: Source, marks: Sequence[Mark], palette: Palette) -> Iterator
         yield f"{palette('faint', f'{number:>{margin}} |')} {_shown(line, left)}".rstrip()
         for start, end, mark, last in here:
             pad = " " * _columns(_shown(line[:start], left))
-            width = max(1, min(_columns(_printable(line[start:end])), _WIDTH - len(pad)))
+            width = max(1, min(_columns(in_one_column(line[start:end])), _WIDTH - len(pad)))
             word = f" {mark.word}" if mark.word and last else ""
             yield f"{blank} {pad}{palette(mark.role, ('^' if mark.main else '-') * width + word)}"
 
@@ -81,14 +83,7 @@ def _left_edge(line: str, here: Sequence[_Stretch]) -> int:
 
 def _shown(line: str, left: int) -> str:
     cut = line[left : left + _WIDTH]
-    return ("…" if left else "") + _printable(cut) + ("…" if left + _WIDTH < len(line) else "")
-
-
-def _printable(text: str) -> str:
-    """`text` in which a tab is a blank, and nothing steers the terminal or turns the direction of writing."""
-    if text.isprintable():
-        return text
-    return "".join(c if c.isprintable() else " " if c == "\t" else "\ufffd" for c in text)
+    return ("…" if left else "") + in_one_column(cut) + ("…" if left + _WIDTH < len(line) else "")
 
 
 def _columns(text: str) -> int:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from sleec_verify.report.entailment import caveats, once_done, scheduled
+from sleec_verify.report.escape import as_text
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.outcome import counted
 from sleec_verify.report.words import context_text, listed, quoted, value_text
@@ -16,11 +17,13 @@ if TYPE_CHECKING:
     from sleec_verify.report.palette import Palette
 
 
+@as_text
 def render(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
     """The situation, then a paragraph for each rule that is triggered in it, and what comes of it all."""
     source = ruleset.source
     size = counted(len(ruleset.rules), "rule")
-    yield f"{context_text(context)}, by the {size} of {source.path}, reading {ruleset.reading}:\n\n"
+    yield f"{context_text(context)}, by the {size} of {source.path}, reading {ruleset.reading}:"
+    yield ""
     decided = {because.rule: because for because in answer.because}
     triggered = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
     for rule in triggered:
@@ -30,28 +33,28 @@ def render(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pale
             assert rule.guard is not None, "a rule without a guard decides wherever it is triggered"
             yield from _guarded(ruleset, context, rule, rule.guard, palette)
     if not triggered:
-        yield "No rule is triggered.\n\n"
+        yield from ("No rule is triggered.", "")
     for finding in answer.conflicts:
-        yield from (line + "\n" for line in finding_lines(finding, source, palette))
-        yield "\n"
+        yield from finding_lines(finding, source, palette)
+        yield ""
     if answer.consequences:
-        yield "By the constraints, and by no rule, so that nothing executes it:\n"
+        yield "By the constraints, and by no rule, so that nothing executes it:"
         yield from (_consequence(ruleset, consequence) for consequence in answer.consequences)
-        yield "\n"
+        yield ""
     yield from once_done(answer, palette)
     yield from scheduled(answer, context, palette)
     yield from caveats(ruleset, answer, palette)
-    yield _in_all(answer, palette) + "\n"
+    yield _in_all(answer, palette)
 
 
 def _decided(ruleset: Ruleset, context: Context, because: Because, palette: Palette) -> Iterator[str]:
     number = because.clause
     clause = f"its hedge {number} decides, the layer {because.layer}" if number else "its default decides"
-    yield f"{palette('strong', because.rule)} is triggered by {_trigger(ruleset, because)}, and {clause}: "
-    yield f"{_due(because.in_words())} ({_at(ruleset, because.span)}).\n"
+    head = f"{palette('strong', because.rule)} is triggered by {_trigger(ruleset, because)}, and {clause}"
+    yield f"{head}: {_due(because.in_words())} ({_at(ruleset, because.span)})."
     for position, decision in enumerate(because.decisions):
-        yield f"    {'because' if position == 0 else 'and'} {_truth(ruleset, context, decision)}\n"
-    yield "\n"
+        yield f"    {'because' if position == 0 else 'and'} {_truth(ruleset, context, decision)}"
+    yield ""
 
 
 def _trigger(ruleset: Ruleset, because: Because) -> str:
@@ -79,9 +82,10 @@ def _truth(ruleset: Ruleset, context: Context, decision: Decided) -> str:
 
 
 def _guarded(ruleset: Ruleset, context: Context, rule: Rule, guard: Formula, palette: Palette) -> Iterator[str]:
-    yield f"{palette('strong', rule.label)} is triggered by {quoted(rule.trigger)} and obliges nothing,\n"
-    yield f"    because its guard {_spelled(guard)} is false{_values(ruleset, context, guard)}"
-    yield f" ({_at(ruleset, guard.span)})\n\n"
+    yield f"{palette('strong', rule.label)} is triggered by {quoted(rule.trigger)} and obliges nothing,"
+    values = _values(ruleset, context, guard)
+    yield f"    because its guard {_spelled(guard)} is false{values} ({_at(ruleset, guard.span)})"
+    yield ""
 
 
 def _spelled(formula: Formula) -> str:
@@ -112,7 +116,7 @@ def _consequence(ruleset: Ruleset, consequence: Consequence) -> str:
     literal = consequence.literal
     must = "must not be done" if literal.negated else "must be done"
     origins = [f"{_text(ruleset, origin.span)} ({_at(ruleset, origin.span)})" for origin in consequence.origins]
-    return f"    {literal.name} {must}: {listed(origins)}\n"
+    return f"    {literal.name} {must}: {listed(origins)}"
 
 
 def _text(ruleset: Ruleset, span: Span) -> str:

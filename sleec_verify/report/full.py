@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify.finding import SEVERITIES
+from sleec_verify.report.escape import as_text
 from sleec_verify.report.excerpt import Mark, excerpt
 from sleec_verify.report.outcome import Checked, Outcome, Unusable, counted, one_line, tally, told_of
 from sleec_verify.report.words import listed, witness_text
@@ -18,25 +19,26 @@ if TYPE_CHECKING:
     from sleec_verify.timed.scope import Untimed
 
 
+@as_text
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """The findings of each ruleset and a line on it; at the end, if there are several, a line on all."""
     for outcome in outcomes:
         if isinstance(outcome, Unusable):
-            yield f"{outcome.path}: {palette('error', 'unusable')}: {one_line(outcome.error)}\n"
+            yield f"{outcome.path}: {palette('error', 'unusable')}: {one_line(outcome.error)}"
             continue
         source = outcome.ruleset.source
         for finding in outcome.told:
-            yield from (line + "\n" for line in finding_lines(finding, finding.source or source, palette))
-            yield "\n"
+            yield from finding_lines(finding, finding.source or source, palette)
+            yield ""
         for name, why in outcome.unlisted:
-            yield f"{source.path}: {palette('note', f'note[{name}]')} {why}\n\n"
+            yield from (f"{source.path}: {palette('note', f'note[{name}]')} {why}", "")
         for name, why in outcome.undecided:
-            yield f"{source.path}: {palette('unknown', f'unknown[{name}]')} {why}\n\n"
-        yield _on(outcome, palette) + "\n"
+            yield from (f"{source.path}: {palette('unknown', f'unknown[{name}]')} {why}", "")
+        yield _on(outcome, palette)
     if len(outcomes) > 1:
         unusable = sum(isinstance(outcome, Unusable) for outcome in outcomes)
         more = f", {unusable} unusable" if unusable else ""
-        yield f"{counted(len(outcomes), 'ruleset')}: {_counts(outcomes)}{more}\n"
+        yield f"{counted(len(outcomes), 'ruleset')}: {_counts(outcomes)}{more}"
 
 
 def finding_lines(finding: Finding, source: Source, palette: Palette) -> Iterator[str]:
@@ -71,10 +73,11 @@ def finding_lines(finding: Finding, source: Source, palette: Palette) -> Iterato
 
 def error_lines(error: SleecError, palette: Palette) -> Iterator[str]:
     """An error of the input, with its places in the text if it has any."""
-    from sleec_runtime.errors import LanguageError
+    from sleec_runtime.errors import CertificateRefused, LanguageError
 
     if not isinstance(error, LanguageError):
-        yield f"{palette('error', 'error')}: {error.message}"
+        messages = [message for _, message in error.problems] if isinstance(error, CertificateRefused) else []
+        yield from (f"{palette('error', 'error')}: {message}" for message in messages or [error.message])
         if error.hint is not None:
             yield f"  = {palette('help', 'help')}: {error.hint}"
         return

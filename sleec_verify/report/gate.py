@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from sleec_runtime.messages import escaped
 from sleec_verify.report.difference import WORDS, change_in_words, conflict_in_words, extent_text, witness_text
+from sleec_verify.report.escape import as_line, as_text
 from sleec_verify.report.outcome import counted, one_line
 from sleec_verify.report.told import told_once
 from sleec_verify.report.words import in_short, listed
@@ -45,44 +47,45 @@ def render(found: Gated, form: str, palette: Palette) -> Iterator[str]:
 
         yield from renderer(form)(outcomes(found), palette)
         if form in ("concise", "github"):
-            yield verdict(found, palette)
+            yield f"{as_line(verdict(found, palette))}\n"
 
 
 def verdict(found: Gated, palette: Palette) -> str:
     """The line on all."""
-    return f"{palette(_ROLES[found.status], VERDICTS[found.status])}: {_in_short(found)}\n"
+    return f"{palette(_ROLES[found.status], VERDICTS[found.status])}: {_in_short(found)}"
 
 
 # In full --------------------------------------------------------------------------------------------------
 
 
+@as_text
 def _full(found: Gated, palette: Palette) -> Iterator[str]:
     from sleec_verify.report.difference import on_assertions, on_difference
     from sleec_verify.report.full import finding_lines
 
     for one in found.examined:
         if one.difference is not None:
-            yield from (line + "\n" for line in on_difference(one.difference, palette))
-            yield "\n"
+            yield from on_difference(one.difference, palette)
+            yield ""
         for finding in told_once(one.findings):
             assert one.ruleset is not None, "only what was read has findings"
             source = finding.source or one.ruleset.source
-            yield from (line + "\n" for line in finding_lines(finding, source, palette))
-            yield "\n"
-        yield from (line + "\n" for line in _set_aside(one, palette))
+            yield from finding_lines(finding, source, palette)
+            yield ""
+        yield from _set_aside(one, palette)
     for conformed in found.conformed:
         for finding in conformed.findings:
             if finding.source is not None or conformed.ruleset is not None:
                 source = finding.source or conformed.ruleset.source  # type: ignore[union-attr]
-                yield from (line + "\n" for line in finding_lines(finding, source, palette))
-                yield "\n"
-    yield from (line + "\n" for line in on_assertions(found.asked, palette))
-    yield from (f"{path}: {palette('error', 'unusable')}: {one_line(error)}\n" for path, error in _errors(found))
-    yield from (f"{palette('error', 'blocks')}: {_line(block)}\n" for block in found.blocks)
-    yield from (f"{palette('unknown', 'unknown')}: {_line(block)}\n" for block in found.unknown)
+                yield from finding_lines(finding, source, palette)
+                yield ""
+    yield from on_assertions(found.asked, palette)
+    yield from (f"{path}: {palette('error', 'unusable')}: {one_line(error)}" for path, error in _errors(found))
+    yield from (f"{palette('error', 'blocks')}: {_line(block)}" for block in found.blocks)
+    yield from (f"{palette('unknown', 'unknown')}: {_line(block)}" for block in found.unknown)
     if found.stale:
         word = "entry of the baseline is" if found.stale == 1 else "entries of the baseline are"
-        yield f"{palette('note', 'note')}: {found.stale} {word} found no more; renew it with --write-baseline\n"
+        yield f"{palette('note', 'note')}: {found.stale} {word} found no more; renew it with --write-baseline"
     yield verdict(found, palette)
 
 
@@ -192,14 +195,14 @@ def _deciding(deciding: tuple[Deciding, ...]) -> str:
     return listed(said) if said else "nothing"
 
 
-_SPECIAL = str.maketrans({character: f"\\{character}" for character in "\\`*_{}[]<>#|~"} | {"\n": " ", "\r": " "})
+_SPECIAL = str.maketrans({character: f"\\{character}" for character in "\\`*_{}[]<>#|~"})
 
 
 def _plain(text: str) -> str:
-    return text.translate(_SPECIAL).replace("&", "&amp;").replace("@", "@\u200b")
+    return escaped(text).translate(_SPECIAL).replace("&", "&amp;").replace("@", "@\u200b")
 
 
 def _code(text: str) -> str:
     """As code, which nothing in it can end or turn into a cell of a table."""
-    cleaned = text.replace("`", "'").replace("|", "¦").replace("\n", " ").replace("\r", " ")
+    cleaned = escaped(text).replace("`", "'").replace("|", "¦")
     return f"`{cleaned}`"

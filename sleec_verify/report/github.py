@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from sleec_runtime.messages import escaped
 from sleec_verify.internal_error import InternalError
 from sleec_verify.report.outcome import Checked, Outcome, in_short
 from sleec_verify.report.plain import described, in_project, troubles
@@ -53,7 +54,7 @@ def _annotation(command: str, path: str, place: Place | None, title: str, messag
 
 def _data(text: str) -> str:
     """`text` as the message of a command: no line break may end it, and start another command."""
-    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+    return escaped(text, "\r\n").replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
 
 
 def _property(text: str) -> str:

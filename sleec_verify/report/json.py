@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Union
 
 from sleec_verify import __version__
 from sleec_verify.finding import Proved, Refuted, Unknown
+from sleec_verify.report.escape import without_commands
 from sleec_verify.report.outcome import Outcome, Unusable, checked, one_line, tally
 
 if TYPE_CHECKING:
@@ -35,8 +36,10 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
 
 
 def dump(value: Json) -> str:
-    """`value` as text with a line break at its end; ASCII, so that no stream can fail to write it."""
-    return json.dumps(value, indent=2) + "\n"
+    """`value` as text with a line break at its end; printable ASCII, which no stream can fail to write and nothing that
+    shows it obeys."""
+    text = json.dumps(value, indent=2).replace("\x7f", "\\u007f")
+    return without_commands(text, "\\u{:04x}") + "\n"
 
 
 def _ruleset(outcome: Outcome) -> Json:

@@ -11,7 +11,9 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from sleec_runtime.messages import escaped
 from sleec_verify.finding import SEVERITIES, Refuted, Unknown
+from sleec_verify.report.escape import without_commands
 from sleec_verify.report.outcome import Checked, Outcome
 from sleec_verify.report.plain import described, in_project, troubles
 
@@ -22,6 +24,9 @@ if TYPE_CHECKING:
     from sleec_verify.report.palette import Palette
 
 _NOT_IN_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+_CONTROLS = {ord(c): f"&#{ord(c)};" for c in "\t\r\x7f"}
+"""What ElementTree leaves as it is in a text: a carriage return would read as a line feed."""
 
 
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
@@ -35,7 +40,9 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             _unusable(root, outcome)
     _count(root)
     indent(root)
-    yield f'<?xml version="1.0" encoding="UTF-8"?>\n{tostring(root, "us-ascii").decode()}\n'
+    text = tostring(root, "us-ascii").decode().translate(_CONTROLS)
+    text = without_commands(text, "&#{};")
+    yield f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
 
 
 def _suite(root: Element, outcome: Checked) -> None:
@@ -96,5 +103,5 @@ def _words(finding: Finding, source: Source) -> str:
 
 
 def _sayable(text: str) -> str:
-    """`text` with a mark in place of what XML cannot hold, escaped or not."""
-    return _NOT_IN_XML.sub("\ufffd", text)
+    """`text` with an escape such as ``\\x1b`` for each character that XML 1.0 has no way to write."""
+    return _NOT_IN_XML.sub(lambda found: escaped(found[0]), text)

@@ -17,6 +17,15 @@ _CODES = {
 }
 
 
+_MARK = os.urandom(8).hex()
+"""What stands for the start of a colour until its line is escaped. No text of a user can hold it."""
+
+
+def painted(line: str) -> str:
+    """`line` with the colours of its palette as a terminal wants them."""
+    return line.replace(_MARK, "\033[") if _MARK in line else line
+
+
 class Palette:
     """Paints words by what they are, or leaves them plain."""
 
@@ -30,8 +39,8 @@ class Palette:
         return cls(wanted and stream.isatty())
 
     def __call__(self, role: str, text: str) -> str:
-        """`text` in the colour of `role`: a severity, or one of good, strong, faint, help, unknown."""
-        return f"\033[{_CODES[role]}m{text}\033[0m" if self._coloured and text else text
+        """`text` in the colour of `role`: a severity, or one of good, strong, faint, help, unknown. To be `painted`."""
+        return f"{_MARK}{_CODES[role]}m{text}{_MARK}0m" if self._coloured and text else text
 
 
 PLAIN = Palette(coloured=False)

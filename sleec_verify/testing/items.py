@@ -21,6 +21,7 @@ from sleec_verify.conformance.exhaustive import each_rule, tried
 from sleec_verify.conformance.failure import Nonconformance, situation_text
 from sleec_verify.conformance.subject import Bench, Factory, whole_ruleset
 from sleec_verify.finding import SEVERITIES, Finding, Unknown
+from sleec_verify.report.escape import as_line
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.palette import PLAIN
 from sleec_verify.testing import settings
@@ -81,7 +82,7 @@ class CheckItem(_Item):
     def _in_words(self, findings: Any) -> str:
         found: list[Finding] = list(findings)
         lines = (line for finding in found for line in (*finding_lines(finding, self.ruleset.source, PLAIN), ""))
-        return "\n".join(lines)
+        return "\n".join(map(as_line, lines))
 
 
 class RuleItem(_Item):

@@ -342,7 +342,7 @@ def test_junit_holds_what_xml_cannot() -> None:
     assert text.isascii()
     failure = ET.fromstring(text).find(".//failure")
     assert failure is not None
-    assert failure.get("message") == 'a\ufffdb <&"> \ufffd ä 窓'
+    assert failure.get("message") == 'a\\x00b <&"> \\ufffe ä 窓'
 
 
 # GitHub ----------------------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@ from sleec_runtime.model import Context, Source, Span, Value
 from sleec_verify.cli.check import _exit_code
 from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Witness
 from sleec_verify.report import FORMATS, renderer
+from sleec_verify.report.escape import as_line
 from sleec_verify.report.excerpt import Mark, excerpt
 from sleec_verify.report.json import values_json
 from sleec_verify.report.outcome import Checked
@@ -177,5 +178,5 @@ def test_findings_are_in_the_order_of_the_text() -> None:
 
 def test_palette_paints_only_where_it_may() -> None:
     assert PLAIN("error", "x") == "x"
-    assert Palette(coloured=True)("error", "x") == "\033[1;31mx\033[0m"
+    assert as_line(Palette(coloured=True)("error", "x")) == "\033[1;31mx\033[0m"
     assert Palette(coloured=True)("error", "") == ""

@@ -1,0 +1,48 @@
+"""The one place through which text for people goes: names, paths and reasons in it cannot steer what shows it.
+
+A renderer for people yields lines without their ends, with the text of users as it is. `as_text` makes of them what is
+written. Renderers for programs use the escapes of their formats.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from functools import wraps
+from typing import TypeVar
+
+from sleec_runtime.messages import escaped
+from sleec_verify.report.palette import painted
+
+_Arguments = TypeVar("_Arguments", bound=Callable[..., Iterator[str]])
+
+_COMMAND = re.compile(r"#(?=#[A-Za-z]*\[)|^(?P<indent>[^\S\n]*):(?=:)", re.MULTILINE)
+"""What services for CI obey in an output: ``##[command]`` (GitHub, Azure, TeamCity) anywhere, and ``::command::``
+(GitHub) where a line begins."""
+
+
+def without_commands(text: str, escape: str) -> str:
+    """`text` in which no service finds a command: its first character is escaped, by `escape` with its code point."""
+    return _COMMAND.sub(lambda found: f"{found['indent'] or ''}{escape.format(ord(found[0][-1]))}", text)
+
+
+def as_line(text: str) -> str:
+    """One line of output, without its end, that holds nothing but what it shows and the colours of the palette."""
+    return painted(without_commands(escaped(text), "\\x{:02x}"))
+
+
+def as_text(render: _Arguments) -> _Arguments:
+    """A renderer of lines as one of text."""
+
+    @wraps(render)
+    def text(*arguments: object) -> Iterator[str]:
+        return (f"{as_line(line)}\n" for line in render(*arguments))
+
+    return text  # type: ignore[return-value]
+
+
+def in_one_column(text: str) -> str:
+    """`text` with one printable character for each of its own, so that marks below it stand where they should."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else " " if c == "\t" else "\ufffd" for c in text)
