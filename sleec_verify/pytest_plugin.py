@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 _COVERAGE: pytest.StashKey[ClauseCoverage] = pytest.StashKey()
 _SUMMARIES: pytest.StashKey[list[Summary]] = pytest.StashKey()
+_LARGEST = 16 * 1024 * 1024
 _SENT = "sleec_coverage"
 """The key under which a process of pytest-xdist sends what it covered to the one that started it."""
 
@@ -184,11 +185,12 @@ def _are_cases(path: Path) -> bool:
     """Whether a ``*.cases.toml`` is about rules: other tools have such files too."""
     if path.with_name(path.name.removesuffix(".cases.toml") + ".sleec").is_file():
         return True
-    from sleec_runtime.files import read_file
-
     toml = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
     try:
-        return "ruleset" in toml.loads(read_file(path).decode())
+        # As `sleec_runtime.files` does, which is not imported for the files of others.
+        if not path.is_file() or path.stat().st_size > _LARGEST:
+            return False
+        return "ruleset" in toml.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return False
 

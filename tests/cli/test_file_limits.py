@@ -196,6 +196,7 @@ OWN_FILES = {
     ("sleec_verify/cli/files.py", "open"),
     ("sleec_verify/cli/gate.py", "open"),
     ("sleec_verify/certificates/checker.py", "read_text"),
+    ("sleec_verify/pytest_plugin.py", "read_text"),
 }
 """Where a file is opened that no user names for reading: results of the cache, what is written, copies of proofs."""
 

@@ -322,6 +322,8 @@ def test_cases_of_other_tools_are_left_alone(run) -> None:
         result.assert_outcomes(passed=ITEMS)
         assert "other.cases.toml" not in result.stdout.str()
     elsewhere = 'ruleset = "house.sleec"\n' + CASES
+    large = elsewhere + "#" * 16 * 1024 * 1024
+    run(".", other_cases_toml=large).assert_outcomes(passed=ITEMS)
     run(".", other_cases_toml=elsewhere).assert_outcomes(passed=ITEMS + 2)
 
 
