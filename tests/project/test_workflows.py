@@ -64,7 +64,7 @@ def test_ci_runs_on_every_python() -> None:
     assert job["steps"][-1] == {"run": ".ci/run"}
 
 
-def checked() -> list[dict[str, str]]:
+def checked() -> list[dict[str, Any]]:
     """The inputs of our own action in our own workflow, but for the gate."""
     return [
         {name.replace("-", "_"): value for name, value in step["with"].items()}
