@@ -253,6 +253,11 @@ class StillRunning(SleecError):
         self.seconds = seconds
 
 
+class SnapshotRefused(SleecError):
+    """A snapshot of pending obligations that cannot be taken or restored: it is of other rules, malformed, later than
+    the time of now, or restored twice. Nothing has changed."""
+
+
 class NotEnforced(UserWarning):
     """What of a ruleset its runtime does not see to. `constructs` pairs what each is with its line."""
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from sleec_runtime.certificate import Demand
     from sleec_runtime.global_activation import GlobalActivation
     from sleec_runtime.monitor import Monitor
-    from sleec_runtime.timed.clocks import Clock, MonotonicClock
+    from sleec_runtime.timed.clocks import Clock, MonotonicClock, Time
     from sleec_runtime.timed.failures import Failure
     from sleec_runtime.timed.keeper import Timekeeper
     from sleec_runtime.timed.pending import Pending
@@ -283,6 +283,38 @@ class Sleec:
         """What went wrong with what the clock started, and deadlines that were missed: the last thousand, in order."""
         return () if self._times is None else self._times.failures.kept()
 
+    def pending_snapshot(self, now: Time | None = None) -> dict[str, Any]:
+        """What `pending` lists, as plain data for `json.dump`: another process can `restore` it after this one ended.
+
+        `now` is the time in seconds since 1970; without it, that of the computer. The arguments of triggers are
+        included where code may still be called with them. O(pending). Raises WrongType for one of these that is not
+        plain data, and SnapshotRefused for rules that were not read from a text.
+        """
+        saved_at = _world(now)
+        if self._times is not None:
+            return self._times.snapshot(saved_at)
+        from sleec_runtime.timed.checkpoint import checkpoint
+
+        return checkpoint((), self._snapshot.program, self._chains, 0, saved_at)
+
+    def restore(self, snapshot: Mapping[str, Any], now: Time | None = None) -> tuple[Pending, ...]:
+        """Goes on with what was pending when another process took `snapshot`; returns what is pending now.
+
+        Give the code and the context first, and trigger nothing before. What was to be started since then is started
+        now. What is under way stays so. A deadline that has passed since then is missed now: what stands behind
+        ``OTHERWISE`` is started, or `failures` gets a DeadlineMissed. `now` is as in `pending_snapshot`.
+
+        Raises SnapshotRefused for a snapshot that is malformed, of other rules or another reading or domain, from a
+        later time, or restored already; NotBound and WrongArguments if the code does not fit. Nothing has changed then.
+        """
+        world = _world(now)
+        if self._times is not None:
+            return self._times.restore(snapshot, world)
+        from sleec_runtime.timed.recovery import Heir, recover
+
+        recover(snapshot, Heir(self._snapshot.program, self._instance, self._chains, 0, world))
+        return ()
+
     def tick(self) -> None:
         """Starts and ends all that is due by now; for a clock that wakes nobody. What goes wrong is in `failures`, and
         not raised, except a KeyboardInterrupt in the main thread."""
@@ -501,6 +533,15 @@ def _demand(
     from sleec_runtime.manifest import Required
 
     return Demand(certificate, key, chains, Required(*required.values()))
+
+
+def _world(now: Time | None) -> Time:
+    """The time in seconds since 1970."""
+    import time
+
+    from sleec_runtime.timed.bounds import checked_time
+
+    return time.time() if now is None else checked_time(now, "now")
 
 
 def _together(names: Iterable[str]) -> tuple[str, ...]:

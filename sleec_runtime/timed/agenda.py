@@ -32,6 +32,7 @@ class Agenda:
 
     def add(self, task: Task) -> None:
         """It is open from now on."""
+        task.number = next(self._numbers)
         by_name = self._forbidden if task.literal.negated else self._open
         by_name.setdefault(task.name, {})[task] = None
 

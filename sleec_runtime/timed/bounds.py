@@ -17,16 +17,13 @@ FURTHEST = 10**12
 milliseconds apart."""
 
 
-def checked_time(time: object) -> Time:
-    """`time`, if a clock may show it. Raises WrongType."""
+def checked_time(time: object, name: str = "the time of the clock") -> Time:
+    """`time`, if a clock may show it. Raises WrongType, which calls it `name`."""
     number = time if isinstance(time, (int, float)) and not isinstance(time, bool) else exact(time)
     if number is not None and -FURTHEST <= number <= FURTHEST:
         return number
     raise WrongType(
-        "the time of the clock",
-        time,
-        f"a number of seconds from -{FURTHEST:,} to {FURTHEST:,}",
-        "use a clock whose now() gives such a number",
+        name, time, f"a number of seconds from -{FURTHEST:,} to {FURTHEST:,}", "give the seconds as a number"
     )
 
 

@@ -12,7 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.dispatch import one_of
-from sleec_runtime.errors import NeedsAwait, Prohibited, SleecError, UnknownObligation
+from sleec_runtime.errors import NeedsAwait, Prohibited, SleecError, SnapshotRefused, UnknownObligation
 from sleec_runtime.evaluation import Due
 from sleec_runtime.messages import listed
 from sleec_runtime.obligations import recording
@@ -53,6 +53,7 @@ class Timekeeper:
         self.failures = Failures(on_error, self.clock.execute)
         self._state = state
         self._chains = chains
+        self._restored = False
         self._ledger = Ledger(self.clock, self.tick)
         self._starts = Starts(self, self._ledger, self.failures, self.clock.execute)
 
@@ -204,6 +205,7 @@ class Timekeeper:
             tasks = [task for task in unit.tasks if task.is_open]
             for task in tasks:
                 task.state = "under way"
+                task.unit = None
         return tasks
 
     def happened(self, name: str, task: Task) -> list[Exception]:
@@ -262,6 +264,52 @@ class Timekeeper:
     def view_all(self, tasks: Iterable[Task]) -> tuple[Pending, ...]:
         """What users see of `tasks`."""
         return tuple(Pending(task, self) for task in tasks)
+
+    # For another process --------------------------------------------------------------------------------------
+
+    def snapshot(self, saved_at: Time) -> dict[str, Any]:
+        """What is pending, as plain data: `Sleec.pending_snapshot`."""
+        from sleec_runtime.timed.checkpoint import checkpoint
+
+        with self._ledger.lock:
+            snapshot, _ = self._state()
+            return checkpoint(self._ledger.agenda, snapshot.program, self._chains, self.clock.now(), saved_at)
+
+    def restore(self, data: object, world: Time) -> tuple[Pending, ...]:
+        """`Sleec.restore`."""
+        from sleec_runtime.timed.recovery import Heir, recover
+
+        with self._ledger.lock:
+            if self._ledger.closed:
+                raise SleecError(
+                    "the instance is closed, and what is pending needs to be watched", "load the rules anew"
+                )
+            if self._restored or any(self._ledger.agenda):
+                raise SnapshotRefused(
+                    "a snapshot is restored once, and before the first trigger", "load the rules anew"
+                )
+            snapshot, instance = self._state()
+            now = self.clock.now()
+            recovered = recover(data, Heir(snapshot.program, instance, self._chains, now, world))
+            self._restored = True
+            for task in recovered.tasks:
+                last = task.last
+                self._watch(task)
+                if task.at_once and task.state == "waiting" and task.unit is None and last is not None:
+                    # The moment at which it was due has passed.
+                    task.last = last
+                    self._ledger.agenda.schedule(last, CLOSES, (task,), partial(self._starts.close, task))
+            for unit in recovered.units:
+                self._ledger.agenda.schedule(unit.at, OPENS, unit.tasks, partial(self._starts.open, unit))
+            self._ledger.rewake()
+        for task in recovered.tasks:
+            if task.otherwise is not None and not task.literal.negated and task.last is not None and task.last < now:
+                self._starts.miss(task)
+        for label, name in recovered.left_out:
+            lost = SnapshotRefused(f"{name} was pending under rules that had been replaced, and is not restored")
+            self.failures(Failure(now, label, (name,), lost))
+        self.tick()
+        return self.pending()
 
     def tick(self) -> None:
         """Starts and ends all that is due by now. The monitor of a dispatch that calls this does not look at it."""

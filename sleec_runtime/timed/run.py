@@ -82,6 +82,8 @@ class Run:
                 self._keeper.withdraw(stage.tasks)
                 continue
             self._begun.append(stage)
+            for task in stage.tasks:
+                task.conditional = False
             for unit in stage.units:
                 if unit.at <= self._now:
                     yield unit

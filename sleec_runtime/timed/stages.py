@@ -82,6 +82,8 @@ def called_by(triggers: tuple[str, ...], moment: Moment, event: str | None = Non
             units += units_of(origin, asked)
         else:
             units += composed_units(origin, asked)
+    for task in tasks:
+        task.conditional = event is not None
     return Stage(event, triggers, snapshot, decisions, tuple(tasks), tuple(units))
 
 

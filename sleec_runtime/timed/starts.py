@@ -72,13 +72,16 @@ class Starts:
             self._ledger.end(task, "missed" if alternatives is None else "replaced")
             snapshot = self._keeper.moment().snapshot
         if alternatives is None:
-            label = task.origin.rule.label
-            assert task.last is not None, "what has no end does not close"
-            length = duration_in_words(task.last - task.origin.moment)
-            message = f"{task.name} was not done within {length} of the trigger of rule {label}"
-            self._fail((task,), DeadlineMissed(message, task.name, task.last))
+            self.miss(task)
         elif alternatives:
             self._start(in_place_of(task, alternatives, snapshot), alternatives, at)
+
+    def miss(self, task: Task) -> None:
+        """Reports that its window has closed, and it is not done."""
+        assert task.last is not None, "what has no end does not close"
+        length = duration_in_words(task.last - task.origin.moment)
+        message = f"{task.name} was not done within {length} of the trigger of rule {task.origin.rule.label}"
+        self._fail((task,), DeadlineMissed(message, task.name, task.last))
 
     def _still_possible(self, tasks: Iterable[Task]) -> bool:
         now = self._ledger.clock.now()
@@ -92,8 +95,9 @@ class Starts:
         with self._ledger.lock:
             self._ledger.agenda.schedule(floor(task.last) + 1, CLOSES, (task,), partial(self._end_locked, task))
             alternatives = task.otherwise if task.otherwise is not None else task.instead
+            broken, task.broken = task.broken, False
             snapshot = self._keeper.moment().snapshot
-        if task.broken and alternatives:
+        if broken and alternatives:
             self._start(in_place_of(task, alternatives, snapshot), alternatives, at)
 
     def _end_locked(self, task: Task, at: Time) -> None:
@@ -177,6 +181,7 @@ class Starts:
             with self._ledger.lock:
                 watched = task in self._ledger.agenda.to_do(task.name)
                 if watched and not task.at_once:
+                    task.unit = None
                     continue
                 alternatives = task.otherwise if task.at_once and watched else None
                 self._ledger.end(task, "missed" if alternatives is None else "replaced")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Union
 
 from sleec_runtime.errors import UndeterminedDecision, WrongType
 from sleec_runtime.evaluation import Decision, Situation, Undetermined, walk
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from sleec_runtime.instance import Instance
     from sleec_runtime.snapshot import Snapshot
     from sleec_runtime.timed.clocks import Time
+    from sleec_runtime.timed.units import Unit
+
+Path = tuple[Union[int, str], ...]
 
 State = Literal["waiting", "under way", "done", "missed", "replaced", "withdrawn", "in force", "over"]
 """Of an obligation: its window is not open, or it is held back; started; done; its window closed, or it failed, with
@@ -52,40 +55,55 @@ class Task:
     """One literal that is due from `first` to `last` on the clock (None: whenever), and what may come in its place.
 
     `at_once`: it is not watched, because nothing but the moment counts: without a window, or with one of length 0. What
-    is due at once and takes time has no deadline that could be kept, and is pending without one. `alternative`: it is
-    due in the place of another.
+    is due at once and takes time has no deadline that could be kept, and is pending without one.
+
+    `path` is its place in the response: the index of an obligation of the clause, then, for what is due in the place of
+    another, "otherwise" or "else" and the index there. `unit` is what starts it; None once it has been started, or
+    given up. `conditional`: it is due only if an event happens that has not happened yet. `number` is higher than that
+    of what was put on the agenda before.
     """
 
     __slots__ = (
-        "alternative",
         "at_once",
         "broken",
+        "conditional",
         "first",
         "instead",
         "last",
         "literal",
+        "number",
         "origin",
         "otherwise",
+        "path",
         "state",
+        "unit",
     )
 
     def __init__(
-        self, literal: Obligation, origin: Origin, first: Time, last: Time | None, at_once: bool, alternative: bool
+        self, literal: Obligation, origin: Origin, first: Time, last: Time | None, at_once: bool, path: Path
     ) -> None:
         self.literal = literal
         self.origin = origin
         self.first = first
         self.last = last
         self.at_once = at_once
-        self.alternative = alternative
+        self.path = path
         self.otherwise: tuple[Task, ...] | None = None
         self.instead: tuple[Task, ...] | None = None
         self.state: State = "in force" if literal.negated else "waiting"
         self.broken = False
+        self.unit: Unit | None = None
+        self.conditional = False
+        self.number = 0
 
     @property
     def name(self) -> str:
         return self.literal.name
+
+    @property
+    def is_alternative(self) -> bool:
+        """Whether it is due in the place of another."""
+        return len(self.path) > 1
 
     @property
     def is_open(self) -> bool:
@@ -119,18 +137,16 @@ class Task:
         return self.first <= first and (self.last is None or (last is not None and last <= self.last))
 
 
-def tasks_of(
-    obligations: Sequence[Obligation], due: Time, origin: Origin, alternative: bool = False
-) -> tuple[Task, ...]:
-    """What `obligations` ask for if they are due from the time `due` on.
+def tasks_of(obligations: Sequence[Obligation], due: Time, origin: Origin, path: Path = ()) -> tuple[Task, ...]:
+    """What `obligations` ask for if they are due from the time `due` on; `path` leads to them.
 
     O(size of the responses). Raises UndeterminedDecision if a hedge of theirs, or the length of a window, depends on
     what nobody reported, and WrongType for a length that is none.
     """
-    return tuple(_task(obligation, due, origin, alternative) for obligation in obligations)
+    return tuple(_task(obligation, due, origin, (*path, index)) for index, obligation in enumerate(obligations))
 
 
-def _task(obligation: Obligation, due: Time, origin: Origin, alternative: bool) -> Task:
+def _task(obligation: Obligation, due: Time, origin: Origin, path: Path) -> Task:
     timing = obligation.timing
     window = None if timing is None else timing.window
     last: Time | None
@@ -149,12 +165,12 @@ def _task(obligation: Obligation, due: Time, origin: Origin, alternative: bool) 
                 )
             # A window of no length is kept by starting in it.
             last, at_once = due + end, end == start
-    task = Task(obligation, origin, first, last, at_once, alternative)
+    task = Task(obligation, origin, first, last, at_once, path)
     if timing is not None and timing.otherwise is not None:
         over = due if last is None else last
-        task.otherwise = tasks_of(_active(timing.otherwise, origin), over, origin, alternative=True)
+        task.otherwise = tasks_of(_active(timing.otherwise, origin), over, origin, (*path, "otherwise"))
     if timing is not None and timing.instead is not None:
-        task.instead = tasks_of(_active(timing.instead, origin), due, origin, alternative=True)
+        task.instead = tasks_of(_active(timing.instead, origin), due, origin, (*path, "else"))
     return task
 
 

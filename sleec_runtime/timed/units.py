@@ -34,6 +34,8 @@ class Unit:
         self.tasks = tasks
         self.at = at
         self.written = written
+        for task in tasks:
+            task.unit = self
 
     @property
     def asynchronous(self) -> bool:
@@ -53,7 +55,9 @@ class Unit:
             function = instance.implementation(task.name)
             assert function is not None, "refused before anything was decided"
             functions.append(function if task.name in instance.takes_time else _telling(function, task, did))
-        return instance.composed(decision.rule.label, None if self.tasks[0].alternative else decision.layer, functions)
+        return instance.composed(
+            decision.rule.label, None if self.tasks[0].is_alternative else decision.layer, functions
+        )
 
 
 def units_of(origin: Origin, tasks: Iterable[Task]) -> tuple[Unit, ...]:

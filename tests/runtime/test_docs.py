@@ -14,8 +14,12 @@ def blocks(language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```$", GUIDE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
 
 
-def test_the_examples_of_the_guide_run(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_examples_of_the_guide_run(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     program: dict[str, object] = {}
-    for block in blocks("python"):
+    programs, printed = blocks("python"), "".join(blocks("text"))
+    monkeypatch.chdir(tmp_path)
+    for block in programs:
         exec(compile(block, str(GUIDE), "exec"), program)
-    assert capsys.readouterr().out == "".join(blocks("text"))
+    assert capsys.readouterr().out == printed

@@ -55,11 +55,16 @@ class World:
         self.instants: dict[int, set[str]] = {}
         self.values: dict[int, dict[str, Value]] = {}
         self.refusals: list[errors.ConflictInContext] = []
+        self.slow = taking_time(self.ruleset, self.random)
+        self.sleec = self.loaded()
+
+    def loaded(self) -> Sleec:
+        """The rules at work on the clock of now."""
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", errors.NotEnforced)
-            self.sleec = Sleec(self.ruleset, clock=self.clock, chains=True, on_error=lambda failure: None)
-        self.slow = taking_time(self.ruleset, self.random)
-        self.sleec.implement({name: self.implementation(name) for name in sorted(self.ruleset.obligations)})
+            sleec = Sleec(self.ruleset, clock=self.clock, chains=True, on_error=lambda failure: None)
+        sleec.implement({name: self.implementation(name) for name in sorted(self.ruleset.obligations)})
+        return sleec
 
     def implementation(self, name: str):
         if name in self.slow:

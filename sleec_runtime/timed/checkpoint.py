@@ -1,0 +1,115 @@
+"""Pending obligations as plain data, so that another process can go on with them: see `recovery`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from sleec_runtime.errors import SnapshotRefused, WrongType
+from sleec_runtime.timed.plain import PLAIN, copied, is_plain, number_to_plain
+
+if TYPE_CHECKING:
+    from sleec_runtime.program import Program
+    from sleec_runtime.snapshot import Snapshot
+    from sleec_runtime.timed.clocks import Time
+    from sleec_runtime.timed.tasks import Origin, Task
+
+FORMAT = 1
+"""The version of the data. Another one is refused."""
+
+
+def identity(program: Program, chains: bool) -> dict[str, object]:
+    """Which rules are in force, and how they are read. Raises SnapshotRefused for rules without a text."""
+    source = program.whole.source
+    if not source.text:
+        raise SnapshotRefused("the rules were not read from a text, so no other process can tell them", "parse() them")
+    sha256 = source.sha256
+    if sha256 is None:
+        import hashlib
+
+        sha256 = hashlib.sha256(source.text.encode("utf-8", "surrogatepass")).hexdigest()
+    return {"sha256": sha256, "reading": program.whole.reading, "domain": program.domain, "chains": chains}
+
+
+def checkpoint(tasks: Iterable[Task], program: Program, chains: bool, now: Time, saved_at: Time) -> dict[str, Any]:
+    """All of `tasks` that is open, at the time `now` of the clock, which is `saved_at` for the world. O(pending).
+
+    Raises WrongType for an argument that a callable may still get, and that is not plain data; SnapshotRefused as
+    `identity`.
+    """
+    whole = identity(program, chains)
+    contexts: dict[int, tuple[int, Snapshot]] = {}
+    decisions: dict[int, tuple[int, dict[str, Any]]] = {}
+    pending = []
+    left_out = []
+    for task in sorted(tasks, key=lambda task: task.number):
+        if not task.is_open or task.conditional:
+            continue
+        origin = task.origin
+        if not _is_of(origin.snapshot.program, program):
+            left_out.append({"rule": origin.rule.label, "obligation": task.name})
+            continue
+        context, _ = contexts.setdefault(id(origin.snapshot), (len(contexts), origin.snapshot))
+        number, decision = decisions.setdefault(id(origin), (len(decisions), _decision(origin, context, now)))
+        if decision["arguments"] is None and may_run_code(task):
+            decision["arguments"] = _arguments(origin)
+        pending.append(
+            {
+                "decision": number,
+                "path": list(task.path),
+                "obligation": task.name,
+                "state": task.state,
+                "starts": None if task.unit is None else number_to_plain(task.unit.at - task.first),
+                "broken": task.broken,
+            }
+        )
+    return {
+        "format": FORMAT,
+        "ruleset": whole,
+        "saved_at": number_to_plain(saved_at),
+        "contexts": [_context(snapshot) for _, snapshot in contexts.values()],
+        "decisions": [decision for _, decision in decisions.values()],
+        "pending": pending,
+        "left_out": left_out,
+    }
+
+
+def _is_of(own: Program, program: Program) -> bool:
+    """Whether they are of one ruleset, maybe in different domains."""
+    one, other = own.whole, program.whole
+    return one is other or (one.source.text, one.reading) == (other.source.text, other.reading)
+
+
+def _context(snapshot: Snapshot) -> dict[str, Any]:
+    conditions = {
+        name: value if isinstance(value, (bool, str)) else number_to_plain(value)
+        for name, value in snapshot.conditions.items()
+    }
+    return {"domain": snapshot.program.domain, "conditions": conditions}
+
+
+def _decision(origin: Origin, context: int, now: Time) -> dict[str, Any]:
+    return {
+        "rule": origin.rule.label,
+        "clause": origin.decision.clause,
+        "triggered": number_to_plain(origin.moment - now),
+        "context": context,
+        "arguments": None,
+    }
+
+
+def may_run_code(task: Task) -> bool:
+    """Whether code may still be started for it, or in its place."""
+    return not task.literal.negated or not task.is_decided
+
+
+def _arguments(origin: Origin) -> dict[str, Any]:
+    for name, value in (*enumerate(origin.args, 1), *origin.kwargs.items()):
+        if not is_plain(value):
+            raise WrongType(
+                f"argument {name} of the trigger {origin.rule.trigger}",
+                value,
+                f"plain data, because the code of rule {origin.rule.label} may need it after a restart",
+                f"give {PLAIN}, for example a number by which the code finds the object",
+            )
+    return {"args": copied(list(origin.args)), "kwargs": copied(dict(origin.kwargs))}

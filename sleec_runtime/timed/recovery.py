@@ -1,0 +1,267 @@
+"""From plain data back to pending obligations: the reverse of `checkpoint`.
+
+What an obligation is, and when it is due, is decided again from the rules, the context and the time of its trigger. The
+data say only what of it is open, so they cannot ask for what the rules do not ask for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from sleec_runtime.errors import SleecError, SnapshotRefused
+from sleec_runtime.evaluation import Decision
+from sleec_runtime.messages import represent
+from sleec_runtime.program import Program
+from sleec_runtime.snapshot import Snapshot
+from sleec_runtime.timed.bounds import FURTHEST
+from sleec_runtime.timed.checkpoint import FORMAT, identity, may_run_code
+from sleec_runtime.timed.plain import copied, is_plain, number_from_plain
+from sleec_runtime.timed.tasks import Origin, Path, Task, tasks_of
+from sleec_runtime.timed.units import Unit, composed_units, units_of
+
+if TYPE_CHECKING:
+    from sleec_runtime.instance import Instance
+    from sleec_runtime.timed.clocks import Time
+
+
+@dataclass(frozen=True)
+class Heir:
+    """The instance that goes on with what is pending: its rules and code, and what time it is, on its `clock` and in
+    the `world`."""
+
+    program: Program
+    instance: Instance
+    chains: bool
+    clock: Time
+    world: Time
+
+
+@dataclass(frozen=True)
+class Recovered:
+    """The open `tasks` in their order, the `units` that start some of them, and what cannot be recovered: rules that
+    had been replaced, each with an obligation."""
+
+    tasks: Sequence[Task]
+    units: Sequence[Unit]
+    left_out: Sequence[tuple[str, str]]
+
+
+def recover(data: object, heir: Heir) -> Recovered:
+    """What is pending by `data`. O(contexts · size of the rules + pending).
+
+    A unit that has not been started, and whose windows have closed since, is not started. Raises SnapshotRefused for
+    data that are malformed, of other rules, or of a later time; NotBound and WrongArguments as a trigger does.
+    """
+    whole = _record(data, "it", "format", "ruleset", "saved_at", "contexts", "decisions", "pending", "left_out")
+    if type(whole["format"]) is not int or whole["format"] != FORMAT:
+        raise SnapshotRefused(
+            f"the snapshot has the format {represent(whole['format'])}, and this version reads {FORMAT}",
+            "restore it with the version that took it",
+        )
+    _refuse_other_rules(whole["ruleset"], heir)
+    then = heir.clock - _elapsed(_number(whole["saved_at"], "saved_at"), heir.world)
+    contexts = [_context(one, where, heir) for where, one in _items(whole, "contexts")]
+    dispatches = [_dispatch(one, where, contexts, then, heir) for where, one in _items(whole, "decisions")]
+    tasks = [_task(one, where, dispatches) for where, one in _items(whole, "pending")]
+    for dispatch in dispatches:
+        dispatch.refuse_both()
+    units = [unit for dispatch in dispatches for unit in dispatch.units(heir.clock)]
+    order = {task: number for number, task in enumerate(tasks)}
+    units.sort(key=lambda unit: (unit.at, order[unit.tasks[0]]))
+    return Recovered(tasks, units, [_left_out(one, where) for where, one in _items(whole, "left_out")])
+
+
+def _refuse_other_rules(data: object, heir: Heir) -> None:
+    own = identity(heir.program, heir.chains)
+    theirs = _record(data, "ruleset", *own)
+    for name, value in own.items():
+        if type(theirs[name]) is not type(value) or theirs[name] != value:
+            raise SnapshotRefused(
+                f"the snapshot is of other rules: its {name} is {represent(theirs[name])}, and that of the rules in "
+                f"force is {represent(value)}",
+                "load the rules as they were loaded when the snapshot was taken",
+            )
+
+
+def _elapsed(saved_at: Time, world: Time) -> Time:
+    if world < saved_at:
+        raise SnapshotRefused(
+            f"the snapshot was taken {float(saved_at - world):,.3f} seconds later than now: the clock was set back",
+            "set the clock; or give the right time, in seconds since 1970: restore(snapshot, now=…)",
+        )
+    return world - saved_at
+
+
+def _context(data: object, where: str, heir: Heir) -> Snapshot:
+    context = _record(data, where, "domain", "conditions")
+    domain, conditions = context["domain"], context["conditions"]
+    if type(conditions) is not dict:
+        _refuse(f"{where}.conditions", conditions, "a dict")
+    try:
+        program = heir.program
+        if domain != program.domain:
+            program = Program(program.whole, domain, program.strict)
+        return Snapshot.first(program, {name: _value(name, value, program) for name, value in conditions.items()})
+    except SleecError as error:
+        raise SnapshotRefused(f"the snapshot is malformed at {where}: {error.message}", error.hint) from None
+
+
+def _value(name: str, data: object, program: Program) -> object:
+    measure = program.vocabulary.get(name)
+    value = data if measure is None or measure.kind == "scale" else number_from_plain(data)
+    return _refuse(name, data, "a value") if value is None else value
+
+
+# Decisions ------------------------------------------------------------------------------------------------
+
+
+@dataclass
+class _Dispatch:
+    """A rule that spoke: all that it asks for, and which of it is `open`. `starts`: what is still to be started, with
+    how many seconds after its window opens. `groups` are the responses that have open tasks, by the paths that lead to
+    them."""
+
+    origin: Origin
+    roots: tuple[Task, ...]
+    code: tuple[Unit, ...] | None
+    starts: dict[Task, Time] = field(default_factory=dict)
+    groups: dict[Path, tuple[Task, ...]] = field(default_factory=dict)
+    open: dict[Path, Task] = field(default_factory=dict)
+
+    def refuse_both(self) -> None:
+        """Raises SnapshotRefused if something is open beside the obligation in whose place it is due."""
+        for path, task in self.open.items():
+            for length in range(1, len(path), 2):
+                other = self.open.get(path[:length])
+                if other is not None and not other.literal.negated:
+                    _refuse("pending", task.name, f"pending in place of {other.name}, not beside it")
+
+    def units(self, now: Time) -> Iterator[Unit]:
+        """What starts the tasks that are to be started, and whose windows have not closed by `now`."""
+        for path, group in self.groups.items():
+            for unit in composed_units(self.origin, group) if path else self.code or ():
+                for task in unit.tasks:
+                    task.unit = None
+                tasks = tuple(t for t in unit.tasks if t in self.starts and (t.last is None or now <= t.last))
+                if tasks:
+                    yield Unit(self.origin, tasks, max(t.first + self.starts[t] for t in tasks), unit.written)
+
+
+def _dispatch(data: object, where: str, contexts: Sequence[Snapshot], then: Time, heir: Heir) -> _Dispatch:
+    decision = _record(data, where, "rule", "clause", "triggered", "context", "arguments")
+    snapshot = _chosen(contexts, decision["context"], f"{where}.context")
+    triggered = _number(decision["triggered"], f"{where}.triggered")
+    if triggered > 0:
+        _refuse(f"{where}.triggered", triggered, "a number up to 0")
+    label = decision["rule"]
+    rule = snapshot.program.ruleset.by_label.get(label) if type(label) is str else None
+    outcome = None if rule is None else snapshot.outcome(rule)
+    if not isinstance(outcome, Decision) or type(decision["clause"]) is not int:
+        _refuse(where, decision, "a rule that speaks in its context")
+    if outcome.clause != decision["clause"]:
+        _refuse(f"{where}.clause", decision["clause"], f"{outcome.clause}, the clause that decides in its context")
+    args, kwargs = _arguments(decision["arguments"], f"{where}.arguments")
+    origin = Origin(outcome, then + triggered, snapshot, heir.instance, args, kwargs)
+    try:
+        roots = tasks_of(outcome.obligations, origin.moment, origin)
+    except SleecError as error:
+        raise SnapshotRefused(f"the snapshot is malformed at {where}: {error.message}", error.hint) from None
+    return _Dispatch(origin, roots, None if decision["arguments"] is None else units_of(origin, roots))
+
+
+def _arguments(data: object, where: str) -> tuple[tuple[Any, ...], Mapping[str, Any]]:
+    if data is None:
+        return (), {}
+    arguments = _record(data, where, "args", "kwargs")
+    args, kwargs = arguments["args"], arguments["kwargs"]
+    if type(args) is not list or type(kwargs) is not dict or not is_plain(args) or not is_plain(kwargs):
+        _refuse(where, data, "a list and a dict of plain data")
+    return tuple(copied(args)), copied(kwargs)
+
+
+# Tasks ----------------------------------------------------------------------------------------------------
+
+
+def _task(data: object, where: str, dispatches: Sequence[_Dispatch]) -> Task:
+    item = _record(data, where, "decision", "path", "obligation", "state", "starts", "broken")
+    dispatch = _chosen(dispatches, item["decision"], f"{where}.decision")
+    task, group = _found(dispatch.roots, item["path"], f"{where}.path")
+    if item["obligation"] != task.name:
+        _refuse(f"{where}.obligation", item["obligation"], f"{task.name}, which is at its path")
+    if item["state"] not in (("in force",) if task.literal.negated else ("waiting", "under way")):
+        _refuse(f"{where}.state", item["state"], "a state of what is pending")
+    if type(item["broken"]) is not bool or (item["broken"] and not task.literal.negated):
+        _refuse(f"{where}.broken", item["broken"], "true for a prohibition only, or false")
+    if dispatch.code is None and may_run_code(task):
+        _refuse(f"{where}.decision", item["decision"], "a decision with arguments")
+    if task.path in dispatch.open:
+        _refuse(f"{where}.path", item["path"], "pending once")
+    if item["starts"] is not None:
+        starts = _number(item["starts"], f"{where}.starts")
+        if item["state"] != "waiting" or starts < 0:
+            _refuse(f"{where}.starts", item["starts"], "a number from 0 on, of what is waiting")
+        dispatch.starts[task] = starts
+    if task.path[:-1] not in dispatch.groups:
+        dispatch.groups[task.path[:-1]] = group
+        for one in group:
+            # Over, unless it is found to be pending.
+            one.state = "over" if one.literal.negated else "done"
+    dispatch.open[task.path] = task
+    task.state = item["state"]
+    task.broken = item["broken"]
+    return task
+
+
+def _found(group: tuple[Task, ...], path: object, where: str) -> tuple[Task, tuple[Task, ...]]:
+    """The task that `path` leads to, and the response that it is in."""
+    if type(path) is not list or len(path) % 2 == 0:
+        _refuse(where, path, "a path to an obligation of the rule")
+    task = _chosen(group, path[0], where)
+    for kind, index in zip(path[1::2], path[2::2]):
+        group = {"otherwise": task.otherwise, "else": task.instead}.get(kind if type(kind) is str else "") or ()
+        task = _chosen(group, index, where)
+    return task, group
+
+
+def _left_out(data: object, where: str) -> tuple[str, str]:
+    item = _record(data, where, "rule", "obligation")
+    if type(item["rule"]) is not str or type(item["obligation"]) is not str:
+        _refuse(where, data, "the names of a rule and an obligation")
+    return item["rule"], item["obligation"]
+
+
+# Plain data -----------------------------------------------------------------------------------------------
+
+
+def _refuse(where: str, value: object, expected: str) -> NoReturn:
+    raise SnapshotRefused(
+        f"the snapshot is malformed: {where} is {represent(value)}, and should be {expected}",
+        "restore what pending_snapshot() returned, unchanged",
+    )
+
+
+def _record(data: object, where: str, *keys: str) -> dict[str, Any]:
+    if type(data) is not dict or data.keys() != set(keys):
+        _refuse(where, data, f"a dict with {', '.join(keys)}")
+    return data
+
+
+def _items(whole: dict[str, Any], key: str) -> Iterator[tuple[str, object]]:
+    if type(whole[key]) is not list:
+        _refuse(key, whole[key], "a list")
+    return ((f"{key}[{number}]", one) for number, one in enumerate(whole[key]))
+
+
+def _chosen(items: Sequence[Any], index: object, where: str) -> Any:
+    if type(index) is not int or not 0 <= index < len(items):
+        _refuse(where, index, f"a whole number from 0 to {len(items) - 1}")
+    return items[index]
+
+
+def _number(data: object, where: str) -> Time:
+    number = number_from_plain(data)
+    if number is None or not -FURTHEST <= number <= FURTHEST:
+        _refuse(where, data, f"a number from -{FURTHEST:,} to {FURTHEST:,}")
+    return number
