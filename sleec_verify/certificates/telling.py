@@ -42,7 +42,7 @@ def told(
         yield dump(_json(ruleset, folder, manifest, shown, judge, tied))
         return
     made = "a certificate" if judge is None else "the certificate holds"
-    yield f"{folder}: {made} of {ruleset.source.path} ({_covered(manifest)})\n"
+    yield f"{folder}: {made} of {ruleset.source.path} ({covered(manifest)})\n"
     widest = max(len(one.result.name) for one in shown)
     for one in shown:
         yield f"  {one.result.name:{widest}}  {VERDICTS[type(one.result.verdict)]:8}  {_shown_by(one)}\n"
@@ -57,7 +57,12 @@ def told(
         yield f"{_tied(one_tied, verdicts[one_tied.check])}\n"
 
 
-def _covered(manifest: Mapping[str, Any]) -> str:
+def stated(manifest: Mapping[str, Any]) -> dict[str, Json]:
+    """What a certificate is for, for programs."""
+    return {key: manifest[key] for key in ("reading", "domain", "untimed", "chains", "required")}
+
+
+def covered(manifest: Mapping[str, Any]) -> str:
     """What a certificate is for."""
     words = [f"reading {manifest['reading']}"]
     domains = manifest["ruleset"]["domains"] if manifest["domain"] is None else [manifest["domain"]]
@@ -109,7 +114,7 @@ def _json(
         "certificate": folder,
         "path": ruleset.source.path,
         "sha256": ruleset.source.sha256,
-        **{key: manifest[key] for key in ("reading", "domain", "untimed", "chains", "required")},
+        **stated(manifest),
         **({} if judge is None else {"holds": True, "checker": {"name": judge.name, "proved": judge.proved}}),
         **({} if judge is None else {"theory": {t.check: {"proved": t.proved, "reason": t.reason} for t in tied}}),
         "checks": checks,

@@ -188,9 +188,9 @@ def _fill_in(
 
             found.coverage = coverage(found.ruleset, found.errors)
         if config.block.certificates:
-            from sleec_verify.gate.certification import without_certificate
+            from sleec_verify.gate.certification import certificate
 
-            found.uncertified = without_certificate(found.ruleset, untimed, config.block)
+            found.certificate = certificate(found.ruleset, untimed, config.block)
     if not found.errors:
         new = found.ruleset
         found.difference = compare(

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from sleec_runtime.certificate import Use
 from sleec_runtime.errors import SleecError
-from sleec_runtime.manifest import Required
+from sleec_runtime.manifest import Manifest, Required
 from sleec_runtime.model import Ruleset
 from sleec_verify.gate.config import Policy
 from sleec_verify.timed.scope import Untimed
@@ -14,9 +14,9 @@ from sleec_verify.timed.scope import Untimed
 SUFFIX = ".certificate"
 
 
-def without_certificate(ruleset: Ruleset, untimed: Untimed, policy: Policy) -> str | None:
-    """Why a ruleset has no certificate that holds of it as it is checked: its whole text in its own reading, with
-    `untimed`, and with what the `policy` requires. None if it has one. Costs what ``certify --check`` does."""
+def certificate(ruleset: Ruleset, untimed: Untimed, policy: Policy) -> Manifest | str:
+    """What the certificate beside a ruleset says, or why none holds of the ruleset as it is checked: its whole text in
+    its own reading, with `untimed`, and with what the `policy` requires. Costs what ``certify --check`` does."""
     from sleec_verify.certificates.checker import checker
     from sleec_verify.certificates.checking import check_certificate
     from sleec_verify.theory.oracle import built
@@ -28,7 +28,6 @@ def without_certificate(ruleset: Ruleset, untimed: Untimed, policy: Policy) -> s
     try:
         use = Use(ruleset.reading, untimed=untimed)
         required = Required(policy.require_proved, policy.require_tied)
-        check_certificate(ruleset, str(folder), checker(), use, required, oracle=built())
+        return check_certificate(ruleset, str(folder), checker(), use, required, oracle=built()).manifest
     except SleecError as error:
         return f"{folder.name} is refused: {error.message}"
-    return None

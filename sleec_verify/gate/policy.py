@@ -76,8 +76,8 @@ def _on_ruleset(one: Examined, policy: Policy) -> Iterator[Block]:
             if change.way == "removed":
                 what = f"situations that counted before are ruled out: {change.what}"
                 yield _block("ruled-out-situations", one.path, what, witness=change.witness)
-    if one.uncertified is not None:
-        yield _block("certificates", one.path, one.uncertified)
+    if isinstance(one.certificate, str):
+        yield _block("certificates", one.path, one.certificate)
     if policy.clause_coverage is not None and one.coverage is not None and one.coverage.why is None:
         reached = one.coverage
         if reached.percent < policy.clause_coverage:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import Problem, SleecError
+    from sleec_runtime.manifest import Manifest
     from sleec_runtime.model import Ruleset, Span
     from sleec_verify.assertions import Asked
     from sleec_verify.compare import Difference
@@ -48,7 +49,7 @@ class Examined:
     be read. `findings` count; `allowed` are suppressed,
     with the suppression, and `known` stand in the baseline. `unused` suppressions meet nothing, `problems` are
     suppressions that are none. `conflicting` are the rules of each conflict of the base, where the baseline has some of
-    now. `uncertified` says why there is no certificate that holds, where one is asked for.
+    now. `certificate` is what the one that holds says, or why there is none, where one is asked for.
     """
 
     path: str
@@ -63,7 +64,7 @@ class Examined:
     problems: list[Problem] = field(default_factory=list)
     conflicting: frozenset[frozenset[str]] = frozenset()
     coverage: Coverage | None = None
-    uncertified: str | None = None
+    certificate: Manifest | str | None = None
     errors: list[SleecError] = field(default_factory=list)
 
     def line(self, span: Span) -> int:

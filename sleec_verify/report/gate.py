@@ -105,6 +105,10 @@ def _set_aside(one: Examined, palette: Palette) -> Iterator[str]:
         yield f"{one.path}: {palette('faint', 'allowed')}: {what}"
     if one.known:
         yield f"{one.path}: {palette('faint', 'baseline')}: {counted(len(one.known), 'finding')} that the baseline has"
+    if one.certificate is not None and not isinstance(one.certificate, str):
+        from sleec_verify.certificates.telling import covered
+
+        yield f"{one.path}: {palette('faint', 'certificate')}: it holds ({covered(one.certificate.whole)})"
     for unused in one.unused:
         what = f"line {one.line(unused.span)} allows {unused.allowed}, and there is no such finding"
         yield f"{one.path}: {palette('warning', 'unused suppression')}: {what}"

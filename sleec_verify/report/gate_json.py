@@ -10,6 +10,7 @@ from sleec_verify import __version__
 from sleec_verify.report.json import VERDICTS, dump, error_json, finding_json, span_json, witness_json
 
 if TYPE_CHECKING:
+    from sleec_runtime.manifest import Manifest
     from sleec_runtime.model import Source
     from sleec_verify.assertions import Asked
     from sleec_verify.gate.result import Block, Conformed, Examined, Gated
@@ -73,8 +74,17 @@ def _examined(one: Examined) -> Json:
         "coverage": None
         if reached is None or reached.why is not None
         else {"reached": reached.reached, "clauses": reached.clauses, "missed": list(reached.missed)},
+        "certificate": _certificate(one.certificate),
         "errors": [error_json(error) for error in one.errors],
     }
+
+
+def _certificate(found: Manifest | str | None) -> Json:
+    if found is None or isinstance(found, str):
+        return None
+    from sleec_verify.certificates.telling import stated
+
+    return stated(found.whole)
 
 
 def _conformed(one: Conformed) -> Json:

@@ -11,6 +11,7 @@ import pytest
 
 from tests.cli.conftest import Cli
 from tests.cli.repository import Repository
+from tests.cli.test_gate import GATE
 
 pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
 
@@ -35,8 +36,10 @@ def test_it_must_cover_the_whole_text_as_it_is_checked(
     options = (("--domain", domain), ("--reading", reading), ("--untimed", certified))
     given = itertools.chain.from_iterable((name, value) for name, value in options if value is not None)
     assert cli("certify", "a.sleec", "-o", "a.certificate", *given).code == 0
-    ran = cli("gate", "--untimed", gated, "--format", "json")
-    blocks = [(block["policy"], block["what"]) for block in json.loads(ran.out)["blocks"]]
+    said = json.loads(cli("gate", "--untimed", gated, "--format", "json").out)
+    GATE.validate(said)
+    (ruleset,) = said["rulesets"]
+    blocks = [(block["policy"], block["what"]) for block in said["blocks"]]
     expected = []
     if reading == "priority":
         expected.append("the certificate is for the reading priority, not for cascade")
@@ -45,7 +48,18 @@ def test_it_must_cover_the_whole_text_as_it_is_checked(
     if certified != gated:
         expected.append(f"the certificate is for --untimed {certified}, not for {gated}")
     assert len(blocks) == bool(expected)
+    assert (ruleset["certificate"] is None) == bool(expected)
     for policy, what in blocks:
         assert policy == "certificates"
         assert what.startswith("a.certificate is refused: ")
         assert all(words in what for words in expected)
+
+
+def test_what_it_is_for_is_printed(cli: Cli, repository: Repository) -> None:
+    assert cli("certify", "a.sleec", "-o", "a.certificate").code == 0
+    words = "reading cascade; each of the domains day, night; untimed at; with chains"
+    ran = cli("gate")
+    assert (ran.code, f"a.sleec: certificate: it holds ({words})\n" in ran.out) == (0, True)
+    stated = json.loads(cli("gate", "--format", "json").out)["rulesets"][0]["certificate"]
+    required = {"proved": False, "tied": False}
+    assert stated == {"reading": "cascade", "domain": None, "untimed": "at", "chains": True, "required": required}
