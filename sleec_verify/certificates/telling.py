@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.finding import Refuted
+from sleec_verify.report.escape import as_text
 from sleec_verify.report.json import VERDICTS, Json, dump
 from sleec_verify.report.outcome import counted
 
@@ -40,21 +41,33 @@ def told(
     the rules."""
     if form == "json":
         yield dump(_json(ruleset, folder, manifest, shown, judge, tied))
-        return
+    else:
+        yield from _in_words(ruleset, folder, manifest, shown, judge, tied)
+
+
+@as_text
+def _in_words(
+    ruleset: Ruleset,
+    folder: str,
+    manifest: Mapping[str, Any],
+    shown: Sequence[Shown],
+    judge: Checker | None,
+    tied: Sequence[Tied],
+) -> Iterator[str]:
     made = "a certificate" if judge is None else "the certificate holds"
-    yield f"{folder}: {made} of {ruleset.source.path} ({covered(manifest)})\n"
+    yield f"{folder}: {made} of {ruleset.source.path} ({covered(manifest)})"
     widest = max(len(one.result.name) for one in shown)
     for one in shown:
-        yield f"  {one.result.name:{widest}}  {VERDICTS[type(one.result.verdict)]:8}  {_shown_by(one)}\n"
+        yield f"  {one.result.name:{widest}}  {VERDICTS[type(one.result.verdict)]:8}  {_shown_by(one)}"
     if judge is not None:
         if judge is IN_PYTHON:
             more = "; `make -C proofs/checker` builds a checker that is proved correct"
         else:
             more = ", which is proved correct" if judge.proved else ""
-        yield f"proofs checked by {judge.name}{more}\n"
+        yield f"proofs checked by {judge.name}{more}"
     verdicts = {one.result.name: one.result.verdict for one in shown}
     for one_tied in tied:
-        yield f"{_tied(one_tied, verdicts[one_tied.check])}\n"
+        yield _tied(one_tied, verdicts[one_tied.check])
 
 
 def stated(manifest: Mapping[str, Any]) -> dict[str, Json]:

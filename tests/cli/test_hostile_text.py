@@ -13,6 +13,7 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
+from shutil import rmtree
 from typing import Any, NamedTuple
 from unicodedata import category
 from urllib.parse import unquote_to_bytes
@@ -188,7 +189,8 @@ REPORTS = {
     "convert, domain": "convert good.sleec --to dsl --domain X",
     "compile": "compile good.sleec --to json --domain X",
     "cases -o": "cases good.sleec -o X.txt --force",
-    "certify -o": "certify good.sleec -o X.txt",
+    "certify -o": "certify X.sleec -o Xnew",
+    "certify, there is one": "certify good.sleec -o X.txt",
     "certify --check": "certify good.sleec --check X",
     "certify --key": "certify good.sleec --check X --key X.txt",
     "conform": "conform X.py --ruleset X.sleec",
@@ -217,6 +219,8 @@ def test_what_people_read(role: str, name: str, folder: Path) -> None:
     for file in folder.iterdir():
         if file.is_file():
             file.unlink()
+        elif file.name != ".git":
+            rmtree(file)
 
 
 def _repository(folder: Path) -> None:
