@@ -56,7 +56,7 @@ def unpacked(sdist: Path, to: Path) -> Path:
             assert member.isfile(), member.name
             assert member.name.startswith(f"{sdist.name.removesuffix('.tar.gz')}/")
             assert ".." not in Path(member.name).parts
-        archive.extractall(to)
+        archive.extractall(to, filter="data")
     return to / sdist.name.removesuffix(".tar.gz")
 
 
