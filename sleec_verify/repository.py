@@ -7,16 +7,14 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from sleec_runtime.errors import UnreadableFile
 from sleec_runtime.files import check_size
 from sleec_verify import git
-from sleec_verify.folders import SUFFIX, files_at, leads_below
+from sleec_verify.folders import GIT, SUFFIX, files_at, leads_below
 from sleec_verify.git import GitError
 from sleec_verify.revisions import Place, Versions
-
-NOW = "the files as they are now"
 
 
 class Repository:
@@ -43,76 +41,34 @@ class Repository:
             raise GitError("this folder is in no git repository", "go to the folder of the rulesets, or name two files")
         self.folder = os.path.realpath(folder)
 
-    def commit(self, revision: str) -> str:
-        """The commit that a revision means. Raises `GitError`."""
-        found = self._commit(revision)
-        if found is None:
-            raise GitError(f"there is no revision {revision or '(empty)'} in this repository", self._hint(revision))
-        return found
+    def position(self, path: str) -> str | None:
+        """Where a path is in the repository; None outside of it, and for what git keeps for itself.
 
-    def _commit(self, revision: str) -> str | None:
-        if not revision or revision.startswith(("-", "^")):
-            return None
-        # In two steps: behind `:/text`, `^{commit}` would be part of the text.
-        done = git.run("rev-parse", "--verify", "--quiet", revision)
-        if not done.returncode:
-            done = git.run("rev-parse", "--verify", "--quiet", f"{done.stdout.decode().strip()}^{{commit}}")
-        return None if done.returncode else done.stdout.decode().strip()
+        A link in the working tree stays one: in the place of a folder, it must not lead to the rules of another.
+        """
+        return next(iter(self._positions(path)), None)
 
-    def _hint(self, revision: str) -> str:
-        from sleec_runtime.language.suggest import nearest
+    def _positions(self, path: str) -> list[str]:
+        """That of the path as it is written, and that of what it leads to."""
+        ways = (os.path.join(os.path.realpath(os.curdir), path), os.path.realpath(path))
+        found = (os.path.relpath(os.path.normpath(way), self.folder).split(os.sep) for way in ways)
+        inside = (parts for parts in found if parts[0] != os.pardir and GIT not in map(str.lower, parts))
+        return list(dict.fromkeys("/".join(parts) for parts in inside))
 
-        if git.run("rev-list", "--max-count=1", "--all", "HEAD", "--").returncode:
-            return "nothing has been committed yet; a first commit has nothing to be compared with"
-        if not revision or revision.startswith("-") or not revision.isprintable():
-            return "name a branch, a tag or a commit"
-        if revision.startswith(":/"):
-            return "no commit that HEAD or a branch reaches has a message with this text"
-        if ":" in revision:
-            return "name a commit, and the file behind it: --git {} {}".format(*revision.split(":", 1))
-        if any(mark in revision for mark in ("~", "^", "@{")):
-            return "in CI, fetch the whole history"
-        done = git.run("for-each-ref", "--format=%(refname:short)")
-        names = done.stdout.decode("utf-8", "replace").split()
-        # A clone has branches of others under the name of where it got them, too.
-        near = next((name for name in names if name.endswith(f"/{revision}")), nearest(revision, names))
-        if near is not None:
-            return f"did you mean {near}?"
-        branch = revision.removeprefix("origin/")
-        if not branch or git.run("check-ref-format", "--branch", branch).returncode:
-            return "name a branch, a tag or a commit"
-        return f"in CI, fetch it first (git fetch origin {branch}), and name it origin/{branch}"
+    def here(self, path: str) -> str:
+        """The path, from the current folder, of a file or folder of the working tree.
 
-    def merge_base(self, one: str, other: str) -> str:
-        """The newest commit that two revisions have in common. Raises `GitError`."""
-        done = git.run("merge-base", self.commit(one), self.commit(other))
-        if done.returncode:
-            raise GitError(
-                f"{one} and {other} have no commit in common", "in CI, fetch the whole history: git fetch --unshallow"
-            )
-        return done.stdout.decode().strip()
+        Raises:
+            GitError: a link leads out of the working tree.
+        """
+        shown = os.path.relpath(os.path.join(self.folder, path))
+        if not leads_below(shown, self.folder, ""):
+            raise GitError(f"{shown} leads out of the working tree", "put the file itself there, not a link")
+        return shown
 
-    def range(self, written: str) -> tuple[tuple[str, str], tuple[str, str | None]]:
-        """What ``REV``, ``OLD..NEW`` and ``OLD...NEW`` (from what they have in common) mean: for each side how to call
-        it, and its commit; None for the files as they are now. An empty end is HEAD. Raises `GitError`."""
-        dots = "..." if "..." in written else ".." if ".." in written else None
-        whole = self._commit(written) if dots is not None else self.commit(written)
-        if dots is None or whole is not None:  # the text behind `:/` may have dots
-            assert whole is not None, "it is a commit"
-            return (written, whole), (NOW, None)
-        first, _, last = written.partition(dots)
-        first, last = first or "HEAD", last or "HEAD"
-        old, new = self.commit(first), self.commit(last)
-        if dots == "...":
-            old = self.merge_base(first, last)
-            first = old[:10]
-        return (first, old), (last, new)
-
-    def inside(self, path: str) -> str:
-        """A path as the repository has it. Raises `GitError` for one outside of it, or that git keeps for itself."""
-        if not leads_below(path, self.folder, ""):
-            raise GitError(f"{path} is not in the working tree of {self.folder}", "name a path below it")
-        return os.path.relpath(os.path.realpath(path), self.folder).replace(os.sep, "/")
+    def entry(self, commit: str, path: str) -> tuple[str, str] | None:
+        """The mode and the object of a path in a commit; None if there is none."""
+        return self._entries(commit, path).get(path)
 
     def files(self, commit: str, path: str) -> dict[str, str]:
         """The rulesets at or below a path in a commit, and the file of that very path, with their objects."""
@@ -120,16 +76,18 @@ class Repository:
 
     def _tree(self, commit: str, path: str) -> dict[str, str]:
         """The files at or below a path in a commit, without links and submodules."""
-        arguments = [] if path == "." else ["--", path]
-        done = git.run("ls-tree", "-r", "-z", "--full-tree", commit, *arguments)
+        found = self._entries(commit, path, "-r")
+        return {name: blob for name, (mode, blob) in found.items() if mode.startswith("100")}
+
+    def _entries(self, commit: str, path: str, *options: str) -> dict[str, tuple[str, str]]:
+        done = git.run("ls-tree", "-z", "--full-tree", *options, commit, *([] if path == "." else ["--", path]))
         if done.returncode:
-            raise GitError(f"git cannot list {path} in {commit}: {git.complaint(done)}")
+            raise GitError(f"git cannot list the files of {commit}: {git.complaint(done)}")
         found = {}
         for entry in filter(None, done.stdout.split(b"\0")):
             about, _, name = entry.partition(b"\t")
-            mode, _, blob = about.split()
-            if mode.startswith(b"100"):
-                found[os.fsdecode(name)] = blob.decode()
+            mode, _, blob = about.decode().split()
+            found[os.fsdecode(name)] = (mode, blob)
         return found
 
     def content(self, blob: str) -> bytes:
@@ -151,15 +109,29 @@ class Repository:
             )
         return done.stdout
 
-    def versions(self, old: tuple[str, str], new: tuple[str, str | None], paths: Sequence[str]) -> list[Versions]:
-        """The rulesets at or below `paths` on two sides, as `range` gives them.
+    def versions(
+        self,
+        old: tuple[str, str],
+        new: tuple[str, str | None],
+        paths: Sequence[str],
+        also: Collection[str] = (),
+    ) -> list[Versions]:
+        """The rulesets at or below `paths` on two sides, as `revision_range` gives them; and those that git lists at or
+        below the positions `also`, if there are any.
 
         Raises:
-            GitError, UnreadableFile: a path that neither side has, or none with rulesets.
+            GitError, UnreadableFile: one of `paths` that neither side has, or none with rulesets.
         """
         found: dict[str, Versions] = {}
+
+        def add(before: Mapping[str, str], after: Mapping[str, Place]) -> None:
+            for name in sorted({*before, *after}):
+                place = Place(f"{old[0]}:{name}", before[name], self) if name in before else None
+                found.setdefault(name, Versions(name, place, after.get(name)))
+
         for path in paths:
-            inside = self.inside(path)
+            positions = self._inside(path)
+            inside = next((one for one in positions if self.files(old[1], one)), positions[-1])
             before = self.files(old[1], inside)
             after = self._now(path, inside) if new[1] is None else self._in_commit(new[0], new[1], inside)
             if not before and not after:
@@ -167,9 +139,9 @@ class Repository:
                     f"there is no {SUFFIX} file at or below {path}, neither in {old[0]} nor in {new[0]}",
                     "check the spelling of its name and folder",
                 )
-            for name in sorted({*before, *after}):
-                place = Place(f"{old[0]}:{name}", before[name], self) if name in before else None
-                found.setdefault(name, Versions(name, place, after.get(name)))
+            add(before, after)
+        for inside in sorted(also):
+            add(self.files(old[1], inside), self._listed(inside))
         return list(found.values())
 
     def now(self, paths: Sequence[str]) -> dict[str, Place]:
@@ -180,7 +152,7 @@ class Repository:
         """
         found: dict[str, Place] = {}
         for path in paths:
-            there = self._now(path, self.inside(path))
+            there = self._now(path, self._inside(path)[-1])
             if not there:
                 raise UnreadableFile(f"there is no {SUFFIX} file at or below {path}", "check the spelling of its name")
             found |= there
@@ -197,29 +169,44 @@ class Repository:
     def _in_commit(self, called: str, commit: str, path: str) -> dict[str, Place]:
         return {name: Place(f"{called}:{name}", blob, self) for name, blob in self.files(commit, path).items()}
 
+    def _inside(self, path: str) -> list[str]:
+        """The positions of a path, at least one. Raises `GitError` where there is none."""
+        found = self._positions(path)
+        if not found:
+            raise GitError(f"{path} is not in the working tree of {self.folder}", "name a path below it")
+        return found
+
     def _now(self, path: str, inside: str) -> dict[str, Place]:
-        """What stands there: for a folder what git would commit of it, so nothing that it ignores, no link, and nothing
-        of another repository in it, such as a submodule. A file that is named is taken as it is.
+        """The rulesets at or below a path as they are now. A file that is named is taken as it is, unless it is a link
+        that leads out of the working tree."""
+        if not leads_below(path, self.folder, ""):
+            self._skipped(path)
+            return {}
+        if os.path.lexists(path) and not os.path.isdir(path):
+            return {inside: Place(path)}
+        return self._listed(inside)
+
+    def _listed(self, inside: str) -> dict[str, Place]:
+        """The rulesets that git would commit at or below a path of the repository: nothing that it ignores, no link, no
+        submodule, and nothing of another repository in it.
 
         Raises:
             GitError, UnreadableFile: git cannot list it, or a folder may not be read.
         """
-        if os.path.lexists(path) and not os.path.isdir(path):
-            return {inside: Place(path)}
         listing = ("ls-files", "-z", "-t", "--stage", "--cached", "--others", "--exclude-standard", "--", inside)
         done = git.run("-C", self.folder, *listing)
         if done.returncode:
-            raise GitError(f"git cannot list {path}: {git.complaint(done)}")
+            raise GitError(f"git cannot list {inside}: {git.complaint(done)}")
         found = {}
         for entry in filter(None, done.stdout.split(b"\0")):
             status, _, rest = entry.partition(b" ")
             about, _, raw = (b"", b"", rest) if status == b"?" else rest.partition(b"\t")
             name = os.fsdecode(raw)
             if name.endswith(SUFFIX):
-                shown = os.path.normpath(os.path.join(path, os.path.relpath(name, inside)))
+                shown = os.path.relpath(os.path.join(self.folder, name))
                 if not leads_below(shown, self.folder, SUFFIX):
                     self._skipped(shown)
-                elif _is_file(shown):
+                elif _is_file(shown) and os.path.realpath(shown) == os.path.join(self.folder, name):
                     found[name] = Place(shown)
                 elif status == b"S":  # left out of a sparse checkout: it is as it is in the index
                     found[name] = Place(shown, about.split()[1].decode(), self)

@@ -122,6 +122,7 @@ def command(
 
 def _versions(paths: Sequence[str], revision: str | None) -> tuple[list[Versions], tuple[str, str]]:
     """The rulesets on both sides, in git those that moved under their new path, and what the sides are called."""
+    from sleec_verify.commits import revision_range
     from sleec_verify.renames import with_renames
     from sleec_verify.repository import Repository
     from sleec_verify.revisions import of_paths
@@ -134,7 +135,7 @@ def _versions(paths: Sequence[str], revision: str | None) -> tuple[list[Versions
         old_path, new_path = paths
         return of_paths(old_path, new_path, note_link), (old_path, new_path)
     repository = Repository(note_link)
-    old, new = repository.range(revision)
+    old, new = revision_range(revision)
     return with_renames(repository.versions(old, new, paths or (".",)))[0], (old[0], new[0])
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from typing import TYPE_CHECKING
 
 import click
@@ -18,7 +18,10 @@ from sleec_verify.report import FORMATS
 if TYPE_CHECKING:
     from sleec_verify.gate import Asserting, Check
     from sleec_verify.gate.config import Config
+    from sleec_verify.gate.keys import Target
     from sleec_verify.gate.result import Gated
+    from sleec_verify.gate.settings import Settings
+    from sleec_verify.repository import Repository
     from sleec_verify.timed.scope import Untimed
 
 STEP_SUMMARY = "GITHUB_STEP_SUMMARY"
@@ -85,38 +88,51 @@ def command(
 
     Exit codes: 0 passed; 1 something blocks; 2 something cannot be read or set so; 3 something is not decided.
     """
+    from sleec_verify.commits import NOW, commit, merge_base
     from sleec_verify.gate import evidence, gate
-    from sleec_verify.gate.baseline import read_baseline
-    from sleec_verify.gate.config import find_config, read_config
-    from sleec_verify.repository import NOW, Repository
+    from sleec_verify.gate.changes import policy_changes
+    from sleec_verify.gate.settings import config_of, no_config, read_sides
+    from sleec_verify.repository import Repository
+    from sleec_verify.tree import Tree
 
-    config = find_config() if config_file is None else read_config(config_file)
-    config = config._replace(block=config.block.requiring(require_proved, require_tied))
-    known_file = baseline or (None if config.baseline is None else config.at(config.baseline))
-    chosen = paths or tuple(map(config.at, config.rulesets))
+    repository = Repository(note_link)
+    now = Tree(repository)
+    own = config_of(now, config_file)
     check = _check(untimed, no_cache)
     if write_baseline:
-        return _write_baseline(chosen, config, known_file, check, whole=not paths)
-    name = config.base if base is None else base
+        from sleec_verify.cli.baseline import write_baseline as write_findings
+
+        if own is None:
+            raise no_config(config_file or "")
+        return write_findings(now, own, paths, baseline, check)
+    name = base if base is not None or own is None else own.base
     if name is None:
         raise click.UsageError("say which revision the change is to go into: --base main, or base in the configuration")
     _check_files(output, summary)
-    repository = Repository(note_link)
-    shared = repository.merge_base(name, "HEAD")
-    versions = repository.versions((name, shared), (NOW, None), chosen)
+    tip, shared = commit(name), merge_base(name, "HEAD")
+    start = Tree(repository, name if shared == tip else shared[:10], shared)
+    sides = read_sides(Tree(repository, name, tip), start, now, config_file, baseline)
+    config = sides.base.config
+    policy = config.block.requiring(require_proved, require_tied)
+    chosen = paths or [now.called(config.at(one)) for one in config.rulesets]
+    also = [] if paths else _selected(sides.change.config) - _selected(config)
+    versions = repository.versions((name, shared), (NOW, None), chosen, also)
     if output is not None:
         from sleec_verify.cli.files import require_writable
 
         require_writable(output, (one.new.name for one in versions if one.new is not None))
-    beside = {path for one in versions for path in evidence(one.path, config.block)}
+    beside = {path for one in versions for path in evidence(one.path, policy)}
     found = gate(
         versions,
         name,
-        config,
+        policy,
         check,
-        known=() if known_file is None else read_baseline(known_file),
+        repository.here,
+        targets=_targets(config, sides.change.config, repository),
+        changes=policy_changes(now, sides.start, sides.change),
+        known=sides.base.known,
         everything=everything,
-        asserting=_asserting(config, texts),
+        asserting=_asserting(sides.base, texts),
         untimed=untimed,
         touched=repository.touched(shared, beside) if beside else frozenset(),
     )
@@ -152,42 +168,26 @@ def _report(found: Gated, form: str, output: str | None) -> None:
     tell(f"{output}: {verdict(found, PLAIN)}")
 
 
-def _asserting(config: Config, texts: Sequence[str]) -> Asserting:
-    """Those of the configuration name files where such a file is there, else they are the assertions themselves."""
-    from sleec_runtime.language.source import read_source
+def _asserting(settings: Settings, texts: Sequence[str]) -> Asserting:
     from sleec_verify.gate import Asserting
+    from sleec_verify.gate.keys import is_assertion
 
-    said = [*texts]
-    sources = []
-    for one in config.assertions:
-        if one.split(" ")[0].lower() in ("never", "always"):
-            said.append(one)
-        else:
-            sources.append(read_source(config.at(one)))
-    return Asserting(said, sources)
+    return Asserting([*texts, *filter(is_assertion, settings.config.assertions)], [*settings.assertions.values()])
 
 
-def _write_baseline(paths: Sequence[str], config: Config, target: str | None, check: Check, whole: bool) -> int:
-    """The findings of now to the file `target`. If that is not of the `whole`, those of other rulesets stay in it."""
-    from sleec_verify.cli.files import require_writable, write_whole
-    from sleec_verify.gate import findings_now
-    from sleec_verify.gate.baseline import baseline_text, read_baseline
-    from sleec_verify.report.outcome import counted
-    from sleec_verify.repository import Repository
+def _selected(config: Config) -> Set[str]:
+    """Where the rulesets of a configuration are."""
+    return {config.at(one) for one in config.rulesets}
 
-    if target is None:
-        raise click.UsageError("say where: --baseline FILE, or baseline in the configuration")
-    require_writable(target, ())
-    # Only a baseline is replaced by one.
-    before = read_baseline(target) if os.path.lexists(target) else set()
-    places = Repository(note_link).now(paths)
-    keys = findings_now(places, config, check)
-    if not whole:
-        about = {*places, *(one.code for one in config.targets)}
-        keys |= {one for one in before if one[0] not in about}
-    write_whole(target, baseline_text(keys).encode())
-    tell(f"{target}: {counted(len(keys), 'finding')}")
-    return exits.HOLDS
+
+def _targets(base: Config, own: Config, repository: Repository) -> list[Target]:
+    """Those of the base and those of the change, but none that the change removes together with its code."""
+    kept = (
+        one
+        for one in base.targets
+        if one in own.targets or os.path.lexists(os.path.join(repository.folder, one.at(one.code)))
+    )
+    return list(dict.fromkeys([*kept, *own.targets]))
 
 
 def _check_files(output: str | None, summary: str | None) -> None:

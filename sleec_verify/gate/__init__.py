@@ -18,10 +18,9 @@ from sleec_verify.checks import CHECKS, run_checks
 from sleec_verify.compare import compare
 from sleec_verify.finding import CheckResult, Finding
 from sleec_verify.gate.baseline import Key, key
-from sleec_verify.gate.config import Config
 from sleec_verify.gate.policy import judge
-from sleec_verify.gate.result import Conformed, Examined, Gated
-from sleec_verify.gate.suppressions import suppressions
+from sleec_verify.gate.result import Block, Conformed, Examined, Gated
+from sleec_verify.gate.suppressions import Suppression, new_suppressions, suppressions
 from sleec_verify.internal_error import InternalError, internal_errors_of
 from sleec_verify.renames import with_renames
 from sleec_verify.timed.scope import Untimed
@@ -29,7 +28,7 @@ from sleec_verify.timed.scope import Untimed
 if TYPE_CHECKING:
     from sleec_runtime.errors import Problem
     from sleec_verify.assertions import Asked, Assertion, Vocabulary
-    from sleec_verify.gate.config import Policy, Target
+    from sleec_verify.gate.keys import Policy, Target
     from sleec_verify.revisions import Place, Versions
 
 __all__ = ["Asserting", "Check", "evidence", "findings_now", "gate"]
@@ -38,6 +37,9 @@ CONFLICT = "conflict"
 
 Check = Callable[[Ruleset], tuple[CheckResult, ...]]
 """What checks a ruleset, or knows what came of it."""
+
+Locate = Callable[[str], str]
+"""From a path of the repository to the file that it is now. Raises `SleecError` for one outside the repository."""
 
 
 class Asserting:
@@ -75,9 +77,12 @@ class _Known:
 def gate(
     versions: Sequence[Versions],
     base: str,
-    config: Config,
+    policy: Policy,
     check: Check,
+    locate: Locate,
     *,
+    targets: Sequence[Target] = (),
+    changes: Sequence[Block] = (),
     known: Collection[Key] = (),
     everything: bool = False,
     asserting: Asserting | None = None,
@@ -86,19 +91,18 @@ def gate(
 ) -> Gated:
     """The verdict on rulesets in two versions, the older one called `base`.
 
-    `known` are the findings of the baseline, `touched` what differs from the base of the
-    `evidence` beside them. A ruleset that
-    is the same is left out, unless `everything` is examined or the cases or the certificate beside it changed; only
-    the assertions are asked of all. Raises `LanguageError` for assertions that are none. Linear in the rulesets that
-    are the same; for the others, what `check` and `diff` cost.
+    `changes` are those of the settings, `known` the findings of the baseline, `touched` what differs from the base of
+    the `evidence` beside the rulesets. A ruleset that is the same is left out, unless `everything` is examined or the
+    cases or the certificate beside it changed; only the assertions are asked of all. Raises `LanguageError` for
+    assertions that are none. Linear in the rulesets that are the same; for the others, what `check` and `diff` cost.
     """
     versions, before = with_renames(versions)
-    found = Gated(base)
+    found = Gated(base, changes=[*changes])
     baseline = _Known(known)
     asked: list[_Sides] = []
     for one in versions:
-        if everything or not one.unchanged or not touched.isdisjoint(evidence(one.path, config.block)):
-            examined = _examine(one, before.get(one.path), base, config, baseline, check, untimed)
+        if everything or not one.unchanged or not touched.isdisjoint(evidence(one.path, policy)):
+            examined = _examine(one, before.get(one.path), base, policy, baseline, check, locate, untimed)
             found.examined.append(examined)
             if examined.difference is not None:
                 asked.append(_Sides(examined.difference.new, examined.difference.old))
@@ -113,12 +117,12 @@ def gate(
                     found.paths[ruleset.source.path] = one.path
                 except SleecError as error:
                     found.examined.append(Examined(one.path, errors=[error]))
-    found.conformed = [_conform(target, config, baseline) for target in config.targets]
+    found.conformed = [_conform(target, locate, baseline) for target in targets]
     if asserting:
         found.asked = _ask(found, asked, asserting)
-    about = {one.path for one in found.examined} | {target.code for target in config.targets} | {*before.values()}
+    about = {one.path for one in found.examined} | {target.code for target in targets} | {*before.values()}
     found.stale = sum(1 for one in baseline.keys - baseline.met if one[0] in about)
-    judge(found, config.block)
+    judge(found, policy)
     return found
 
 
@@ -135,30 +139,39 @@ def _read(one: Versions) -> Ruleset:
     return parse_source(one.new.read())
 
 
-def findings_now(places: Mapping[str, Place], config: Config, check: Check) -> set[Key]:
-    """All findings of these rulesets, by what they are called, and of the configured targets that no suppression
-    allows: what a baseline holds.
+def findings_now(places: Mapping[str, Place], targets: Sequence[Target], check: Check, locate: Locate) -> set[Key]:
+    """All findings of these rulesets, by what they are called, and of the targets that no suppression allows: what a
+    baseline holds.
 
     Raises:
         SleecError: something cannot be read.
     """
     known = _Known()
     for name, place in places.items():
-        _check(Examined(name), parse_source(place.read()), known, check)
-    for target in config.targets:
-        found = _conform(target, config, known)
+        ruleset = parse_source(place.read())
+        allowing, _ = _suppressions(ruleset)
+        _check(Examined(name), ruleset, known, check, allowing)
+    for target in targets:
+        found = _conform(target, locate, known)
         if found.error is not None:
             raise found.error
     return known.met
 
 
 def _examine(
-    versions: Versions, was: str | None, base: str, config: Config, known: _Known, check: Check, untimed: Untimed
+    versions: Versions,
+    was: str | None,
+    base: str,
+    policy: Policy,
+    known: _Known,
+    check: Check,
+    locate: Locate,
+    untimed: Untimed,
 ) -> Examined:
     found = Examined(versions.path, was)
     try:
         with internal_errors_of(versions.path):
-            _fill_in(found, versions, base, config, known, check, untimed)
+            _fill_in(found, versions, base, policy, known, check, locate, untimed)
     except InternalError as error:
         found.errors.append(error)
     return found
@@ -168,9 +181,10 @@ def _fill_in(
     found: Examined,
     versions: Versions,
     base: str,
-    config: Config,
+    policy: Policy,
     known: _Known,
     check: Check,
+    locate: Locate,
     untimed: Untimed,
 ) -> None:
     sides: list[Ruleset | None] = []
@@ -182,15 +196,22 @@ def _fill_in(
             sides.append(None)
     old, found.ruleset = sides
     if found.ruleset is not None:
-        _check(found, found.ruleset, known, check)
-        if config.block.clause_coverage is not None and not found.errors:
+        allowing, found.problems = _suppressions(found.ruleset)
+        found.new = new_suppressions([] if old is None else _suppressions(old)[0], allowing)
+        _check(found, found.ruleset, known, check, allowing, refused=found.new if policy.new_suppressions else ())
+        for path in evidence(found.path, policy):
+            try:
+                locate(path)
+            except SleecError as error:
+                found.errors.append(error)
+        if policy.clause_coverage is not None and not found.errors:
             from sleec_verify.gate.coverage import coverage
 
             found.coverage = coverage(found.ruleset, found.errors)
-        if config.block.certificates:
+        if policy.certificates and not found.errors:
             from sleec_verify.gate.certification import certificate
 
-            found.certificate = certificate(found.ruleset, untimed, config.block)
+            found.certificate = certificate(found.ruleset, untimed, policy)
     if not found.errors:
         new = found.ruleset
         found.difference = compare(
@@ -214,17 +235,29 @@ def _nothing(other: Ruleset | None, called: str) -> Ruleset:
     return replace(other, statements=(), inferred=(), defects=(), source=Source(called, ""))
 
 
-def _check(found: Examined, ruleset: Ruleset, known: _Known, check: Check) -> None:
-    found.results = check(ruleset)
+def _suppressions(ruleset: Ruleset) -> tuple[list[Suppression], list[Problem]]:
     codes = {kind.code for one in CHECKS.values() for kind in one.kinds}
-    allowing, found.problems = suppressions(ruleset, {*codes, *CHECKS})
+    return suppressions(ruleset, {*codes, *CHECKS})
+
+
+def _check(
+    found: Examined,
+    ruleset: Ruleset,
+    known: _Known,
+    check: Check,
+    allowing: Sequence[Suppression],
+    refused: Collection[Suppression] = (),
+) -> None:
+    """Check a ruleset. Of what is `allowing`, the suppressions that are `refused` allow nothing."""
+    found.results = check(ruleset)
     used = set()
     paths = [found.path, *([] if found.was is None else [found.was])]
     for finding in (finding for result in found.results for finding in result.findings):
-        covering = next((one for one in allowing if one.covers(ruleset, finding)), None)
-        if covering is not None:
-            used.add(covering)
-            found.allowed.append((finding, covering))
+        covering = [one for one in allowing if one.covers(ruleset, finding)]
+        used.update(covering[:1])
+        allowed_by = next((one for one in covering if one not in refused), None)
+        if allowed_by is not None:
+            found.allowed.append((finding, allowed_by))
         elif known.has(finding, paths):
             found.known.append(finding)
         else:
@@ -232,7 +265,7 @@ def _check(found: Examined, ruleset: Ruleset, known: _Known, check: Check) -> No
     found.unused = [one for one in allowing if one not in used]
 
 
-def _conform(target: Target, config: Config, known: _Known) -> Conformed:
+def _conform(target: Target, locate: Locate, known: _Known) -> Conformed:
     from sleec_runtime.errors import UnsupportedTimes
     from sleec_verify.conformance.structure import UNDECIDED, check_structure
     from sleec_verify.conformance.structure.target import python_files
@@ -240,11 +273,11 @@ def _conform(target: Target, config: Config, known: _Known) -> Conformed:
     found = Conformed(target)
     try:
         with internal_errors_of(target.code):
-            found.ruleset = load(config.at(target.rules))
+            found.ruleset = load(locate(target.at(target.rules)))
             if target.domain is not None and target.domain not in found.ruleset.domains:
                 named = ", ".join(found.ruleset.domains) or "none"
                 raise SleecError(f"there is no domain {target.domain} in {target.rules}", f"it has {named}")
-            found.result = check_structure(found.ruleset, python_files(config.at(target.code)), target.domain)
+            found.result = check_structure(found.ruleset, python_files(locate(target.at(target.code))), target.domain)
     except UnsupportedTimes as error:
         found.why = str(error)
         return found

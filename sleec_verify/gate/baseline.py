@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from sleec_runtime.files import read_file
-from sleec_verify.gate.config import ConfigError
+from sleec_verify.gate.keys import ConfigError
 from sleec_verify.report.words import shortened
 
 if TYPE_CHECKING:
@@ -25,25 +24,17 @@ def key(path: str, finding: Finding) -> Key:
     return path, finding.code, finding.rules, clauses, finding.obligations
 
 
-def read_baseline(path: str) -> set[Key]:
-    """The findings of a baseline file.
-
-    Raises:
-        ConfigError: it is not there, or is none.
-    """
+def read_baseline(data: bytes, called: str) -> frozenset[Key]:
+    """The findings of a baseline file, which messages call `called`. Raises `ConfigError`."""
     import json
 
     try:
-        table = json.loads(read_file(path))
+        table = json.loads(data)
         if table["version"] != _VERSION:
-            raise ConfigError(f"{path} is a baseline of version {shortened(repr(table['version']))}", _RENEW)
-        return {_key(entry) for entry in table["findings"]}
-    except FileNotFoundError:
-        raise ConfigError(f"there is no baseline {path}", "make it: sleec-verify gate --write-baseline …") from None
-    except OSError as error:
-        raise ConfigError(f"{path} cannot be read: {error.strerror}") from None
+            raise ConfigError(f"{called} is a baseline of version {shortened(repr(table['version']))}", _RENEW)
+        return frozenset(_key(entry) for entry in table["findings"])
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        raise ConfigError(f"{path} is no baseline", _RENEW) from None
+        raise ConfigError(f"{called} is no baseline", _RENEW) from None
 
 
 _RENEW = "make it anew: sleec-verify gate --write-baseline …"

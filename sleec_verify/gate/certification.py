@@ -8,7 +8,7 @@ from sleec_runtime.certificate import Use
 from sleec_runtime.errors import SleecError
 from sleec_runtime.manifest import Manifest, Required
 from sleec_runtime.model import Ruleset
-from sleec_verify.gate.config import Policy
+from sleec_verify.gate.keys import Policy
 from sleec_verify.timed.scope import Untimed
 
 SUFFIX = ".certificate"

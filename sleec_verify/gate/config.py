@@ -1,69 +1,24 @@
-"""What a team has set: ``sleec-verify.toml``, or ``[tool.sleec-verify]`` of pyproject.toml.
-
-Every key is checked, because a misspelt one would let through what it was meant to block.
-"""
+"""What a team has set: ``sleec-verify.toml``, or ``[tool.sleec-verify]`` of pyproject.toml."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal, NamedTuple
+import posixpath
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sleec_runtime.errors import SleecError
-from sleec_verify.finding import SEVERITIES, Severity
-from sleec_verify.toml import read_toml
+from sleec_verify.gate.keys import ConfigError, Policy, Target, joined, settings
+from sleec_verify.toml import parse_toml
+
+if TYPE_CHECKING:
+    from sleec_verify.tree import Tree
 
 OWN = "sleec-verify.toml"
 SHARED = "pyproject.toml"
 TABLE = "sleec-verify"
 
 
-class ConfigError(SleecError):
-    """A configuration that cannot be used: missing, no TOML, or with a key or value that there is not."""
-
-
-class Target(NamedTuple):
-    """A robot's code, and the rules whose structure it is to have. Paths are from the folder of the configuration."""
-
-    code: str
-    rules: str
-    domain: str | None = None
-
-
-class Policy(NamedTuple):
-    """What blocks.
-
-    `findings`: findings of `check` and `conform` at least as grave as this; "never" for none. `new_conflicts`:
-    situations that conflict now and did not in the base. `lost_obligations`: patterns (``Call*``, ``NOT Speak``) of
-    obligations that some situation loses. `ruled_out_situations`: situations that the assumptions of now do not allow,
-    and those of the base did. `dead_hedges`: a hedge that decides nowhere. `unknown`: whatever is not
-    decided. `unused_suppressions`: a suppression that nothing needs. `clause_coverage`: fewer clauses than this, in
-    percent, reached by the cases beside a ruleset; None asks nothing. `certificates`: a ruleset without one beside it
-    that holds. `require_proved` and `require_tied` ask for `certificates`, and for more of them
-    (`sleec_runtime.manifest.Required`).
-    """
-
-    findings: Severity | Literal["never"] = "error"
-    new_conflicts: bool = True
-    lost_obligations: tuple[str, ...] = ()
-    ruled_out_situations: bool = False
-    dead_hedges: bool = False
-    unknown: bool = True
-    unused_suppressions: bool = False
-    clause_coverage: float | None = None
-    certificates: bool = False
-    require_proved: bool = False
-    require_tied: bool = False
-
-    def requiring(self, proved: bool, tied: bool) -> Policy:
-        """This policy, with what is required of certificates besides. Whoever requires anything asks for them."""
-        proved, tied = proved or self.require_proved, tied or self.require_tied
-        asked = self.certificates or proved or tied
-        return self._replace(certificates=asked, require_proved=proved, require_tied=tied)
-
-
 class Config(NamedTuple):
-    """All settings. `path` is where they were read, None where there are none; `folder` is what paths are from."""
+    """All settings. `path` is where they were read, None where there are none; `folder` is what their paths are from.
+    Both are themselves from the top of the repository."""
 
     path: str | None = None
     folder: str = "."
@@ -75,146 +30,47 @@ class Config(NamedTuple):
     block: Policy = Policy()
 
     def at(self, path: str) -> str:
-        """A path of the configuration, from the current folder."""
-        return os.path.normpath(os.path.join(self.folder, path))
+        """A path of the configuration, from the top of the repository."""
+        return joined(self.folder, path)
 
 
-def find_config(folder: str = ".") -> Config:
-    """The settings of the nearest folder, from `folder` upwards, that has any; the defaults where none has.
+def find_config(tree: Tree, folder: str) -> Config:
+    """The settings of the nearest folder, from `folder` up to the top of the repository, that has any; the defaults
+    where none has.
 
     Raises:
-        ConfigError: what is found cannot be used.
+        SleecError: what is found cannot be used.
     """
-    here = os.path.abspath(folder)
+    here = folder
     while True:
-        own, shared = (os.path.join(here, name) for name in (OWN, SHARED))
-        if os.path.lexists(own):
-            return read_config(own)
-        if os.path.isfile(shared):
-            table = _table(shared).get("tool", {})
-            if isinstance(table, dict) and TABLE in table:
-                return read_config(shared)
-        above = os.path.dirname(here)
-        if above == here:
-            return Config()
-        here = above
+        for name in (OWN, SHARED):
+            path = joined(here, name)
+            data = tree.read(path)
+            if data is not None and (name == OWN or _has_table(data, tree.called(path))):
+                return read_config(data, path, tree.called(path))
+        if here == ".":
+            return Config(folder=folder)
+        here = posixpath.dirname(here) or "."
 
 
-def read_config(path: str) -> Config:
-    """The settings in one file. Raises `ConfigError`."""
-    shown = os.path.relpath(path)
-    table: object = _table(path)
+def read_config(data: bytes, path: str, called: str) -> Config:
+    """The settings of the file at `path`, which messages call `called`. Raises `ConfigError`."""
+    table: object = _table(data, called)
     where = ""
-    if os.path.basename(path) == SHARED:
+    if posixpath.basename(path) == SHARED:
         where = f"[tool.{TABLE}] "
         for key in ("tool", TABLE):
             table = table.get(key) if isinstance(table, dict) else None
         if table is None:
-            raise ConfigError(f"{shown} has no table [tool.{TABLE}]", f"write one, or name a {OWN}")
-    reader = _Reader(shown, where)
-    settings = reader.read(table, _SETTINGS, "")
-    return Config(path=shown, folder=os.path.relpath(os.path.dirname(os.path.abspath(path))), **settings)
+            raise ConfigError(f"{called} has no table [tool.{TABLE}]", f"write one, or name a {OWN}")
+    folder = posixpath.dirname(path) or "."
+    return Config(path=path, folder=folder, **settings(table, called, where, folder))
 
 
-def _table(path: str) -> dict[str, Any]:
-    return read_toml(path, os.path.relpath(path), ConfigError)
+def _has_table(data: bytes, called: str) -> bool:
+    tool = _table(data, called).get("tool", {})
+    return isinstance(tool, dict) and TABLE in tool
 
 
-class _Reader:
-    """Reads tables, and says of what does not fit where it stands."""
-
-    def __init__(self, path: str, where: str) -> None:
-        self._path = path
-        self._where = where
-
-    def read(self, table: object, keys: Mapping[str, _Read], at: str) -> dict[str, Any]:
-        if not isinstance(table, dict):
-            self.fail(at or "the table", table, "a table of keys and values")
-        assert isinstance(table, dict)
-        found = {}
-        for key, value in table.items():
-            name = f"{at}.{key}" if at else key
-            if key not in keys:
-                from sleec_runtime.language.suggest import nearest
-
-                near = nearest(key, sorted(keys))
-                hint = f"did you mean {near}?" if near else f"there are {', '.join(sorted(keys))}"
-                raise ConfigError(f"{self._path}: {self._where}has an unknown key {name}", hint)
-            found[key.replace("-", "_")] = keys[key](self, name, value)
-        return found
-
-    def fail(self, name: str, value: object, wanted: str) -> Any:
-        shown = repr(value)
-        shown = f"{shown[:37]}..." if len(shown) > 40 else shown
-        raise ConfigError(f"{self._path}: {self._where}{name} is {shown}", f"it is {wanted}")
-
-
-_Read = Callable[[_Reader, str, object], Any]
-
-
-def _text(reader: _Reader, name: str, value: object) -> str:
-    return value if isinstance(value, str) and value else str(reader.fail(name, value, "a text"))
-
-
-def _truth(reader: _Reader, name: str, value: object) -> bool:
-    return value if isinstance(value, bool) else bool(reader.fail(name, value, "true or false"))
-
-
-def _texts(reader: _Reader, name: str, value: object) -> tuple[str, ...]:
-    if isinstance(value, str) and value:
-        return (value,)
-    if not isinstance(value, list) or not all(isinstance(one, str) and one for one in value):
-        reader.fail(name, value, "a list of texts")
-    return tuple(value)  # type: ignore[arg-type]
-
-
-def _severity(reader: _Reader, name: str, value: object) -> str:
-    allowed = (*SEVERITIES, "never")
-    return str(value) if value in allowed else str(reader.fail(name, value, f"one of {', '.join(allowed)}"))
-
-
-def _percent(reader: _Reader, name: str, value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value <= 100:
-        reader.fail(name, value, "a number from 0 to 100")
-    return float(value)  # type: ignore[arg-type]
-
-
-def _targets(reader: _Reader, name: str, value: object) -> tuple[Target, ...]:
-    tables: Sequence[object] = value if isinstance(value, list) else [value]
-    found = []
-    for number, table in enumerate(tables, 1):
-        at = f"{name} {number}" if len(tables) > 1 else name
-        settings = reader.read(table, {"code": _text, "rules": _text, "domain": _text}, at)
-        for key in ("code", "rules"):
-            if key not in settings:
-                raise ConfigError(f"{reader._path}: {reader._where}{at} has no {key}", "code and rules belong together")
-        found.append(Target(**settings))
-    return tuple(found)
-
-
-def _policy(reader: _Reader, name: str, value: object) -> Policy:
-    return Policy(**reader.read(value, _POLICIES, name))
-
-
-_POLICIES: Mapping[str, _Read] = {
-    "findings": _severity,
-    "new-conflicts": _truth,
-    "lost-obligations": _texts,
-    "ruled-out-situations": _truth,
-    "dead-hedges": _truth,
-    "unknown": _truth,
-    "unused-suppressions": _truth,
-    "clause-coverage": _percent,
-    "certificates": _truth,
-    "require-proved": _truth,
-    "require-tied": _truth,
-}
-
-_SETTINGS: Mapping[str, _Read] = {
-    "rulesets": _texts,
-    "base": _text,
-    "baseline": _text,
-    "assertions": _texts,
-    "targets": _targets,
-    "block": _policy,
-}
+def _table(data: bytes, called: str) -> dict[str, Any]:
+    return parse_toml(data, called, ConfigError)

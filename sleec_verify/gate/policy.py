@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
 from sleec_runtime.spans import NOWHERE, Span
 from sleec_verify.checks import CHECKS
 from sleec_verify.compare import by_obligation
-from sleec_verify.finding import SEVERITIES, ClauseRef, Finding, Unknown
-from sleec_verify.gate.config import Policy
-from sleec_verify.gate.result import Block, Conformed, Examined, Gated
+from sleec_verify.finding import SEVERITIES, ClauseRef, Finding, Severity, Unknown
+from sleec_verify.gate.keys import Policy
+from sleec_verify.gate.result import NEW_SUPPRESSIONS, POLICY_CHANGES, Block, Conformed, Examined, Gated
 from sleec_verify.report.told import told_once
 from sleec_verify.report.words import in_short, listed
 
@@ -24,6 +25,8 @@ DEAD_HEDGE = CHECKS["dead-hedge"].kinds[0].code
 CONFLICT = CHECKS["conflict"].kinds[0].code
 
 POLICIES: Mapping[str, str] = {
+    POLICY_CHANGES: "what decides about changes is changed",
+    NEW_SUPPRESSIONS: "a suppression that the base does not have",
     "suppressions": "a suppression without a reason, or of a finding that there is not",
     "unused-suppressions": "a suppression that no finding needs",
     "new-conflicts": "situations conflict now that did not before",
@@ -38,7 +41,11 @@ POLICIES: Mapping[str, str] = {
 
 
 def judge(found: Gated, policy: Policy) -> None:
-    """Fill in what blocks, and what is unknown."""
+    """Fill in what blocks, what is unknown, and the new suppressions."""
+    found.changes = [*_heeded(found.changes, policy.policy_changes)]
+    for one in found.examined:
+        found.changes += _heeded(_new_suppressions(one), policy.new_suppressions)
+    found.blocks += (change for change in found.changes if change.finding and change.finding.severity == "error")
     for one in found.examined:
         found.blocks += _on_ruleset(one, policy)
         found.unknown += _unknown(one)
@@ -53,6 +60,20 @@ def judge(found: Gated, policy: Policy) -> None:
             what = f"{assertion.text} does not hold"
             found.blocks.append(_block("assertions", path, what, *_places(answer.deciding), witness=answer.witness))
     found.heeded = policy.unknown
+
+
+def _heeded(changes: Iterable[Block], blocking: bool) -> Iterator[Block]:
+    """Changes of what decides, as errors if they block."""
+    for change in changes:
+        assert change.finding is not None, "it is shown as a finding"
+        severity: Severity = "error" if blocking else "note"
+        yield change._replace(finding=replace(change.finding, severity=severity))
+
+
+def _new_suppressions(one: Examined) -> Iterator[Block]:
+    for new in one.new:
+        what = f"line {one.line(new.span)} has a new suppression of {new.allowed}: {new.reason}"
+        yield _block(NEW_SUPPRESSIONS, one.path, what, new.span)
 
 
 def _on_ruleset(one: Examined, policy: Policy) -> Iterator[Block]:

@@ -12,8 +12,12 @@ if TYPE_CHECKING:
     from sleec_verify.assertions import Asked
     from sleec_verify.compare import Difference
     from sleec_verify.finding import CheckResult, Finding
-    from sleec_verify.gate.config import Target
+    from sleec_verify.gate.keys import Target
     from sleec_verify.gate.suppressions import Suppression
+
+POLICY_CHANGES = "policy-changes"
+NEW_SUPPRESSIONS = "new-suppressions"
+"""Policies about what decides."""
 
 Status = Literal["passed", "blocked", "unknown", "unusable"]
 
@@ -46,10 +50,10 @@ class Examined:
     """One ruleset that changed (or that all were asked for).
 
     `was` is its path in the base, where that was another. `ruleset` is what it is now; None where it is gone or cannot
-    be read. `findings` count; `allowed` are suppressed,
-    with the suppression, and `known` stand in the baseline. `unused` suppressions meet nothing, `problems` are
-    suppressions that are none. `conflicting` are the rules of each conflict of the base, where the baseline has some of
-    now. `certificate` is what the one that holds says, or why there is none, where one is asked for.
+    be read. `findings` count; `allowed` are suppressed, with the suppression, and `known` stand in the baseline. `new`
+    suppressions are not in the base, `unused` ones meet nothing, `problems` are suppressions that are none.
+    `conflicting` are the rules of each conflict of the base, where the baseline has some of now. `certificate` is what
+    the one that holds says, or why there is none, where one is asked for.
     """
 
     path: str
@@ -60,6 +64,7 @@ class Examined:
     findings: list[Finding] = field(default_factory=list)
     allowed: list[tuple[Finding, Suppression]] = field(default_factory=list)
     known: list[Finding] = field(default_factory=list)
+    new: list[Suppression] = field(default_factory=list)
     unused: list[Suppression] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list)
     conflicting: frozenset[frozenset[str]] = frozenset()
@@ -88,9 +93,13 @@ class Conformed:
 
 @dataclass
 class Gated:
-    """All that came of a gate. `base` is what the base is called, `unchanged` how many rulesets were left out. `paths`
-    says what the rulesets are called of which assertions were asked, by the paths of their texts. `heeded` is whether
-    what is unknown keeps a change out."""
+    """All that came of a gate.
+
+    `base` is what the base is called, `unchanged` how many rulesets were left out. `paths` says what the rulesets are
+    called of which assertions were asked, by the paths of their texts. `changes` are those of the settings, and new
+    suppressions; those that the policy does not allow are among `blocks`. `heeded` is whether what is unknown keeps a
+    change out.
+    """
 
     base: str
     examined: list[Examined] = field(default_factory=list)
@@ -98,10 +107,16 @@ class Gated:
     conformed: list[Conformed] = field(default_factory=list)
     asked: tuple[Asked, ...] = ()
     paths: dict[str, str] = field(default_factory=dict)
+    changes: list[Block] = field(default_factory=list)
     blocks: list[Block] = field(default_factory=list)
     unknown: list[Block] = field(default_factory=list)
     heeded: bool = True
     stale: int = 0
+
+    @property
+    def tolerated(self) -> list[Block]:
+        """The changes that the policy allows."""
+        return [change for change in self.changes if change not in self.blocks]
 
     @property
     def unusable(self) -> bool:

@@ -6,6 +6,7 @@ Behind a line it is about that line; on a line of its own about the rule, or the
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
 from typing import NamedTuple
 
@@ -20,13 +21,15 @@ _EXAMPLE = "write: # sleec: allow SLEEC202 because the sensor comes next year"
 
 class Suppression(NamedTuple):
     """What is allowed (a code, or a check) in the lines from `first` to `last`, and why. `span` is the comment, which
-    may list several codes: each is a suppression of its own."""
+    may list several codes: each is a suppression of its own. `about` are the words of the line that it is about, and of
+    the first line of the rule that this belongs to."""
 
     allowed: str
     reason: str
     first: int
     last: int
     span: Span
+    about: tuple[str, str]
 
     def covers(self, ruleset: Ruleset, finding: Finding) -> bool:
         """Whether a finding is what is allowed here: one of its places in the rules lies in these lines."""
@@ -58,9 +61,27 @@ def suppressions(ruleset: Ruleset, known: Collection[str]) -> tuple[list[Suppres
                 alone = not line[: mark.start()].strip()
                 first, last = _lines_below(lines, number, extents) if alone else (number, number)
                 allowed = (name.strip() for name in said.group(1).split(","))
-                found += (Suppression(name, said.group(2), first, last, span) for name in allowed)
+                about = _about(lines, first, extents)
+                found += (Suppression(name, said.group(2), first, last, span, about) for name in allowed)
         position += len(line) + 1
     return found, problems
+
+
+def new_suppressions(old: Iterable[Suppression], new: Iterable[Suppression]) -> list[Suppression]:
+    """Those of `new` that `old` does not have: of the same finding, for the same reason, about the same line of the
+    same rule, wherever that has moved to."""
+    before = Counter(map(_identity, old))
+    found = []
+    for one in new:
+        if before[_identity(one)]:
+            before[_identity(one)] -= 1
+        else:
+            found.append(one)
+    return found
+
+
+def _identity(one: Suppression) -> tuple[object, ...]:
+    return one.allowed, one.reason, one.about
 
 
 def _wrong(said: re.Match[str] | None, known: Collection[str]) -> tuple[str, str] | None:
@@ -84,6 +105,16 @@ def _rules(ruleset: Ruleset) -> Iterator[tuple[int, int]]:
     for rule in ruleset.rules:
         first = min(place(span).line for span in (rule.span, rule.label_span) if span.end)
         yield first, place(rule.span).end_line
+
+
+def _about(lines: list[str], number: int, extents: Iterable[tuple[int, int]]) -> tuple[str, str]:
+    head = next((first for first, last in extents if first <= number <= last), number)
+    return _words(lines, head), _words(lines, number)
+
+
+def _words(lines: list[str], number: int) -> str:
+    """The words of a line without its suppression; a comment at the end of the text is about no line."""
+    return " ".join(_MARK.sub("", lines[number - 1]).split()) if number <= len(lines) else ""
 
 
 def _lines_below(lines: list[str], number: int, extents: Iterable[tuple[int, int]]) -> tuple[int, int]:

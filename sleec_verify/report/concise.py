@@ -30,6 +30,6 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             yield f"{rules.path}: {palette('note', f'note[{name}]')} {why}"
         for name, why in outcome.undecided:
             yield f"{rules.path}: {palette('unknown', f'unknown[{name}]')} {why}"
-    readings = sorted({outcome.ruleset.reading for outcome in checked(outcomes)})
+    readings = sorted({outcome.ruleset.reading for outcome in checked(outcomes) if not outcome.settings})
     read_as = f" (reading {listed(readings)})" if readings else ""
     yield f"{in_short(outcomes)}{read_as}"

@@ -83,6 +83,7 @@ def _full(found: Gated, palette: Palette) -> Iterator[str]:
     yield from (f"{path}: {palette('error', 'unusable')}: {one_line(error)}" for path, error in _errors(found))
     yield from (f"{palette('error', 'blocks')}: {_line(block)}" for block in found.blocks)
     yield from (f"{palette('unknown', 'unknown')}: {_line(block)}" for block in found.unknown)
+    yield from (f"{palette('note', 'changes')}: {_line(block)}" for block in found.tolerated)
     if found.stale:
         word = "entry of the baseline is" if found.stale == 1 else "entries of the baseline are"
         yield f"{palette('note', 'note')}: {found.stale} {word} found no more; renew it with --write-baseline"
@@ -120,6 +121,8 @@ def _in_short(found: Gated) -> str:
         parts.append(f"{counted(len(found.blocks), 'reason')} to block")
     if found.unknown:
         parts.append(f"{len(found.unknown)} unknown")
+    if found.tolerated:
+        parts.append(f"{counted(len(found.tolerated), 'change')} of the policy")
     return "; ".join(parts)
 
 
@@ -136,7 +139,12 @@ def _markdown(found: Gated) -> Iterator[str]:
     yield f"## SLEEC rules: {VERDICTS[found.status]}"
     yield ""
     yield f"Compared with {_code(found.base)}: {_plain(_in_short(found))}."
-    for title, blocks in (("What blocks", found.blocks), ("What is not decided", found.unknown)):
+    lists = (
+        ("What blocks", found.blocks),
+        ("What is not decided", found.unknown),
+        ("What changes in the policy", found.tolerated),
+    )
+    for title, blocks in lists:
         if blocks:
             yield from ("", f"### {title}", "")
             lines = [f"- **{block.policy}**, {_code(block.where)}: {_plain(block.what)}" for block in blocks]

@@ -29,6 +29,7 @@ def render(found: Gated, palette: Palette) -> Iterator[str]:
             "base": found.base,
             "status": found.status,
             "blocks": [_block(block, sources) for block in found.blocks],
+            "policy_changes": [_change(change, found, sources) for change in found.changes],
             "unknown": [{"where": block.where, "what": block.what} for block in found.unknown],
             "rulesets": [_examined(one) for one in found.examined],
             "targets": [_conformed(one) for one in found.conformed],
@@ -39,7 +40,7 @@ def render(found: Gated, palette: Palette) -> Iterator[str]:
     )
 
 
-def _block(block: Block, sources: Mapping[str, Source]) -> Json:
+def _block(block: Block, sources: Mapping[str, Source]) -> dict[str, Json]:
     finding = block.finding
     assert finding is not None, "what blocks has a finding"
     source = finding.source or sources.get(block.where)
@@ -52,6 +53,11 @@ def _block(block: Block, sources: Mapping[str, Source]) -> Json:
         "span": None if source is None or finding.span == NOWHERE else span_json(finding.span, source),
         "witness": None if finding.witness is None else witness_json(finding.witness),
     }
+
+
+def _change(change: Block, found: Gated, sources: Mapping[str, Source]) -> Json:
+    shown = _block(change, sources)
+    return {key: shown[key] for key in ("policy", "where", "what", "span")} | {"blocks": change in found.blocks}
 
 
 def _examined(one: Examined) -> Json:

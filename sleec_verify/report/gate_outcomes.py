@@ -6,12 +6,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from sleec_runtime.model import Ruleset
 from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
+from sleec_verify.gate.result import POLICY_CHANGES
 from sleec_verify.report.outcome import Checked, Outcome, Unusable
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
-    from sleec_runtime.model import Ruleset
+    from sleec_runtime.model import Source
     from sleec_verify.gate.result import Conformed, Examined, Gated
 
 _OWN = ("findings", "dead-hedges")
@@ -19,12 +21,13 @@ _OWN = ("findings", "dead-hedges")
 
 
 def outcomes(found: Gated) -> list[Outcome]:
-    """An outcome for each ruleset that was examined or that an assertion was asked of, and for each target.
+    """An outcome for each file of settings that changed, for each ruleset that was examined or that an assertion was
+    asked of, and for each target.
 
     Findings that are allowed, or that the baseline has, are left out. A reason to block that is no finding of a check
-    is told as one of a check that is called as the policy is.
+    is told as one of a check that is called as the policy is; so is what the policy allows to change.
     """
-    made: list[Outcome] = []
+    made: list[Outcome] = [*_of_settings(found)]
     blocks = _by_path(found)
     for one in found.examined:
         made += (Unusable(one.path, _of_path(error, one)) for error in one.errors)
@@ -41,11 +44,22 @@ def outcomes(found: Gated) -> list[Outcome]:
     return made
 
 
+def _of_settings(found: Gated) -> Iterator[Outcome]:
+    """What changed in each file of settings."""
+    grouped: dict[Source, list[Finding]] = {}
+    for change in found.changes:
+        if change.policy == POLICY_CHANGES and change.finding is not None and change.finding.source is not None:
+            grouped.setdefault(change.finding.source, []).append(change.finding)
+    for source, findings in grouped.items():
+        result = CheckResult(POLICY_CHANGES, Refuted(tuple(findings)), 0.0)
+        yield Checked(Ruleset((), source=source), (result,), settings=True)
+
+
 def _by_path(found: Gated) -> dict[str, list[CheckResult]]:
-    """What blocks besides the findings of checks, and assertions that are not decided."""
+    """What is shown of rulesets besides the findings of checks, and assertions that are not decided."""
     grouped: dict[str, dict[str, list[Finding]]] = {}
-    for block in found.blocks:
-        if block.policy not in _OWN and block.finding is not None:
+    for block in (*found.blocks, *found.tolerated):
+        if block.policy not in (*_OWN, POLICY_CHANGES) and block.finding is not None:
             grouped.setdefault(block.where, {}).setdefault(block.policy, []).append(block.finding)
     results = {
         path: [CheckResult(name, Refuted(tuple(findings)), 0.0) for name, findings in policies.items()]

@@ -17,11 +17,13 @@ if TYPE_CHECKING:
 
 class Checked(NamedTuple):
     """A ruleset and the results of the checks, in their order. `untimed` is what a response without a window was taken
-    to mean; None where the rules are about situations, which know no later."""
+    to mean; None where the rules are about situations, which know no later. `settings` is whether it is a file of
+    settings that was looked at, and the ruleset only has its path."""
 
     ruleset: Ruleset
     results: tuple[CheckResult, ...]
     untimed: Untimed | None = None
+    settings: bool = False
 
     @property
     def findings(self) -> list[Finding]:
@@ -97,7 +99,8 @@ def in_short(outcomes: Sequence[Outcome]) -> str:
     undecided = sum(len(outcome.undecided) for outcome in checked(outcomes))
     unusable = sum(isinstance(outcome, Unusable) for outcome in outcomes)
     parts += [f"{number} {word}" for number, word in ((undecided, "unknown"), (unusable, "unusable")) if number]
-    return f"{counted(len(outcomes), 'ruleset')}: {', '.join(parts)}"
+    rulesets = sum(not (isinstance(outcome, Checked) and outcome.settings) for outcome in outcomes)
+    return f"{counted(rulesets, 'ruleset')}: {', '.join(parts)}"
 
 
 def counted(number: int, noun: str) -> str:

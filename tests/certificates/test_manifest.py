@@ -243,7 +243,13 @@ def test_no_value_can_be_another_under_check(folders: dict[str, Path], kind: str
     folder, whole = folders[kind], json.loads(manifest(kind))
     ruleset = sleec_runtime.language.load(folder / "rules.sleec")
     for path, value in places(whole):
-        if not path or path[0] in ("tool", "required") or "witness" in path or isinstance(value, (dict, list)) or len(path) < 2:
+        if (
+            not path
+            or path[0] in ("tool", "required")
+            or "witness" in path
+            or isinstance(value, (dict, list))
+            or len(path) < 2
+        ):
             continue
         if path[0] == "checks" and path[1] > 1:  # one of each kind is enough
             continue

@@ -38,14 +38,15 @@ def repository(tmp_path: Path) -> Repository:
 
 
 def config(repository: Repository, *lines: str, block: str = "") -> None:
-    """A configuration with these lines, and those of what blocks."""
+    """A configuration with these lines, and those of what blocks, in the base."""
     blocks = f"[tool.sleec-verify.block]\n{block}\n" if block else ""
     repository.put("pyproject.toml", "\n".join(["[tool.sleec-verify]", *lines, blocks]))
+    repository.keep("pyproject.toml")
 
 
-def gated(cli: Cli, *arguments: str) -> tuple[int, dict[str, Any]]:
+def gated(cli: Cli, *arguments: str, base: str = "main") -> tuple[int, dict[str, Any]]:
     """The exit code and the JSON, after it was held against the published schema."""
-    ran = cli("gate", "--base", "main", "--format", "json", *arguments)
+    ran = cli("gate", "--base", base, "--format", "json", *arguments)
     said = json.loads(ran.out)
     GATE.validate(said)
     assert (said["status"] == "unusable") == bool(ran.err), ran.err
@@ -151,6 +152,7 @@ def test_cases_that_are_none(cli: Cli, repository: Repository) -> None:
 def test_assertions(cli: Cli, repository: Repository) -> None:
     repository.put("must.txt", "never p when not c\n")
     config(repository, 'assertions = ["must.txt", "always o when t and not c"]')
+    repository.keep("must.txt")
     assert gated(cli)[0] == 0
     code, said = gated(cli, "--assert", "never p")
     assert code == 1
@@ -237,7 +239,7 @@ def test_the_base_and_rulesets_of_the_configuration(
 )
 def test_suppressions_with_a_reason(cli: Cli, repository: Repository, text: str) -> None:
     repository.write(a_sleec=text)
-    config(repository, block="dead-hedges = true")
+    config(repository, block="dead-hedges = true\nnew-suppressions = false")
     code, said = gated(cli)
     assert code == 0
     (ruleset,) = said["rulesets"]
@@ -248,7 +250,7 @@ def test_suppressions_with_a_reason(cli: Cli, repository: Repository, text: str)
 def test_a_suppression_elsewhere_allows_nothing_and_is_reported(cli: Cli, repository: Repository) -> None:
     text = DEAD + "# sleec: allow SLEEC202 because it is not here\nRULE b\nWHEN u THEN x\n"
     repository.write(a_sleec=text)
-    config(repository, block="dead-hedges = true")
+    config(repository, block="dead-hedges = true\nnew-suppressions = false")
     code, said = gated(cli)
     assert (code, policies(said)) == (1, {"dead-hedges"})
     assert said["rulesets"][0]["unused_suppressions"] == [{"line": 5, "allowed": ["SLEEC202"]}]
@@ -257,7 +259,7 @@ def test_a_suppression_elsewhere_allows_nothing_and_is_reported(cli: Cli, reposi
 
 def test_each_code_of_a_suppression_counts(cli: Cli, repository: Repository) -> None:
     repository.write(a_sleec="# sleec: allow SLEEC202, SLEEC501, dead-rule because it comes next year\n" + DEAD)
-    config(repository, block="dead-hedges = true\nunused-suppressions = true")
+    config(repository, block="dead-hedges = true\nunused-suppressions = true\nnew-suppressions = false")
     code, said = gated(cli)
     assert (code, policies(said)) == (1, {"unused-suppressions"})
     assert said["rulesets"][0]["unused_suppressions"] == [
@@ -276,7 +278,7 @@ def test_each_code_of_a_suppression_counts(cli: Cli, repository: Repository) -> 
 @pytest.mark.parametrize(("setting", "code"), [("true", 1), ("false", 0)])
 def test_unused_suppressions_can_block(cli: Cli, repository: Repository, setting: str, code: int) -> None:
     repository.write(a_sleec="# sleec: allow SLEEC101 because of history\n" + OLD)
-    config(repository, block=f"unused-suppressions = {setting}")
+    config(repository, block=f"unused-suppressions = {setting}\nnew-suppressions = false")
     found, said = gated(cli)
     assert found == code
     assert policies(said) == ({"unused-suppressions"} if code else set())
@@ -302,6 +304,7 @@ def test_suppressions_that_are_none(cli: Cli, repository: Repository, comment: s
 
 def test_a_suppressed_conflict_is_no_new_one(cli: Cli, repository: Repository) -> None:
     repository.write(a_sleec=CLASH.replace("RULE b", "# sleec: allow SLEEC101 because the nurse decides\nRULE b"))
+    config(repository, block="new-suppressions = false")
     assert gated(cli)[0] == 0
 
 
@@ -309,6 +312,7 @@ def test_a_baseline_lets_old_findings_pass_and_blocks_new_ones(cli: Cli, reposit
     config(repository, 'baseline = "known.json"')
     repository.write(a_sleec=CLASH)
     assert cli("gate", "--write-baseline") == Ran(0, "", "known.json: 1 finding\n")
+    repository.keep("known.json")
     assert gated(cli)[0] == 0
     repository.write(a_sleec="// moved\n\n" + CLASH)
     assert gated(cli)[1]["rulesets"][0]["baseline"] == 1
@@ -337,6 +341,7 @@ def test_a_baseline_of_one_ruleset_leaves_what_it_has_of_others(cli: Cli, reposi
     assert cli("gate", "--write-baseline").err == "known.json: 2 findings\n"
     repository.write(a_sleec=OLD)
     assert cli("gate", "--write-baseline", "a.sleec").err == "known.json: 1 finding\n"
+    repository.keep("known.json")
     assert gated(cli)[0] == 0
 
 
@@ -344,6 +349,7 @@ def test_a_known_conflict_in_more_situations_is_a_new_one(cli: Cli, repository: 
     config(repository, 'baseline = "known.json"', block='findings = "never"')
     repository.commit(a_sleec=CLASH)
     assert cli("gate", "--write-baseline").code == 0
+    repository.keep("known.json")
     repository.write(a_sleec=CLASH + "# the same\n")
     assert gated(cli)[0] == 0
     repository.write(a_sleec=CLASH.replace("UNLESS c IN WHICH CASE p\n", ""))
@@ -355,13 +361,14 @@ def test_a_conflict_that_is_new_in_the_baseline_too_may_pass(cli: Cli, repositor
     config(repository, 'baseline = "known.json"')
     repository.write(a_sleec=CLASH)
     assert cli("gate", "--write-baseline").code == 0
+    repository.keep("known.json")
     assert gated(cli)[0] == 0
 
 
 def test_only_one_of_two_conflicts_of_the_same_rules_is_allowed(cli: Cli, repository: Repository) -> None:
     both = OLD.replace("THEN o\n", "THEN o\nUNLESS d IN WHICH CASE o\n")
     repository.write(a_sleec=both + "RULE b\nWHEN t THEN NOT o\n")
-    config(repository, block='findings = "never"')
+    config(repository, block='findings = "never"\nnew-suppressions = false')
     assert policies(gated(cli)[1]) == {"new-conflicts"}
     first = both.replace("THEN o\n", "THEN o  # sleec: allow SLEEC101 because the nurse decides\n", 1)
     repository.write(a_sleec=first + "RULE b\nWHEN t THEN NOT o\n")
@@ -377,6 +384,7 @@ def test_a_ruleset_that_has_moved_is_compared_with_what_it_was(cli: Cli, reposit
     config(repository, 'baseline = "known.json"', block='lost-obligations = ["*"]')
     repository.commit(a_sleec=CLASH)
     assert cli("gate", "--write-baseline").code == 0
+    repository.keep("known.json")
     repository.git("mv", "a.sleec", "b.sleec")
     code, said = gated(cli)
     assert (code, said["rulesets"], said["unchanged"]) == (0, [], 1)
@@ -502,12 +510,14 @@ def test_file_names_are_of_any_characters(cli: Cli, repository: Repository) -> N
         assert cli("gate", "--base", "main", "--format", form, "--output", "report").code == 1
         (repository.folder / "report").read_bytes()
     assert cli("gate", "--write-baseline", "--baseline", "known.json").code == 0
+    repository.keep("known.json")
     assert gated(cli, "--baseline", "known.json")[0] == 0
 
 
 def test_line_breaks_and_marks_of_editors_change_nothing(cli: Cli, repository: Repository) -> None:
     text = "\ufeff" + OLD + "# sleec: allow SLEEC101 because the nurse decides\nRULE b\nWHEN t THEN NOT o\n"
     (repository.folder / "a.sleec").write_bytes(text.replace("\n", "\r\n").encode())
+    config(repository, block="new-suppressions = false")
     code, said = gated(cli)
     assert (code, len(said["rulesets"][0]["allowed"])) == (0, 1)
     (repository.folder / "a.sleec").write_bytes(("\ufeff" + OLD.replace("\n", "\r\n")).encode())
@@ -705,8 +715,9 @@ def test_configurations_that_are_none(cli: Cli, repository: Repository, text: st
 
 
 def test_its_own_file_comes_first(cli: Cli, repository: Repository) -> None:
-    config(repository, "nonsense = 1")
+    repository.put("pyproject.toml", "[tool.sleec-verify]\nnonsense = 1\n")
     repository.put("sleec-verify.toml", 'base = "main"\n')
+    repository.keep("sleec-verify.toml")
     assert cli("gate").code == 0
     repository.put("sleec-verify.toml", "bse = 1\n")
     ran = cli("gate")

@@ -23,6 +23,7 @@ def repository(tmp_path: Path) -> Repository:
     made = Repository(tmp_path)
     made.commit(a_sleec=RULES + "RULE c WHEN B THEN Y\n")
     made.put("sleec-verify.toml", "base = 'main'\n[block]\ncertificates = true\n")
+    made.keep("sleec-verify.toml")
     made.write(a_sleec=RULES)
     return made
 

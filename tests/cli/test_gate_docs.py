@@ -13,7 +13,8 @@ import pytest
 import yaml
 
 from sleec_verify.cli.gate import command as gate_command
-from sleec_verify.gate.config import Config, Policy
+from sleec_verify.gate.config import Config
+from sleec_verify.gate.keys import Policy
 from tests.cli.conftest import Cli
 from tests.cli.repository import Repository
 
@@ -31,9 +32,9 @@ def test_the_examples_print_what_is_shown(cli: Cli, tmp_path: Path) -> None:
     assert name == same
     repository = Repository(tmp_path)
     repository.put(name, before)
+    repository.put(settings, toml)
     repository.commit()
     repository.put(name, after)
-    repository.put(settings, toml)
     assert len(SESSION.findall(text)) == text.count("```console")
 
     def run(shown: re.Match[str]) -> str:
@@ -51,9 +52,9 @@ def test_the_examples_print_what_is_shown(cli: Cli, tmp_path: Path) -> None:
 def test_the_suppression_allows_what_it_says(cli: Cli, tmp_path: Path) -> None:
     (match,) = SUPPRESSED.finditer(PAGE.read_text(encoding="utf-8"))
     repository = Repository(tmp_path)
+    repository.put("sleec-verify.toml", "[block]\ndead-hedges = true\nnew-suppressions = false\n")
     repository.commit()
     repository.put("door.sleec", match[1])
-    repository.put("sleec-verify.toml", "[block]\ndead-hedges = true\n")
     ran = cli("gate", "--base", "main")
     assert ran.code == 0, ran
     assert f"allowed: {match[2]} " in ran.out

@@ -182,7 +182,10 @@ def test_what_passes_and_what_is_set_aside_is_not_told(form: str, cli: Cli, repo
     config(repository, 'baseline = "known.json"', block="clause-coverage = 100")
     repository.write(a_sleec=CLASH, a_cases_toml=BOTH)
     assert cli("gate", "--write-baseline").code == 0
-    repository.write(a_sleec=CLASH + "# sleec: allow SLEEC202 because x\nRULE c\nWHEN u THEN x\nUNLESS false\n")
+    repository.keep("known.json")
+    kept = CLASH + "# sleec: allow SLEEC202 because x\nRULE c\nWHEN u THEN x\nUNLESS false\n"
+    repository.commit(a_sleec=kept)
+    repository.write(a_sleec=kept + "# more\n")
     ran = cli("gate", "--base", "main", "--format", form)
     assert not [one for one in told(form, ran.out) if "SLEEC101" in str(one) or "SLEEC202" in str(one)]
 

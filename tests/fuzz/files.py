@@ -14,6 +14,7 @@ from sleec_verify.checks import run_checks
 from sleec_verify.finding import CheckResult
 from sleec_verify.gate.baseline import baseline_text, key, read_baseline
 from sleec_verify.gate.config import OWN, SHARED, read_config
+from sleec_verify.gate.keys import is_assertion
 from tests.fuzz.property import unless_refused
 
 RULESET = parse_source(
@@ -36,13 +37,15 @@ WHEN Ring AND Asleep THEN Speak
 
 
 def configuration(data: bytes, folder: Path) -> None:
-    """Settings are read or refused, and their paths can be spelled out."""
-    path = folder / (SHARED if b"[tool" in data else OWN)
-    path.write_bytes(data)
-    config = unless_refused(read_config, str(path))
+    """Settings are read or refused, and their paths stay inside the repository."""
+    del folder  # nothing is written
+    path = f"sub/{SHARED if b'[tool' in data else OWN}"
+    config = unless_refused(read_config, data, path, path)
     if config is not None:
-        for named in (*config.rulesets, *config.assertions, *(target.code for target in config.targets)):
-            assert config.at(named)
+        paths = [config.at(one) for one in (*config.rulesets, *filter(None, [config.baseline]))]
+        paths += [config.at(one) for one in config.assertions if not is_assertion(one)]
+        paths += [target.at(one) for target in config.targets for one in (target.code, target.rules)]
+        assert all(not one.startswith("/") and one.split("/")[0] != ".." for one in paths)
 
 
 def cases(data: bytes, folder: Path) -> None:
@@ -75,12 +78,10 @@ conflict = true
 
 def baseline(data: bytes, folder: Path) -> None:
     """What is read is written again as the same."""
-    path = folder / "baseline.json"
-    path.write_bytes(data)
-    known = unless_refused(read_baseline, str(path))
+    del folder  # nothing is written
+    known = unless_refused(read_baseline, data, "baseline.json")
     if known is not None:
-        path.write_text(baseline_text(known))
-        assert read_baseline(str(path)) == known
+        assert read_baseline(baseline_text(known).encode(), "baseline.json") == known
 
 
 def baseline_seeds() -> Iterator[bytes]:

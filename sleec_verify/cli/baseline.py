@@ -1,0 +1,58 @@
+"""Writing the baseline of a gate: the findings that there are."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence, Set
+from typing import TYPE_CHECKING
+
+import click
+
+from sleec_runtime.errors import SleecError
+from sleec_runtime.files import read_file
+from sleec_verify.cli import exits
+from sleec_verify.cli.files import require_writable, write_whole
+from sleec_verify.cli.output import tell
+from sleec_verify.gate import findings_now
+from sleec_verify.gate.baseline import baseline_text, read_baseline
+from sleec_verify.gate.settings import no_baseline
+from sleec_verify.report.outcome import counted
+
+if TYPE_CHECKING:
+    from sleec_verify.gate import Check
+    from sleec_verify.gate.baseline import Key
+    from sleec_verify.gate.config import Config
+    from sleec_verify.tree import Tree
+
+
+def write_baseline(now: Tree, config: Config, paths: Sequence[str], file: str | None, check: Check) -> int:
+    """Write the findings of now to `file`, or to the baseline of `config`. With `paths`, those of other rulesets stay.
+
+    Raises:
+        SleecError: something cannot be read or written.
+    """
+    if file is None and config.baseline is None:
+        raise click.UsageError("say where: --baseline FILE, or baseline in the configuration")
+    target = file or now.repository.here(config.at(config.baseline or ""))
+    require_writable(target, ())
+    before = _before(target)
+    places = now.repository.now(paths or [now.called(config.at(one)) for one in config.rulesets])
+    keys = findings_now(places, config.targets, check, now.repository.here)
+    if paths:
+        about = {*places, *(one.code for one in config.targets)}
+        keys |= {one for one in before if one[0] not in about}
+    write_whole(target, baseline_text(keys).encode())
+    tell(f"{target}: {counted(len(keys), 'finding')}")
+    return exits.HOLDS
+
+
+def _before(target: str) -> Set[Key]:
+    """What the file holds already: only a baseline is replaced by one."""
+    if not os.path.lexists(target):
+        return frozenset()
+    try:
+        return read_baseline(read_file(target), target)
+    except FileNotFoundError:
+        raise no_baseline(target) from None
+    except OSError as error:
+        raise SleecError(f"{target} cannot be read: {error.strerror}") from None

@@ -1,0 +1,78 @@
+"""What revisions mean, in the repository of the current folder."""
+
+from __future__ import annotations
+
+from sleec_verify import git
+from sleec_verify.git import GitError
+
+NOW = "the files as they are now"
+
+
+def commit(revision: str) -> str:
+    """The commit that a revision means. Raises `GitError`."""
+    found = _commit(revision)
+    if found is None:
+        raise GitError(f"there is no revision {revision or '(empty)'} in this repository", _hint(revision))
+    return found
+
+
+def _commit(revision: str) -> str | None:
+    if not revision or revision.startswith(("-", "^")):
+        return None
+    # In two steps: behind `:/text`, `^{commit}` would be part of the text.
+    done = git.run("rev-parse", "--verify", "--quiet", revision)
+    if not done.returncode:
+        done = git.run("rev-parse", "--verify", "--quiet", f"{done.stdout.decode().strip()}^{{commit}}")
+    return None if done.returncode else done.stdout.decode().strip()
+
+
+def _hint(revision: str) -> str:
+    from sleec_runtime.language.suggest import nearest
+
+    if git.run("rev-list", "--max-count=1", "--all", "HEAD", "--").returncode:
+        return "nothing has been committed yet; a first commit has nothing to be compared with"
+    if not revision or revision.startswith("-") or not revision.isprintable():
+        return "name a branch, a tag or a commit"
+    if revision.startswith(":/"):
+        return "no commit that HEAD or a branch reaches has a message with this text"
+    if ":" in revision:
+        return "name a commit, and the file behind it: --git {} {}".format(*revision.split(":", 1))
+    if any(mark in revision for mark in ("~", "^", "@{")):
+        return "in CI, fetch the whole history"
+    done = git.run("for-each-ref", "--format=%(refname:short)")
+    names = done.stdout.decode("utf-8", "replace").split()
+    # A clone has branches of others under the name of where it got them, too.
+    near = next((name for name in names if name.endswith(f"/{revision}")), nearest(revision, names))
+    if near is not None:
+        return f"did you mean {near}?"
+    branch = revision.removeprefix("origin/")
+    if not branch or git.run("check-ref-format", "--branch", branch).returncode:
+        return "name a branch, a tag or a commit"
+    return f"in CI, fetch it first (git fetch origin {branch}), and name it origin/{branch}"
+
+
+def merge_base(one: str, other: str) -> str:
+    """The newest commit that two revisions have in common. Raises `GitError`."""
+    done = git.run("merge-base", commit(one), commit(other))
+    if done.returncode:
+        raise GitError(
+            f"{one} and {other} have no commit in common", "in CI, fetch the whole history: git fetch --unshallow"
+        )
+    return done.stdout.decode().strip()
+
+
+def revision_range(written: str) -> tuple[tuple[str, str], tuple[str, str | None]]:
+    """What ``REV``, ``OLD..NEW`` and ``OLD...NEW`` (from what they have in common) mean: for each side how to call
+    it, and its commit; None for the files as they are now. An empty end is HEAD. Raises `GitError`."""
+    dots = "..." if "..." in written else ".." if ".." in written else None
+    whole = _commit(written) if dots is not None else commit(written)
+    if dots is None or whole is not None:  # the text behind `:/` may have dots
+        assert whole is not None, "it is a commit"
+        return (written, whole), (NOW, None)
+    first, _, last = written.partition(dots)
+    first, last = first or "HEAD", last or "HEAD"
+    old, new = commit(first), commit(last)
+    if dots == "...":
+        old = merge_base(first, last)
+        first = old[:10]
+    return (first, old), (last, new)
