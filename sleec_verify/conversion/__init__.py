@@ -11,7 +11,19 @@ from typing import Literal
 
 from sleec_runtime.errors import LanguageError, Unsayable
 from sleec_runtime.language import parse, print_ruleset
-from sleec_runtime.model import Assume, Dialect, Exclusive, Never, Reading, Rule, Ruleset
+from sleec_runtime.model import (
+    Assume,
+    Declaration,
+    DeclaredKind,
+    Dialect,
+    Exclusive,
+    Never,
+    Reading,
+    Rule,
+    Ruleset,
+    Statement,
+)
+from sleec_verify.checks.names import names_used
 from sleec_verify.conversion.readings import reread
 from sleec_verify.report.words import listed
 from sleec_verify.timed.scope import speaks_of_traces
@@ -31,14 +43,40 @@ class Converted:
 
 
 def of_domain(ruleset: Ruleset, domain: str) -> Ruleset:
-    """What counts in `domain`, as a ruleset without domains."""
-    statements = ruleset.in_domain(domain).statements
-    return replace(
-        ruleset,
-        statements=tuple(
-            replace(s, domains=None) if isinstance(s, (Rule, Exclusive, Never, Assume)) else s for s in statements
-        ),
+    """What counts in `domain`, as a ruleset without domains. Rules keep their labels, also those that are numbers.
+
+    Raises:
+        Unsayable: no rule counts there, and a text needs one.
+    """
+    statements: list[Statement] = []
+    rules = 0
+    for statement in ruleset.in_domain(domain).statements:
+        if isinstance(statement, Rule):
+            rules += 1
+            labelled = statement.labelled or statement.label != f"rule_{rules}"
+            statements.append(replace(statement, domains=None, labelled=labelled))
+        elif isinstance(statement, (Exclusive, Never, Assume)):
+            statements.append(replace(statement, domains=None))
+        else:
+            statements.append(statement)
+    if not rules:
+        raise Unsayable(f"no rule is in force in the domain {domain}", "choose a domain with rules")
+    part = replace(ruleset, statements=tuple(statements))
+    compared = names_used(part)["condition"]
+    return _declared(replace(part, inferred=tuple(measure for measure in part.inferred if measure.name in compared)))
+
+
+def _declared(part: Ruleset) -> Ruleset:
+    """`part` with declarations of the names that it would take for something else than the whole ruleset did, which has
+    more rules to tell by."""
+    again = parse(print_ruleset(part))
+    kinds: tuple[tuple[DeclaredKind, frozenset[str], frozenset[str]], ...] = (
+        ("trigger", part.triggers, again.triggers),
+        ("condition", part.conditions, again.conditions),
+        ("obligation", part.obligations, again.obligations),
     )
+    new = (Declaration(kind, tuple(sorted(names))) for kind, names, found in kinds if names - found)
+    return replace(part, statements=(*new, *part.statements))
 
 
 def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Converted:

@@ -51,7 +51,9 @@ def language(data: bytes, folder: Path) -> None:
         if converted is not None and not (ruleset.is_timed or converted.ruleset.is_timed):
             assert_oblige_the_same(ruleset, converted.ruleset)
     for domain in ruleset.domains:
-        unless_refused(convert, of_domain(ruleset, domain), "english", "priority")
+        part = unless_refused(of_domain, ruleset, domain)
+        if part is not None:
+            assert_oblige_the_same(part, convert(part, "english", "priority").ruleset)
 
 
 def assert_oblige_the_same(one: Ruleset, other: Ruleset) -> None:

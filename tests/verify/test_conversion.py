@@ -10,12 +10,13 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from sleec_runtime.errors import Unsayable
-from sleec_runtime.language import load, parse
+from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import Rule, Ruleset
 from sleec_verify.cli.convert import command
 from sleec_verify.conversion import TARGETS, convert, of_domain
 from sleec_verify.conversion.readings import reread
 from tests.brute import contexts, due
+from tests.strategies import rulesets
 from tests.verify.small import small_rulesets
 
 RULESETS = Path(__file__).parents[2] / "rulesets"
@@ -195,6 +196,46 @@ def test_one_domain_can_be_converted():
     found = convert(ruleset, "legos")
     assert found.notes
     assert len([s for s in found.ruleset.statements if isinstance(s, Rule)]) == len(ruleset.rules)
+
+
+@settings(max_examples=80)
+@given(rulesets(max_rules=4))
+def test_every_domain_can_be_converted_and_its_rules_keep_their_labels(ruleset):
+    for domain in ruleset.domains:
+        labels = [rule.label for rule in ruleset.in_domain(domain).rules]
+        if labels:
+            converted = convert(of_domain(ruleset, domain), "english").ruleset
+            assert [rule.label for rule in converted.rules] == labels
+        else:
+            with pytest.raises(Unsayable, match="no rule is in force"):
+                of_domain(ruleset, domain)
+
+
+@pytest.mark.parametrize(
+    ("text", "declared"),
+    [
+        ("DOMAIN a WHEN T THEN X DOMAIN b WHEN U THEN Y ASSUME NOT (T AND U)", "TRIGGER T, U"),
+        ("DOMAIN a WHEN T THEN X UNLESS c DOMAIN b WHEN U THEN Y NEVER Y AND c", "CONDITION c"),
+        ("DOMAIN a WHEN T THEN X UNLESS m < 3 DOMAIN b WHEN U THEN Y UNLESS c", None),
+        ("DOMAIN a WHEN T THEN X UNLESS m < 3 DOMAIN b WHEN U THEN Y UNLESS m < n", None),
+        ("DOMAIN a WHEN T THEN X DOMAIN b WHEN U THEN Y NEVER X AND Y", None),
+        ("TRIGGER T, U DOMAIN a WHEN T THEN X DOMAIN b WHEN U THEN Y ASSUME NOT (T AND U)", "TRIGGER T, U"),
+    ],
+)
+def test_names_stay_what_the_rules_of_other_domains_make_them(text, declared):
+    part = of_domain(parse(text), "b")
+    converted = convert(part, "english").ruleset
+    assert (converted.triggers, converted.conditions) == (part.triggers, part.conditions)
+    assert converted.obligations == part.obligations
+    assert [line for line in print_ruleset(converted).splitlines() if line.startswith(("TRIG", "COND", "OBL"))] == (
+        [declared] if declared else []
+    )
+
+
+def test_a_rule_that_is_called_by_its_number_keeps_it():
+    ruleset = parse("DOMAIN a WHEN T THEN X DOMAIN b WHEN U THEN Y")
+    assert "RULE rule_2\n" in convert(of_domain(ruleset, "b"), "english").text
+    assert "RULE" not in convert(of_domain(ruleset, "a"), "english").text
 
 
 @pytest.mark.parametrize(
