@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -14,6 +13,7 @@ import yaml
 from sleec_verify.report import FORMATS
 from tests.cli.repository import Repository
 from tests.project.action import ACTION, STEPS, Runner, act, run_step
+from tests.project.hostile import plant
 from tests.project.pyprojects import ROOT
 from tests.project.sessions import blocks
 
@@ -73,50 +73,6 @@ def test_the_action_takes_paths_and_options_a_line(runner: Runner) -> None:
     assert not (runner.checkout / "evil").exists()
 
 
-MODULES = ["venv", "pip", "ensurepip", "sitecustomize", "usercustomize", "json", "click", "rich", "contextpy3"]
-PACKAGES = ["sleec_verify", "sleec_runtime", "setuptools", "hatchling", "hatch_fancy_pypi_readme"]
-
-
-def plant(folder: Path, marks: Path) -> dict[str, str]:
-    """Put everything into a folder that Python or pip could pick up there, and return the variables of a job that even
-    points to it. What is run writes its name to `marks`."""
-    folder.mkdir(exist_ok=True)
-    trap = f"with open({str(marks)!r}, 'a') as file: file.write(__name__ + ' in ' + __file__ + chr(10))\n"
-    for name in MODULES:
-        (folder / f"{name}.py").write_text(trap)
-    for name in PACKAGES:
-        (folder / name).mkdir()
-        (folder / name / "__init__.py").write_text(trap)
-        (folder / name / "__main__.py").write_text(trap)
-    (folder / "setup.py").write_text(trap)
-    (folder / "setup.cfg").write_text("[install]\nprefix = /nowhere\n[easy_install]\nindex_url = http://127.0.0.1:9\n")
-    (folder / "pyproject.toml").write_text(
-        '[build-system]\nrequires = []\nbuild-backend = "click"\nbackend-path = ["."]\n'
-    )
-    (folder / "requirements.txt").write_text(".\n")
-    pip = folder / "pip.conf"
-    pip.write_text("[global]\nindex-url = http://127.0.0.1:9\n[install]\nrequirement = requirements.txt\n")
-    return {
-        "PYTHONPATH": str(folder),
-        "PYTHONSTARTUP": str(folder / "click.py"),
-        "PYTHONHOME": str(folder),
-        "PIP_CONFIG_FILE": str(pip),
-        "PIP_REQUIREMENT": str(folder / "requirements.txt"),
-        "PIP_INDEX_URL": "http://127.0.0.1:9",
-        "PIP_REQUIRE_VIRTUALENV": "0",
-        "PIP_TARGET": str(folder),
-    }
-
-
-def test_the_traps_are_sprung_by_what_is_not_isolated(tmp_path: Path) -> None:
-    """The test of the tests below: `python -m` in the folder runs the files there."""
-    marks = tmp_path / "marks"
-    plant(tmp_path / "checkout", marks)
-    for module in ("venv", "pip", "sleec_verify"):
-        subprocess.run([sys.executable, "-m", module], cwd=tmp_path / "checkout", check=True)
-    assert [line.split(" in ")[0] for line in marks.read_text().splitlines()].count("__main__") == 3
-
-
 def test_a_hostile_checkout_runs_nothing_in_the_check(runner: Runner, tmp_path: Path) -> None:
     environment = plant(runner.checkout, tmp_path / "marks")
     (runner.checkout / "clash.sleec").write_text(CLASH)
@@ -126,6 +82,7 @@ def test_a_hostile_checkout_runs_nothing_in_the_check(runner: Runner, tmp_path: 
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(600)  # the index may be slow
 def test_a_hostile_checkout_runs_nothing_in_the_installation(runner: Runner, tmp_path: Path) -> None:
     """The real installation, from the index: what it installs checks rules, and nothing of the checkout is run."""
     environment = plant(runner.checkout, tmp_path / "marks")

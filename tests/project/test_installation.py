@@ -17,8 +17,10 @@ import pytest
 
 import sleec_runtime
 from tests.project.sessions import blocks
+from tests.project.test_hooks import HOOKS
 
-pytestmark = pytest.mark.slow  # each test builds or installs, which takes seconds
+# Each test builds or installs, from an index that may be slow.
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
 
 ROOT = Path(__file__).parents[2]
 VERSION = sleec_runtime.__version__
@@ -121,11 +123,11 @@ class Environment:
         subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(folder)], check=True)
         self.python = folder / ("Scripts" if os.name == "nt" else "bin") / "python"
 
-    def pip(self, *arguments: str) -> str:
+    def pip(self, *arguments: str, cwd: Path | None = None) -> str:
         # Bytecode is compiled where it is asked for: that of sympy alone takes longer than all the rest.
         compiling = [] if "--compile" in arguments or arguments[0] != "install" else ["--no-compile"]
         command = [sys.executable, "-m", "pip", "--python", str(self.python), "--disable-pip-version-check"]
-        return self._run([*command, *arguments, *compiling])
+        return self._run([*command, *arguments, *compiling], cwd)
 
     def run(self, *arguments: str) -> str:
         return self._run([str(self.python), "-I", "-W", "error", *arguments])
@@ -138,8 +140,8 @@ class Environment:
         (packages,) = self.folder.glob("[lL]ib/**/site-packages")
         return sum(path.stat().st_size for path in packages.rglob("*") if path.is_file())
 
-    def _run(self, command: list[str]) -> str:
-        done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
+    def _run(self, command: list[str], cwd: Path | None = None) -> str:
+        done = subprocess.run(command, cwd=cwd or self.folder, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         return done.stdout
 
@@ -199,8 +201,10 @@ WITH_EXTRAS = {"hypothesis", "pytest"}
 
 
 def test_a_desk_gets_both_from_a_checkout(tmp_path: Path) -> None:
+    """As pre-commit does it, which adds what the hook names to ``pip install .``."""
+    (needed,) = {tuple(hook["additional_dependencies"]) for hook in HOOKS}
     environment = Environment(tmp_path / "desk")
-    environment.pip("install", str(ROOT / "sleec_runtime"), str(ROOT))
+    environment.pip("install", ".", *needed, cwd=ROOT)
     installed = environment.installed()
     assert installed["sleec-runtime"] == installed["sleec-verify"] == VERSION
     environment.pip("check")
