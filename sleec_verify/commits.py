@@ -7,6 +7,9 @@ from sleec_verify.git import GitError
 
 NOW = "the files as they are now"
 
+Named = tuple[str, str]
+"""What messages call a commit, and the commit."""
+
 
 def commit(revision: str) -> str:
     """The commit that a revision means. Raises `GitError`."""
@@ -19,10 +22,9 @@ def commit(revision: str) -> str:
 def _commit(revision: str) -> str | None:
     if not revision or revision.startswith(("-", "^")):
         return None
-    # In two steps: behind `:/text`, `^{commit}` would be part of the text.
-    done = git.run("rev-parse", "--verify", "--quiet", revision)
-    if not done.returncode:
-        done = git.run("rev-parse", "--verify", "--quiet", f"{done.stdout.decode().strip()}^{{commit}}")
+    # Behind the text of `:/text`, which is always in a message of a commit, `^{commit}` would be part of the text.
+    kind = "" if revision.startswith(":/") else "^{commit}"
+    done = git.run("rev-parse", "--verify", "--quiet", f"{revision}{kind}")
     return None if done.returncode else done.stdout.decode().strip()
 
 
@@ -51,17 +53,18 @@ def _hint(revision: str) -> str:
     return f"in CI, fetch it first (git fetch origin {branch}), and name it origin/{branch}"
 
 
-def merge_base(one: str, other: str) -> str:
-    """The newest commit that two revisions have in common. Raises `GitError`."""
-    done = git.run("merge-base", commit(one), commit(other))
+def merge_base(one: Named, other: Named) -> str:
+    """The newest commit that two commits have in common. Raises `GitError`."""
+    done = git.run("merge-base", one[1], other[1])
     if done.returncode:
         raise GitError(
-            f"{one} and {other} have no commit in common", "in CI, fetch the whole history: git fetch --unshallow"
+            f"{one[0]} and {other[0]} have no commit in common",
+            "in CI, fetch the whole history: git fetch --unshallow",
         )
     return done.stdout.decode().strip()
 
 
-def revision_range(written: str) -> tuple[tuple[str, str], tuple[str, str | None]]:
+def revision_range(written: str) -> tuple[Named, tuple[str, str | None]]:
     """What ``REV``, ``OLD..NEW`` and ``OLD...NEW`` (from what they have in common) mean: for each side how to call
     it, and its commit; None for the files as they are now. An empty end is HEAD. Raises `GitError`."""
     dots = "..." if "..." in written else ".." if ".." in written else None
@@ -73,6 +76,6 @@ def revision_range(written: str) -> tuple[tuple[str, str], tuple[str, str | None
     first, last = first or "HEAD", last or "HEAD"
     old, new = commit(first), commit(last)
     if dots == "...":
-        old = merge_base(first, last)
+        old = merge_base((first, old), (last, new))
         first = old[:10]
     return (first, old), (last, new)

@@ -130,9 +130,10 @@ class Repository:
                 found.setdefault(name, Versions(name, place, after.get(name)))
 
         for path in paths:
-            positions = self._inside(path)
-            inside = next((one for one in positions if self.files(old[1], one)), positions[-1])
-            before = self.files(old[1], inside)
+            for inside in self._inside(path):
+                before = self.files(old[1], inside)
+                if before:
+                    break
             after = self._now(path, inside) if new[1] is None else self._in_commit(new[0], new[1], inside)
             if not before and not after:
                 raise UnreadableFile(

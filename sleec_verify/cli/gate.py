@@ -109,8 +109,9 @@ def command(
     if name is None:
         raise click.UsageError("say which revision the change is to go into: --base main, or base in the configuration")
     _check_files(output, summary)
-    tip, shared = commit(name), merge_base(name, "HEAD")
-    start = Tree(repository, name if shared == tip else shared[:10], shared)
+    tip = commit(name)
+    shared = merge_base((name, tip), ("HEAD", "HEAD"))
+    start = None if shared == tip else Tree(repository, shared[:10], shared)
     sides = read_sides(Tree(repository, name, tip), start, now, config_file, baseline)
     config = sides.base.config
     policy = config.block.requiring(require_proved, require_tied)

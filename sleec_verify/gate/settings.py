@@ -34,23 +34,20 @@ class Sides(NamedTuple):
     change: Settings
 
 
-def read_sides(base: Tree, start: Tree, now: Tree, file: str | None, baseline: str | None) -> Sides:
-    """The settings of the trees. `file` and `baseline` are named on the command line, in place of the nearest
-    configuration and of the baseline that it names.
+def read_sides(base: Tree, start: Tree | None, now: Tree, file: str | None, baseline: str | None) -> Sides:
+    """The settings of the trees; the change began at the base where `start` is None. `file` and `baseline` are named on
+    the command line, in place of the nearest configuration and of the baseline that it names.
 
     Raises:
         SleecError: a file cannot be used, or neither the base nor the change has it.
     """
-    configs = [config_of(tree, file) for tree in (base, start, now)]
-    if configs[0] is None and configs[2] is None:
+    configs = [config_of(tree, file) for tree in (base, now)]
+    if configs == [None, None]:
         raise no_config(file or "")
     default = Config(folder=now.repository.position(os.curdir) or os.curdir)
-    found = [config or default for config in configs]
-    return Sides(
-        _read(base, now, found[0], baseline),
-        _read(start, now, found[1], baseline),
-        _read(now, base, found[2], baseline),
-    )
+    decides = _read(base, now, configs[0] or default, baseline)
+    before = decides if start is None else _read(start, now, config_of(start, file) or default, baseline)
+    return Sides(decides, before, _read(now, base, configs[1] or default, baseline))
 
 
 def config_of(tree: Tree, file: str | None) -> Config | None:
