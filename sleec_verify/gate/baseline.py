@@ -5,7 +5,7 @@ A finding is known again by its ruleset, its code, and the rules, clauses and ob
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from sleec_verify.gate.keys import ConfigError
@@ -22,6 +22,20 @@ def key(path: str, finding: Finding) -> Key:
     """What a finding is known by."""
     clauses = tuple((clause.rule, clause.clause) for clause in finding.clauses)
     return path, finding.code, finding.rules, clauses, finding.obligations
+
+
+class Known:
+    """The findings of a baseline, and those of them that there are still."""
+
+    def __init__(self, keys: Collection[Key] = ()) -> None:
+        self.keys = frozenset(keys)
+        self.met: set[Key] = set()
+
+    def has(self, finding: Finding, paths: Sequence[str]) -> bool:
+        """Whether it is known under one of the paths that its ruleset has had."""
+        its = {key(path, finding) for path in paths}
+        self.met |= its
+        return not its.isdisjoint(self.keys)
 
 
 def read_baseline(data: bytes, called: str) -> frozenset[Key]:

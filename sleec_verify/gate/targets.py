@@ -1,0 +1,37 @@
+"""Conformance of a target: whether the robot's code has the structure of its rules."""
+
+from __future__ import annotations
+
+from sleec_runtime.errors import SleecError
+from sleec_runtime.language import load
+from sleec_verify.gate.baseline import Known
+from sleec_verify.gate.examination import Locate
+from sleec_verify.gate.keys import Target
+from sleec_verify.gate.result import Conformed
+from sleec_verify.internal_error import internal_errors_of
+
+
+def conform(target: Target, locate: Locate, known: Known) -> Conformed:
+    from sleec_runtime.errors import UnsupportedTimes
+    from sleec_verify.conformance.structure import UNDECIDED, check_structure
+    from sleec_verify.conformance.structure.target import python_files
+
+    found = Conformed(target)
+    try:
+        with internal_errors_of(target.code):
+            found.ruleset = load(locate(target.at(target.rules)))
+            if target.domain is not None and target.domain not in found.ruleset.domains:
+                named = ", ".join(found.ruleset.domains) or "none"
+                raise SleecError(f"there is no domain {target.domain} in {target.rules}", f"it has {named}")
+            found.result = check_structure(found.ruleset, python_files(locate(target.at(target.code))), target.domain)
+    except UnsupportedTimes as error:
+        found.why = str(error)
+        return found
+    except SleecError as error:
+        found.error = error
+        return found
+    for finding in found.result.findings:
+        if finding.code == UNDECIDED:
+            continue
+        (found.known if known.has(finding, [target.code]) else found.findings).append(finding)
+    return found
