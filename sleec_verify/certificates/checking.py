@@ -3,35 +3,28 @@
 from __future__ import annotations
 
 import errno
-import json
 import os
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from fractions import Fraction
+from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from sleec_runtime.certificate import MANIFEST, SIGNATURE, Use, read_manifest, uncovered
-from sleec_runtime.errors import CertificateRefused, SleecError
+from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.files import read_file
 from sleec_verify import __version__
 from sleec_verify.certificates.making import NOTHING_REQUIRED, Rebuilt, rebuild
 from sleec_verify.certificates.manifest import check_json, manifest
 from sleec_verify.certificates.tying import NotTied, Tied, tie
-from sleec_verify.cone import Cones
-from sleec_verify.finding import Witness
-from sleec_verify.replay import replays
-from sleec_verify.report.json import witness_json
+from sleec_verify.certificates.witnesses import KEYS, Replay, same
 from sleec_verify.timed.scope import speaks_of_traces
 
 if TYPE_CHECKING:
     from sleec_runtime.manifest import Manifest, Required
-    from sleec_runtime.model import Reading, Ruleset, Value
+    from sleec_runtime.model import Reading, Ruleset
     from sleec_verify.certificates.checker import Checker
     from sleec_verify.certificates.manifest import Shown
-    from sleec_verify.finding import Finding
     from sleec_verify.timed.scope import Untimed
 
 
@@ -124,15 +117,19 @@ class _Examined:
         self._claimed = claimed
         self._folder = folder
         self._judge = judge
-        self._cones: dict[str, Cones] = {}
+        self._replay = Replay(ruleset)
         self.shown: list[Shown] = []
 
     # Files ----------------------------------------------------------------------------------------------------
 
     def files(self) -> Iterator[Problem]:
         """Whether the folder has files that the manifest does not name."""
-        there = set(os.listdir(self._folder)) - {MANIFEST, SIGNATURE}
-        for name in sorted(there - set(self._claimed.files)):
+        try:
+            there = set(os.listdir(self._folder))
+        except OSError as error:
+            yield Problem("file-missing", f"the files in {self._folder} cannot be listed: {error.strerror}")
+            return
+        for name in sorted(there - {MANIFEST, SIGNATURE, *self._claimed.files}):
             yield Problem("file-added", f"{name} is not in the {MANIFEST}")
 
     def _read(self, name: str) -> bytes | Problem:
@@ -161,8 +158,8 @@ class _Examined:
                 yield from self._entry(one, entry)
         digests = {name: claimed.files.get(name, "") for one in self.shown for name in one.files}
         expected = manifest(ruleset, claimed.domain, claimed.untimed, claimed.required, self.shown, digests)
-        for key in expected.keys() - {"checks", "tool"}:
-            if not _same(expected[key], claimed.whole[key]):
+        for key in expected:
+            if key not in ("checks", "tool") and not same(expected[key], claimed.whole[key]):
                 yield Problem("manifest", f"what the {MANIFEST} says under {key!r} is not what the rules give")
         if list(said) != [one.result.name for one in self.shown if one.result.name in said]:
             yield Problem("manifest", f"the {MANIFEST} has checks that there are not, or in another order")
@@ -202,68 +199,15 @@ class _Examined:
             )
             return
         found, claims = expected["findings"], entry["findings"]
-        if not _same([_but_witness(c) for c in claims], [_but_witness(f) for f in found]):
+        if not same([_but_witness(c) for c in claims], [_but_witness(f) for f in found]):
             yield Problem("findings", f"the findings of the check {name} are not those that the rules give")
         else:
             for finding, computed, claim in zip(one.result.findings, found, claims):
-                if not self._shows(finding, computed, claim):
+                if not self._replay.shows(finding, computed, claim):
                     yield Problem("witness", f"a witness of the check {name} does not show it: {finding.message}")
-        if not _same({**entry, "findings": None}, {**expected, "findings": None}):
+        if not same({**entry, "findings": None}, {**expected, "findings": None}):
             yield Problem("manifest", f"what the {MANIFEST} says of the check {name} is not what the rules give")
-
-    def _shows(self, finding: Finding, computed: Mapping[str, Any], claim: Mapping[str, Any]) -> bool:
-        """Whether the evaluator finds in a witness what the finding says; a course of events must be the one that was
-        found and replayed now."""
-        if finding.witness is None or finding.timeline is not None:
-            return all(_same(claim.get(key), computed.get(key)) for key in _WITNESS)
-        try:
-            witness = self._witness(claim["witness"])
-            if not _same(claim["witness"], witness_json(witness)):
-                return False
-            told = replace(finding, witness=witness)
-            return all(replays(self._in(domain), told) for domain in finding.domains or ("",))
-        except (KeyError, TypeError, ValueError, ZeroDivisionError, SleecError):
-            return False
-
-    def _witness(self, claim: Mapping[str, Any]) -> Witness:
-        triggers = tuple(sorted(set(claim["triggers"])))
-        values = {name: self._value(name, value) for name, value in sorted(claim["conditions"].items())}
-        if not self._ruleset.triggers.issuperset(triggers):
-            raise ValueError("a trigger that the rules do not have")
-        return Witness(triggers, values)
-
-    def _value(self, name: str, value: object) -> Value:
-        measure = self._ruleset.measures.get(name)
-        if measure is None:
-            if name not in self._ruleset.conditions or not isinstance(value, bool):
-                raise ValueError("no condition, or no truth value")
-            return value
-        if measure.kind == "scale":
-            if value not in measure.values:
-                raise ValueError("no value of the scale")
-            return str(value)
-        if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-            raise ValueError("no number")
-        if isinstance(value, str) and not _FRACTION.fullmatch(value):
-            raise ValueError("no number as certificates have them")
-        number = Fraction(str(value))
-        return number.numerator if number.denominator == 1 else number
-
-    def _in(self, domain: str) -> Cones:
-        if domain not in self._cones:
-            self._cones[domain] = Cones(self._ruleset.in_domain(domain) if domain else self._ruleset)
-        return self._cones[domain]
-
-
-_WITNESS = ("witness", "timeline")
-_FRACTION = re.compile(r"-?[0-9]{1,200}/[0-9]{1,200}")
-"""How a number is written that JSON has no exact spelling for. Others, such as 1e999999999, would take all memory."""
 
 
 def _but_witness(finding: Mapping[str, Any]) -> Mapping[str, Any]:
-    return {key: value for key, value in finding.items() if key not in _WITNESS}
-
-
-def _same(one: object, other: object) -> bool:
-    """Whether two values are written alike: unlike `==`, this tells true from 1, and one order of keys from another."""
-    return json.dumps(one) == json.dumps(other)
+    return {key: value for key, value in finding.items() if key not in KEYS}

@@ -21,6 +21,7 @@ from sleec_runtime.manifest import canonical, parse
 from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.certificates.checking import check_certificate
 from sleec_verify.certificates.making import certify
+from sleec_verify.cli import run
 from tests.certificates.test_certificates import CONSTRAINED, source, written
 from tests.certificates.test_refused import CONFLICTING, TIMED
 
@@ -174,6 +175,20 @@ def test_what_is_no_value_of_json_is_refused(text: str) -> None:
     data = manifest("refuted").replace(b'"Age": 2', b'"Age": ' + text.encode())
     assert data != manifest("refuted")
     assert reason(data) in ("manifest", "no-certificate")
+
+
+def test_a_message_shows_no_control_characters(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Whatever names a manifest has."""
+    source(CONFLICTING, tmp_path)
+    (tmp_path / "c").mkdir()
+    path = ("checks", 0, "findings", 0, "witness", "conditions", "\x1b[2J\n::stop-commands::x")
+    data = canonical(with_value(json.loads(manifest("refuted")), path, []))
+    (tmp_path / "c" / "manifest.json").write_bytes(data)
+    assert run(["certify", "--check", str(tmp_path / "c"), str(tmp_path / "rules.sleec")]) == 2
+    said = capsys.readouterr().err
+    assert "stop-commands" in said
+    assert "\x1b" not in said
+    assert "\n::" not in said
 
 
 # Any bytes at all --------------------------------------------------------------------------------------------

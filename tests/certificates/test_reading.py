@@ -28,6 +28,14 @@ def test_a_file_of_any_size_is_refused_at_once(made: Path, tmp_path: Path, name:
     assert reasons(folder) == {"no-certificate" if name == "manifest.json" else "file-size"}
 
 
+def test_a_folder_that_cannot_be_listed(made: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(folder: Path) -> list[str]:
+        raise PermissionError(13, "Permission denied", str(folder))
+
+    monkeypatch.setattr("sleec_verify.certificates.checking.os.listdir", refuse)
+    assert reasons(made) == {"file-missing"}
+
+
 def test_each_file_is_read_once(made: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     read: list[str] = []
 

@@ -1,0 +1,83 @@
+"""Replaying the witnesses of a manifest: the evaluator, which shares nothing with the solver, looks at each."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from sleec_runtime.errors import SleecError
+from sleec_verify.cone import Cones
+from sleec_verify.finding import Witness
+from sleec_verify.replay import replays
+from sleec_verify.report.json import witness_json
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Ruleset, Value
+    from sleec_verify.finding import Finding
+
+KEYS = ("witness", "timeline")
+"""The entries of a finding that hold its witness."""
+
+_FRACTION = re.compile(r"-?[0-9]{1,200}/[0-9]{1,200}")
+"""How a number is written that JSON has no exact spelling for. Others, such as 1e999999999, would take all memory."""
+
+
+def same(one: object, other: object) -> bool:
+    """Whether two values are written alike: unlike `==`, this tells true from 1, and one order of keys from another."""
+    return json.dumps(one) == json.dumps(other)
+
+
+class Replay:
+    """Replays witnesses of one ruleset."""
+
+    def __init__(self, ruleset: Ruleset) -> None:
+        self._ruleset = ruleset
+        self._cones: dict[str, Cones] = {}
+
+    def shows(self, finding: Finding, computed: Mapping[str, Any], claim: Mapping[str, Any]) -> bool:
+        """Whether the evaluator finds what the finding says in the witness that a manifest has for it, which is written
+        in the one way there is. A course of events must be the one that was found and replayed now: that of
+        `computed`, which is what the manifest would have."""
+        if finding.witness is None or finding.timeline is not None:
+            return all(same(claim.get(key), computed.get(key)) for key in KEYS)
+        try:
+            witness = self._witness(claim["witness"])
+            if not same(claim["witness"], witness_json(witness)):
+                return False
+            found = replace(finding, witness=witness)
+            return all(replays(self._in(domain), found) for domain in finding.domains or ("",))
+        except (KeyError, TypeError, ValueError, ZeroDivisionError, SleecError):
+            return False
+
+    def _witness(self, claim: Mapping[str, Any]) -> Witness:
+        triggers = tuple(sorted(set(claim["triggers"])))
+        values = {name: self._value(name, value) for name, value in sorted(claim["conditions"].items())}
+        if not self._ruleset.triggers.issuperset(triggers):
+            raise ValueError("a trigger that the rules do not have")
+        return Witness(triggers, values)
+
+    def _value(self, name: str, value: object) -> Value:
+        measure = self._ruleset.measures.get(name)
+        if measure is None:
+            if name not in self._ruleset.conditions or not isinstance(value, bool):
+                raise ValueError("no condition, or no truth value")
+            return value
+        if measure.kind == "scale":
+            if value not in measure.values:
+                raise ValueError("no value of the scale")
+            return str(value)
+        if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+            raise ValueError("no number")
+        if isinstance(value, str) and not _FRACTION.fullmatch(value):
+            raise ValueError("no number as certificates have them")
+        number = Fraction(str(value))
+        return number.numerator if number.denominator == 1 else number
+
+    def _in(self, domain: str) -> Cones:
+        if domain not in self._cones:
+            self._cones[domain] = Cones(self._ruleset.in_domain(domain) if domain else self._ruleset)
+        return self._cones[domain]
