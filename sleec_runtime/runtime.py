@@ -7,12 +7,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from sleec_runtime import arguments
 from sleec_runtime.dispatch import Done, Plan, cell_of, due_in, plan, run, run_async
-from sleec_runtime.errors import NotBound, SleecError, UnknownObligation, UnknownTrigger, WrongType
+from sleec_runtime.errors import NotBound, SleecError, UnknownObligation, UnknownTrigger
 from sleec_runtime.evaluation import Due, broken_assumptions
 from sleec_runtime.instance import Instance
 from sleec_runtime.layers import Layers
-from sleec_runtime.messages import listed, represent
+from sleec_runtime.messages import listed
 from sleec_runtime.model import Assume, Measure, Reading, Rule, Ruleset
 from sleec_runtime.program import Program
 from sleec_runtime.snapshot import Conditions, Snapshot
@@ -47,10 +48,9 @@ class Sleec:
     that name. `on_error` is told of each `Failure` of what the clock started; without it, the log is. What the runtime
     does not enforce is named by a NotEnforced warning, or with `strict_times` by UnsupportedTimes.
 
-    With `certificate`, the folder of one, only rules that it, or another one given to `replace`, proves to be free of
-    conflict are ever in force, and only as it was made for them: in its domain and reading, with its times and chains.
-    With `key`, the file of a public key, it must be signed; with `require_proved` or `require_tied`, it must have been
-    made with `--require-proved` or `--require-tied` (docs/certificates.md). Others are refused with CertificateRefused.
+    With `certificate`, the folder of one, only rules are ever in force that it, or another one given to `replace`,
+    proves free of conflict as they are used. With `key`, the file of a public key, it must be signed; with
+    `require_proved` or `require_tied`, made with these options (docs/certificates.md). Else: CertificateRefused.
     """
 
     def __init__(
@@ -69,24 +69,18 @@ class Sleec:
         require_proved: bool = False,
         require_tied: bool = False,
     ) -> None:
-        whole = _read(ruleset, reading)
-        choices = {"strict": strict, "chains": chains, "strict_times": strict_times}
+        whole = arguments.ruleset(ruleset, reading)
         required = {"require_proved": require_proved, "require_tied": require_tied}
-        for name, choice in {**choices, **required}.items():
-            if not isinstance(choice, bool):
-                raise WrongType(name, choice, "a choice, True or False", "give True or False")
+        arguments.check_choices(strict=strict, chains=chains, strict_times=strict_times, **required)
         program = Program(whole, domain, strict)
-        self._demand = _demand(certificate, key, chains, required)
+        self._demand = arguments.demand(certificate, chains, key, **required)
         if self._demand is not None:
             self._demand.check(whole, domain)
         self._reading = reading
         self._strict = strict
         self._chains = chains
         self._strict_times = strict_times
-        if clock is not None:
-            from sleec_runtime.timed.clocks import check_clock
-
-            check_clock(clock)
+        arguments.check_clock(clock)
         self._clock = clock
         self._own_clock: MonotonicClock | None = None
         self._on_error = on_error
@@ -210,20 +204,16 @@ class Sleec:
         snapshot = self._snapshot
         ready = self._ready(snapshot, name)
         monitor = self._monitor
-        if monitor is not None:
-            return monitor.run(ready, snapshot, args, kwargs)
-        return run(ready, snapshot, args, kwargs)
+        return (run if monitor is None else monitor.run)(ready, snapshot, args, kwargs)
 
     def trigger_all(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
         """Several triggers occur at once: one context, the rules of all in their order. Otherwise as `trigger`."""
         if self._times is not None:
-            return self._times.trigger(_together(names), args, kwargs, self._monitor)
+            return self._times.trigger(arguments.triggers(names), args, kwargs, self._monitor)
         snapshot = self._snapshot
-        ready = plan(snapshot, _together(names), self._instance)
+        ready = plan(snapshot, arguments.triggers(names), self._instance)
         monitor = self._monitor
-        if monitor is not None:
-            return monitor.run(ready, snapshot, args, kwargs)
-        return run(ready, snapshot, args, kwargs)
+        return (run if monitor is None else monitor.run)(ready, snapshot, args, kwargs)
 
     async def trigger_async(self, name: str, /, *args: Any, **kwargs: Any) -> Done:
         """`trigger`, where variants may be coroutine functions: they are awaited one after the other. The context is
@@ -233,20 +223,16 @@ class Sleec:
         snapshot = self._snapshot
         ready = self._ready(snapshot, name)
         monitor = self._monitor
-        if monitor is not None:
-            return await monitor.run_async(ready, snapshot, args, kwargs)
-        return await run_async(ready, snapshot, args, kwargs)
+        return await (run_async if monitor is None else monitor.run_async)(ready, snapshot, args, kwargs)
 
     async def trigger_all_async(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
         """`trigger_all`, where variants may be coroutine functions."""
         if self._times is not None:
-            return await self._times.trigger_async(_together(names), args, kwargs, self._monitor)
+            return await self._times.trigger_async(arguments.triggers(names), args, kwargs, self._monitor)
         snapshot = self._snapshot
-        ready = plan(snapshot, _together(names), self._instance)
+        ready = plan(snapshot, arguments.triggers(names), self._instance)
         monitor = self._monitor
-        if monitor is not None:
-            return await monitor.run_async(ready, snapshot, args, kwargs)
-        return await run_async(ready, snapshot, args, kwargs)
+        return await (run_async if monitor is None else monitor.run_async)(ready, snapshot, args, kwargs)
 
     def due(self, *names: str) -> Due:
         """What would be due if these triggers occurred now; nothing is run, and no code need be bound. Raises as
@@ -290,7 +276,7 @@ class Sleec:
         included where code may still be called with them. O(pending). Raises WrongType for one of these that is not
         plain data, and SnapshotRefused for rules that were not read from a text.
         """
-        saved_at = _world(now)
+        saved_at = arguments.world_time(now)
         if self._times is not None:
             return self._times.snapshot(saved_at)
         from sleec_runtime.timed.checkpoint import checkpoint
@@ -307,7 +293,7 @@ class Sleec:
         Raises SnapshotRefused for a snapshot that is malformed, of other rules or another reading or domain, from a
         later time, or restored already; NotBound and WrongArguments if the code does not fit. Nothing has changed then.
         """
-        world = _world(now)
+        world = arguments.world_time(now)
         if self._times is not None:
             return self._times.restore(snapshot, world)
         from sleec_runtime.timed.recovery import Heir, recover
@@ -342,7 +328,7 @@ class Sleec:
 
     def prepare(self, ruleset: Ruleset) -> None:
         """Makes the labels and layers of `ruleset` known, so that methods can be written for it before `replace`."""
-        whole = _read(ruleset, self._reading)
+        whole = arguments.ruleset(ruleset, self._reading)
         with self._lock:
             self._instance.admit(whole)
 
@@ -362,11 +348,11 @@ class Sleec:
         what `bind` and `implement` raise: then nothing has changed. An instance with a certificate needs `certificate`
         for them, signed by the same key if it has one, and raises CertificateRefused.
         """
-        whole = _read(ruleset, self._reading)
+        whole = arguments.ruleset(ruleset, self._reading)
         with self._lock:
             demand = self._demand
             if certificate is not None:
-                demand = _demand(certificate, None, self._chains, {}) if demand is None else demand.of(certificate)
+                demand = arguments.demand(certificate, self._chains) if demand is None else demand.of(certificate)
             instance = self._instance.copied()
             instance.admit(whole)
             instance.bind(bind)
@@ -512,44 +498,3 @@ class Sleec:
         self._snapshot = after
         for listener in tuple(self._listeners):
             listener(before, after, rules)
-
-
-def _read(ruleset: Ruleset, reading: Reading | None) -> Ruleset:
-    if not isinstance(ruleset, Ruleset):
-        hint = "read one: sleec_runtime.language.parse(text), or sleec_runtime.load(path) for a file"
-        raise WrongType("what is to be in force", ruleset, "a Ruleset", hint)
-    return ruleset if reading is None else ruleset.read_as(reading)
-
-
-def _demand(
-    certificate: str | Path | None, key: str | Path | None, chains: bool, required: Mapping[str, bool]
-) -> Demand | None:
-    if certificate is None:
-        for name, given in {"key": key is not None, **required}.items():
-            if given:
-                raise SleecError(f"{name} without a certificate checks nothing", "give certificate= as well")
-        return None
-    from sleec_runtime.certificate import Demand
-    from sleec_runtime.manifest import Required
-
-    return Demand(certificate, key, chains, Required(*required.values()))
-
-
-def _world(now: Time | None) -> Time:
-    """The time in seconds since 1970."""
-    import time
-
-    from sleec_runtime.timed.bounds import checked_time
-
-    return time.time() if now is None else checked_time(now, "now")
-
-
-def _together(names: Iterable[str]) -> tuple[str, ...]:
-    """The names of triggers, once each."""
-    hint = f"give a list: [{represent(names)}]" if isinstance(names, str) else 'give a list: ["A", "B"]'
-    if not isinstance(names, str):
-        try:
-            return tuple(dict.fromkeys(names))
-        except TypeError:
-            pass
-    raise WrongType("what occurs together", names, "a list of names of triggers", hint)
