@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from sleec_runtime.messages import bounded, escaped, listed, represent
+from sleec_runtime.messages import LONGEST, bounded, escaped, listed, represent
 
 if TYPE_CHECKING:
     from sleec_runtime.conflicts import Conflict
@@ -26,8 +26,9 @@ class SleecError(Exception):
         super().__init__(self.message)
 
     def __str__(self) -> str:
-        """All of it, a line for each thing that is wrong. What could steer a terminal or forge a line is escaped."""
-        return "\n".join(map(escaped, self.sentences()))
+        """A line for each thing that is wrong, up to 4,000 characters. What could steer a terminal or forge a line is
+        escaped."""
+        return bounded("\n".join(map(escaped, self.sentences())), 2 * LONGEST)
 
     def sentences(self) -> list[str]:
         """Each thing that is wrong, with what to do about it, as it is."""

@@ -15,9 +15,9 @@ _JOINERS = "\u200c\u200d"
 """Zero-width characters that spell words of several languages."""
 
 
-def bounded(text: str) -> str:
-    """`text`, cut to `LONGEST` characters in its middle."""
-    return text if len(text) <= LONGEST else f"{text[: LONGEST - 501]}…{text[-500:]}"
+def bounded(text: str, longest: int = LONGEST) -> str:
+    """`text`, cut in its middle to `longest` characters."""
+    return text if len(text) <= longest else f"{text[: longest - 501]}…{text[-500:]}"
 
 
 def listed(items: Iterable[str], separator: str = ", ") -> str:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from sleec_runtime.messages import listed, text_of
+from sleec_runtime.messages import listed, represent, text_of
 
 if TYPE_CHECKING:
     from sleec_runtime.timed.clocks import Time
@@ -72,7 +72,7 @@ def call_and_log(call: Callable[[], object]) -> None:
     try:
         call()
     except BaseException as error:  # noqa: BLE001 - the thread must go on
-        log_error("a call by the clock failed: %s", repr(error), error)
+        log_error("a call by the clock failed: %s", represent(error), error)
 
 
 def log_error(message: str, about: object, error: BaseException | None = None) -> None:

@@ -184,7 +184,8 @@ class Timekeeper:
         """Whether anything of it outlasts the moment, or may."""
         if not task.at_once or task.first > now:
             return True
-        return not task.literal.negated and task.name in task.origin.instance.takes_time
+        # What is due in the place of another is nowhere else, once that is over.
+        return not task.literal.negated and (task.is_alternative or task.name in task.origin.instance.takes_time)
 
     def _watch(self, task: Task) -> None:
         self._ledger.agenda.add(task)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Coroutine, Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from math import floor
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import DeadlineMissed, Prohibited
 from sleec_runtime.timed.agenda import CLOSES
@@ -58,8 +58,8 @@ class Starts:
     def open(self, unit: Unit, at: Time) -> None:
         """Its window opens."""
         with self._ledger.lock:
-            snapshot = self._keeper.moment().snapshot
-        self._start(opened(unit, snapshot), unit.tasks, at)
+            start = self._admit(opened(unit, self._keeper.moment().snapshot), unit.tasks, at)
+        start()
 
     def close(self, task: Task, at: Time) -> None:
         """Its window closes, and it is not done."""
@@ -70,11 +70,10 @@ class Starts:
             if alternatives is None and task.instead is not None and self._still_possible(task.instead):
                 alternatives = task.instead
             self._ledger.end(task, "missed" if alternatives is None else "replaced")
-            snapshot = self._keeper.moment().snapshot
+            start = self._admit_in_place_of(task, alternatives or (), at)
         if alternatives is None:
             self.miss(task)
-        elif alternatives:
-            self._start(in_place_of(task, alternatives, snapshot), alternatives, at)
+        start()
 
     def miss(self, task: Task) -> None:
         """Reports that its window has closed, and it is not done."""
@@ -96,31 +95,35 @@ class Starts:
             self._ledger.agenda.schedule(floor(task.last) + 1, CLOSES, (task,), partial(self._end_locked, task))
             alternatives = task.otherwise if task.otherwise is not None else task.instead
             broken, task.broken = task.broken, False
-            snapshot = self._keeper.moment().snapshot
-        if broken and alternatives:
-            self._start(in_place_of(task, alternatives, snapshot), alternatives, at)
+            start = self._admit_in_place_of(task, alternatives if broken and alternatives else (), at)
+        start()
 
     def _end_locked(self, task: Task, at: Time) -> None:
         with self._ledger.lock:
             self._ledger.end(task, "over")
 
-    def _start(self, stage: Stage, tasks: Sequence[Task], at: Time) -> None:
-        """Starts what is due now. What is forbidden now is started once it no longer is, if its window lasts."""
+    def _admit_in_place_of(self, task: Task, alternatives: tuple[Task, ...], at: Time) -> Callable[[], object]:
+        """As `_admit`, for what is due in the place of `task`. In one step, under the lock, with the end of `task`: at
+        no time is neither of them pending."""
+        if not alternatives:
+            return _nothing
+        return self._admit(in_place_of(task, alternatives, self._keeper.moment().snapshot), alternatives, at)
+
+    def _admit(self, stage: Stage, tasks: Sequence[Task], at: Time) -> Callable[[], object]:
+        """Puts what is due now on the agenda; what it returns starts it. What is forbidden now is started once it no
+        longer is, if its window lasts."""
         loop = _running_loop()
         try:
-            with self._ledger.lock:
-                if self._instant.at != at:
-                    self._instant = Instant(at)
-                run = self._admit_when_allowed(stage, self._instant, in_loop=loop is not None)
-        except Exception as error:  # noqa: BLE001 - told
-            self._give_up(tasks, error, at)
-            return
+            if self._instant.at != at:
+                self._instant = Instant(at)
+            run = self._admit_when_allowed(stage, self._instant, in_loop=loop is not None)
+        except Exception as error:  # noqa: BLE001 - reported
+            return partial(self._give_up, tasks, error, at)
         if run is None:
-            return
+            return _nothing
         if loop is not None and run.asynchronous:
-            self._spawn(loop, self._finish(run, stage))
-        else:
-            self._execute(partial(self._go, run, stage), partial(self._fail, stage.tasks))
+            return partial(self._spawn, loop, run, stage)
+        return partial(self._execute, partial(self._go, run, stage), partial(self._fail, stage.tasks))
 
     def _admit_when_allowed(self, stage: Stage, instant: Instant, in_loop: bool) -> Run | None:
         moment = self._keeper.moment()
@@ -162,8 +165,8 @@ class Starts:
         finally:
             self._report(run, stage)
 
-    def _spawn(self, loop: AbstractEventLoop, work: Coroutine[Any, Any, None]) -> None:
-        task = loop.create_task(work)
+    def _spawn(self, loop: AbstractEventLoop, run: Run, stage: Stage) -> None:
+        task = loop.create_task(self._finish(run, stage))
         # The loop itself holds its tasks but weakly.
         self._running.add(task)
         task.add_done_callback(self._running.discard)
@@ -185,13 +188,16 @@ class Starts:
                     continue
                 alternatives = task.otherwise if task.at_once and watched else None
                 self._ledger.end(task, "missed" if alternatives is None else "replaced")
-                snapshot = self._keeper.moment().snapshot
-            if alternatives:
-                self._start(in_place_of(task, alternatives, snapshot), alternatives, at)
+                start = self._admit_in_place_of(task, alternatives or (), at)
+            start()
 
     def _fail(self, tasks: Sequence[Task], error: BaseException) -> None:
         label = tasks[0].origin.rule.label
         self._failures(Failure(self._ledger.clock.now(), label, tuple(task.name for task in tasks), error))
+
+
+def _nothing() -> None:
+    """There is nothing to start."""
 
 
 def _running_loop() -> AbstractEventLoop | None:

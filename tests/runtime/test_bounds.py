@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+import threading
 import time
 from collections.abc import Callable
 from decimal import Decimal
@@ -15,12 +16,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sleec_runtime import Monitor, Sensors, Sleec, VirtualClock, errors, obligation
+from sleec_runtime import Monitor, MonotonicClock, Sensors, Sleec, VirtualClock, errors, obligation
 from sleec_runtime.language import parse
 from sleec_runtime.messages import LONGEST, represent, text_of
 from sleec_runtime.model import Context
 from sleec_runtime.monitor import Difference
 from sleec_runtime.predicates import Direct, Fuzzy, Scale, Threshold, trapezoid
+from sleec_runtime.spans import Source, Span
 from sleec_runtime.timed.failures import Failure
 from sleec_runtime.values import exact
 
@@ -251,10 +253,12 @@ def error_classes(base: type[errors.SleecError] = errors.SleecError) -> list[typ
 
 @pytest.mark.parametrize("kind", sorted(error_classes(), key=str))
 def test_the_message_and_the_hint_of_every_error_are_bounded(kind: type[errors.SleecError]) -> None:
-    error = kind.__new__(kind)
-    errors.SleecError.__init__(error, "m" * 1_000_000, "h" * 1_000_000)
-    assert (len(error.message), len(error.hint or "")) == (LONGEST, LONGEST)
-    assert len(str(error)) < 2 * LONGEST + 10
+    for letter in ("m", "\x1b", "\u202e"):
+        error = kind.__new__(kind)
+        errors.SleecError.__init__(error, letter * 1_000_000, letter * 1_000_000)
+        assert (len(error.message), len(error.hint or "")) == (LONGEST, LONGEST)
+        if kind.sentences is errors.SleecError.sentences:
+            assert len(str(error)) <= 2 * LONGEST
 
 
 LISTS: dict[str, Callable[[], object]] = {
@@ -263,6 +267,9 @@ LISTS: dict[str, Callable[[], object]] = {
     "many errors": lambda: errors.VariantsFailed([(f"r{n}", OSError("x" * 10_000)) for n in range(1_000)]),
     "errors without repr": lambda: errors.VariantsFailed([("r", NoWords()) for n in range(1_000)]),
     "many problems": lambda: errors.CertificateRefused([("no", "x" * 100)] * 100_000),
+    "many problems of a text": lambda: errors.LanguageError(
+        Source("x.sleec", ""), [errors.Problem("\x1b" * 100, Span(0, 0), "h" * 100)] * 10_000
+    ),
     "a failure": lambda: Failure(1, "r", tuple(f"O{n}" for n in range(100_000)), OSError("x" * 1_000_000)),
     "a failure without words": lambda: Failure(1, "r", ("O",), NoWords()),
     "a difference": lambda: difference([f"O{n}" for n in range(100_000)]),
@@ -294,6 +301,19 @@ def test_defaults_of_code_do_not_grow_a_message(sleec: Sleec) -> None:
         with pytest.raises(errors.WrongArguments) as refusal:
             sleec.trigger("A", 1, 2, 3)
         assert len(str(refusal.value)) < LONGEST + 500
+
+
+def test_an_error_without_words_does_not_end_the_thread_of_a_clock() -> None:
+    def fail() -> None:
+        raise NoWords
+
+    clock = MonotonicClock()
+    called = threading.Event()
+    clock.wake(clock.now() + 1_000, called.set)
+    clock.wake(clock.now(), fail)
+    clock.wake(clock.now() + 0.01, called.set)
+    assert called.wait(60)
+    clock.close()
 
 
 def test_an_object_without_attributes_has_a_representation() -> None:

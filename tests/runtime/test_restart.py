@@ -290,6 +290,68 @@ def test_what_follows_from_an_event_that_has_not_happened_is_not_due() -> None:
     assert other.taken() == ["Y"]
 
 
+class Freed:
+    """A lock that calls `freed` whenever another thread could get it."""
+
+    def __init__(self, lock: Any, freed: Callable[[], object]) -> None:
+        self.lock, self.freed, self.depth = lock, freed, 0
+
+    def __enter__(self) -> None:
+        self.lock.__enter__()
+        self.depth += 1
+
+    def __exit__(self, *error: object) -> None:
+        self.depth -= 1
+        self.lock.__exit__(*error)
+        if self.depth == 0:
+            freed, self.freed = self.freed, lambda: None
+            freed()
+            self.freed = freed
+
+
+CHAINS = {
+    "otherwise": "RULE a WHEN A THEN X WITHIN 2 seconds OTHERWISE Y WITHIN 2 seconds OTHERWISE Z",
+    "else": "RULE a WHEN A THEN X WITHIN 2 seconds ELSE Y WITHIN 5 seconds ELSE Z WITHIN 9 seconds",
+    "a window that opens later": "RULE a WHEN A THEN X WITHIN 2 seconds OTHERWISE Y WITHIN 2 TO 3 seconds",
+    "a moment": "RULE a WHEN A THEN X WITHIN 2 seconds OTHERWISE Y WITHIN 3 TO 3 seconds",
+}
+
+
+@pytest.mark.parametrize("name", CHAINS)
+def test_whenever_a_snapshot_can_be_taken_something_of_a_chain_is_pending_until_it_ends(name: str) -> None:
+    robot = Robot(CHAINS[name], slow=("X", "Y") if name == "otherwise" else ("X",))
+    robot.broken |= {"Y"} if name == "else" else set()
+    robot.sleec.trigger("A")
+    times = robot.sleec._times
+    assert times is not None
+    last = sorted(robot.sleec.ruleset.obligations)[-1]
+    seen: list[tuple[str, ...]] = []
+
+    def freed() -> None:
+        names = tuple(one["obligation"] for one in robot.saved()["pending"])
+        seen.append(names)
+        assert len(names) == (last not in [entry[0] for entry in robot.log] or last in names)
+
+    times._ledger.lock = Freed(times._ledger.lock, freed)  # type: ignore[assignment]
+    robot.clock.advance(60)
+    assert {("X",), ("Y",), ()} <= set(seen)
+    assert robot.taken()[-1] == last
+
+
+def test_what_is_due_at_once_in_place_of_another_is_pending_until_it_is_done() -> None:
+    text = "RULE a WHEN A THEN X WITHIN 2 seconds OTHERWISE Y"
+    robot = Robot(text, slow=("X",))
+    taken: list[Any] = []
+    robot.sleec.implement({"Y": lambda: taken.append(robot.saved())})
+    robot.sleec.trigger("A")
+    robot.clock.advance(2)
+    assert robot.pending() == []
+    other = Robot(text)
+    other.sleec.restore(taken[0], SAVED_AT + 5)
+    assert other.pending() == ["Y (a): under way, never closes"]
+    assert other.log == []
+
+
 # After a while --------------------------------------------------------------------------------------------
 
 
