@@ -9,23 +9,35 @@ from __future__ import annotations
 import sys
 from hashlib import sha256
 from pathlib import Path
+from random import Random
 from tempfile import TemporaryDirectory
 
 import atheris
 
-with atheris.instrument_imports(include=["sleec_runtime", "sleec_verify"]):
+from tests.fuzz.splicing import Splicer
+
+INSTRUMENTED = ["sleec_runtime", "sleec_verify"]
+
+with atheris.instrument_imports(include=INSTRUMENTED):
     from tests.fuzz.targets import TARGETS, corpus, run
 
 
 def main(name: str, options: list[str]) -> None:
     target = TARGETS[name]
+    inputs = [*target.seeds(), *(path.read_bytes() for path in corpus(name))]
+    splicer = Splicer(inputs, target.words)
+
+    def mutate(data: bytes, max_size: int, seed: int) -> bytes:
+        random = Random(seed)
+        return splicer.splice(data, random)[:max_size] if random.randrange(2) else atheris.Mutate(data, max_size)
+
     with TemporaryDirectory() as folder:
         here = Path(folder)
         files, seeds, words = (here / part for part in ("files", "seeds", "words"))
         files.mkdir()
         seeds.mkdir()
-        with atheris.instrument_imports(include=["sleec_runtime", "sleec_verify"]):
-            for data in (*target.seeds(), *(path.read_bytes() for path in corpus(name))):
+        with atheris.instrument_imports(include=INSTRUMENTED):
+            for data in inputs:
                 (seeds / sha256(data).hexdigest()).write_bytes(data)
                 run(target, data, files)
         options = [f"-max_len={target.max_bytes}", *options, str(seeds)]
@@ -34,7 +46,7 @@ def main(name: str, options: list[str]) -> None:
             options.append(f"-dict={words}")
         # To merge, libFuzzer starts itself again, by a shell.
         program = f"{sys.executable} -m tests.fuzz.fuzzer {name}"
-        atheris.Setup([program, *options], lambda data: run(target, data, files))
+        atheris.Setup([program, *options], lambda data: run(target, data, files), custom_mutator=mutate)
         atheris.Fuzz()
 
 
