@@ -154,7 +154,9 @@ def repository(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("repository")
-@pytest.mark.parametrize("target", [PARSING, CHECKING, "sleec_verify.gate.compare", "sleec_verify.assertions.ask"])
+@pytest.mark.parametrize(
+    "target", [PARSING, CHECKING, "sleec_verify.gate.examination.compare", "sleec_verify.assertions.ask"]
+)
 @pytest.mark.parametrize("form", FORMATS)
 def test_gate_judges_the_other_files(form: str, target: str, cli: Cli, fail_in: Callable[[str], None]) -> None:
     fail_in(target)
