@@ -47,7 +47,7 @@ def checkpoint(tasks: Iterable[Task], program: Program, chains: bool, now: Time,
             continue
         origin = task.origin
         if not _is_of(origin.snapshot.program, program):
-            left_out.append({"rule": origin.rule.label, "obligation": task.name})
+            left_out.append({"rule": origin.rule.label, "obligation": str(task.literal)})
             continue
         context, _ = contexts.setdefault(id(origin.snapshot), (len(contexts), origin.snapshot))
         number, decision = decisions.setdefault(id(origin), (len(decisions), _decision(origin, context, now)))

@@ -34,11 +34,10 @@ def prohibitions_in_words(prohibitions: Iterable[Task], now: Time) -> str:
 
 
 def _for_how_long(task: Task, now: Time) -> str:
-    if now < task.first:
-        later = f"{duration_in_words(task.first - now)} from now"
-        if task.last is None:
-            return f"for good, {later}"
-        return later if task.at_once else f"for {duration_in_words(task.last - task.first)}, {later}"
-    if task.at_once or task.last == now:
-        return "at this moment"
-    return "for good" if task.last is None else f"for {duration_in_words(task.last - now, 'more ')}"
+    later = f", {duration_in_words(task.first - now)} from now" if now < task.first else ""
+    begin = max(now, task.first)
+    if task.at_once or task.last == begin:
+        return f"for a moment{later}" if later else "at this moment"
+    if task.last is None:
+        return f"for good{later}"
+    return f"for {duration_in_words(task.last - begin, '' if later else 'more ')}{later}"

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 import threading
 import time
 from collections.abc import Callable
@@ -49,6 +50,22 @@ class Failing:
         raise RuntimeError("no repr")
 
 
+class Odd:
+    """A real number that prints as `text`."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __repr__(self) -> str:
+        return f"Odd({self.text})"
+
+
+numbers.Real.register(Odd)
+
+
 def nested() -> list[object]:
     whole: list[object] = []
     for _ in range(100_000):
@@ -63,6 +80,9 @@ NUMBERS: dict[str, object] = {
     "a negative Decimal": Decimal("-1e10000000"),
     "a small Decimal": Decimal("1e-10000000"),
     "a Decimal of many digits": Decimal("1." + "1" * 1_000_000),
+    "a Decimal of 1,400 digits": Decimal("1" * 700 + "." + "1" * 700),
+    "another real number": Odd("1e10000000"),
+    "a real number without digits": Odd("many"),
     "a Decimal that is no number": Decimal("sNaN"),
     "an infinite Decimal": Decimal("Infinity"),
     "a large int": LONG_INT,
@@ -149,7 +169,18 @@ def test_a_change_of_absurd_values_changes_nothing(sleec: Sleec) -> None:
 
 @pytest.mark.parametrize(
     "value",
-    [0, 10**999, -(10**999), 5e-324, 1.7976931348623157e308, Decimal("1e-900"), Decimal(0), Fraction(10**999, 7), 1e22],
+    [
+        0,
+        Odd("2.5"),
+        10**999,
+        -(10**999),
+        5e-324,
+        1.7976931348623157e308,
+        Decimal("1e-900"),
+        Decimal(0),
+        Fraction(10**999, 7),
+        1e22,
+    ],
 )
 def test_numbers_of_up_to_a_thousand_digits_are_exact(value: Any, sleec: Sleec) -> None:
     sleec.update({"Age": value})

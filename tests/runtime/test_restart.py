@@ -15,6 +15,7 @@ import pytest
 
 from sleec_runtime import Sleec, VirtualClock, errors, obligation
 from sleec_runtime.language import load, parse
+from sleec_runtime.model import Ruleset
 from tests.runtime.test_times_random import STEPS, World
 
 pytestmark = pytest.mark.filterwarnings("ignore::sleec_runtime.errors.NotEnforced")
@@ -517,6 +518,15 @@ RULE b WHEN B THEN NOT Y WITHIN 9 seconds
 def test_a_snapshot_may_be_of_nothing() -> None:
     for text in (RULES, "RULE a WHEN A THEN X"):
         assert restarted(Robot(text), text=text).pending() == []
+
+
+def test_rules_without_a_text_are_refused() -> None:
+    sleec = Sleec(Ruleset(parse("RULE a WHEN A THEN X WITHIN 5 seconds").statements), clock=VirtualClock())
+    for act in (sleec.pending_snapshot, lambda: sleec.restore({})):
+        with pytest.raises(errors.SnapshotRefused):
+            act()
+    with pytest.raises(errors.SnapshotRefused, match="the rules were not read from a text"):
+        sleec.pending_snapshot()
 
 
 def test_a_snapshot_is_of_the_bytes_of_a_file(tmp_path: Any) -> None:
