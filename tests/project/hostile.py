@@ -25,13 +25,16 @@ def plant(folder: Path, marks: Path) -> dict[str, str]:
         '[build-system]\nrequires = []\nbuild-backend = "click"\nbackend-path = ["."]\n'
     )
     (folder / "requirements.txt").write_text(".\n")
-    pip = folder / "pip.conf"
-    pip.write_text("[global]\nindex-url = http://127.0.0.1:9\n[install]\nrequirement = requirements.txt\n")
+    settings = "[global]\nindex-url = http://127.0.0.1:9\n[install]\nrequirement = requirements.txt\n"
+    (folder / "config" / "pip").mkdir(parents=True)
+    for pip in (folder / "pip.conf", folder / "config" / "pip" / "pip.conf"):
+        pip.write_text(settings)
     return {
         "PYTHONPATH": str(folder),
         "PYTHONSTARTUP": str(folder / "click.py"),
         "PYTHONHOME": str(folder),
-        "PIP_CONFIG_FILE": str(pip),
+        "XDG_CONFIG_HOME": str(folder / "config"),
+        "PIP_CONFIG_FILE": str(folder / "pip.conf"),
         "PIP_REQUIREMENT": str(folder / "requirements.txt"),
         "PIP_INDEX_URL": "http://127.0.0.1:9",
         "PIP_REQUIRE_VIRTUALENV": "0",

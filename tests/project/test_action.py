@@ -117,6 +117,11 @@ def test_the_page_on_security_shows_what_the_action_installs() -> None:
     assert installed(shown.body) == in_the_action
 
 
+def test_the_installation_runs_outside_the_checkout() -> None:
+    """One more wall: the test above passes without it, as long as Python is isolated."""
+    assert STEPS["install"]["working-directory"] == "${{ runner.temp }}"
+
+
 def test_what_the_action_uses_is_pinned_by_commit() -> None:
     for step in STEPS.values():
         if "uses" in step:
