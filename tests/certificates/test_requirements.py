@@ -183,6 +183,7 @@ def test_the_gate_can_require_it(cli: Cli, build: Build, tmp_path: Path, block: 
     repository = Repository(tmp_path)
     repository.commit(a_sleec=RULES + "RULE c WHEN B THEN Y\n")
     repository.put("sleec-verify.toml", f"base = 'main'\n[block]\n{block}\n")
+    repository.keep("sleec-verify.toml")
     repository.write(a_sleec=RULES)
 
     def gated() -> tuple[int, str]:
