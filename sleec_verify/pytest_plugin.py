@@ -191,7 +191,7 @@ def _are_cases(path: Path) -> bool:
         if not path.is_file() or path.stat().st_size > _LARGEST:
             return False
         return "ruleset" in toml.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return False
 
 

@@ -317,7 +317,7 @@ def test_fixtures_say_what_is_missing(run, pytester: pytest.Pytester) -> None:
 
 
 def test_cases_of_other_tools_are_left_alone(run) -> None:
-    for text in ("rows = 3\n", "no toml at all [", "[[case]]\nwhen = 'T'\n"):
+    for text in ("rows = 3\n", "no toml at all [", "rows = " + "[" * 10_000, "[[case]]\nwhen = 'T'\n"):
         result = run(".", other_cases_toml=text)
         result.assert_outcomes(passed=ITEMS)
         assert "other.cases.toml" not in result.stdout.str()

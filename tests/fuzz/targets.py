@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from sleec_runtime.language import keywords
 from sleec_runtime.language.dsl import scanner as dsl
-from tests.fuzz import certificates, files, python, questions, rules
+from tests.fuzz import certificates, files, pending, python, questions, rules
 from tests.fuzz.property import cpu_limit
 
 ROOT = Path(__file__).parents[2]
@@ -109,6 +109,7 @@ _CASES_WORDS = (
 _SITUATION_WORDS = ("Ring", "not ", "Age=", "Steps=", "Risk=", "LegalAge", "true", "too warm", "1.5")
 _ASSERTION_WORDS = ("never ", "always ", " when ", " and ", " or ", "not ", "Open", "Close", "Age", "Risk", "LegalAge")
 _JSON_WORDS = ('{"', '":', "null", "true", "[]", "{}", "1e400", "NaN", "-0", "\\ud800", '"a": 1, ')
+_SNAPSHOT_WORDS = (*_JSON_WORDS, '"otherwise"', '"else"', '"waiting"', '"under way"', '"in force"', '"1/3"')
 _LITERAL_WORDS = ("None", "('", "()", "{'", "b''", "1e400", "-1", "1j", "...")
 _PROOF_WORDS = ("p cnf ", " 0 ", " d ", "c ")
 _PYTHON_WORDS = (
@@ -136,5 +137,6 @@ TARGETS: Mapping[str, Target] = {
     ),
     "proof": Target(certificates.proof, certificates.proof_seeds, _PROOF_WORDS),
     "elaboration": Target(certificates.elaboration, certificates.elaboration_seeds, (), 256),
+    "snapshot": Target(pending.snapshot, pending.snapshot_seeds, _SNAPSHOT_WORDS, 4096),
     "python": Target(python.python, _python, _PYTHON_WORDS),
 }
