@@ -222,6 +222,17 @@ class NeedsAwait(SleecError):
     """A coroutine function among the variants of a trigger that was not awaited."""
 
 
+class Reentrant(SleecError):
+    """A call that comes while the same thread is changing the same instance: from a signal handler, a finalizer, or a
+    clock. It has changed nothing."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "the thread of this call is in the middle of a change of the instance",
+            "in a signal handler, only note that the signal came, and call the instance from the main loop",
+        )
+
+
 class VariantsFailed(SleecError):
     """Several variants of one dispatch raised. `errors` pairs the label of each rule with what its variant raised."""
 

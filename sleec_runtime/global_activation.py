@@ -7,12 +7,13 @@ change sees one changed and the other not; and each call walks all active layers
 
 from __future__ import annotations
 
-import threading
+from functools import partial
 from types import TracebackType
 from typing import TYPE_CHECKING
 
 import contextpy3
 
+from sleec_runtime.critical import CriticalSection
 from sleec_runtime.dispatch import due_in
 from sleec_runtime.errors import SleecError
 from sleec_runtime.evaluation import Decision
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from sleec_runtime.snapshot import Snapshot
 
 # ContextPy3 has one tuple of global layers for the process, and reads and writes it without a lock.
-_GLOBAL_LAYERS = threading.Lock()
+_GLOBAL_LAYERS = CriticalSection()
 
 
 class GlobalActivation:
@@ -52,25 +53,29 @@ class GlobalActivation:
         context in which some trigger could not be answered, or to a layer that someone else activated, is refused, and
         so is binding such a method.
         """
-        with self._sleec.held() as snapshot, _GLOBAL_LAYERS:
-            _refuse_times(snapshot)
-            if self._sleec.activated_globally:
-                raise SleecError("global activation is on already", "stop() it first")
-            self._sleec.allow_calls()
-            for trigger in snapshot.program.number_of:
-                due_in(snapshot, (trigger,))
-            layers = self._due_layers(snapshot, snapshot.program.ruleset.rules)
-            self._refuse_active(layers)
-            self._renew(layers)
-            self._end = self._sleec.listen(self._changed, self._refuse)
+        self._sleec.hold(lambda snapshot: _GLOBAL_LAYERS.run(partial(self._start, snapshot)))
         return self
+
+    def _start(self, snapshot: Snapshot) -> None:
+        _refuse_times(snapshot)
+        if self._sleec.activated_globally:
+            raise SleecError("global activation is on already", "stop() it first")
+        self._sleec.allow_calls()
+        for trigger in snapshot.program.number_of:
+            due_in(snapshot, (trigger,))
+        layers = self._due_layers(snapshot, snapshot.program.ruleset.rules)
+        self._refuse_active(layers)
+        self._renew(layers)
+        self._end = self._sleec.listen(self._changed, self._refuse)
 
     def stop(self) -> None:
         """Deactivates what this activated."""
-        with self._sleec.held(), _GLOBAL_LAYERS:
-            self._end()
-            self._end = self._not_started
-            self._renew(dict.fromkeys(self._active))
+        self._sleec.hold(lambda snapshot: _GLOBAL_LAYERS.run(self._stop))
+
+    def _stop(self) -> None:
+        self._end()
+        self._end = self._not_started
+        self._renew(dict.fromkeys(self._active))
 
     def __enter__(self) -> GlobalActivation:
         return self
@@ -81,6 +86,7 @@ class GlobalActivation:
         self.stop()
 
     def _refuse(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
+        _GLOBAL_LAYERS.refuse_reentry()
         _refuse_times(after)
         # What a NEVER says of the context may be at odds with rules that do not mention what changed.
         everything = before.mark is not after.mark
@@ -97,8 +103,7 @@ class GlobalActivation:
         layers = self._due_layers(after, rules)
         if before.program is not after.program:
             layers = {**dict.fromkeys(self._active), **layers}
-        with _GLOBAL_LAYERS:
-            self._renew(layers)
+        _GLOBAL_LAYERS.run(partial(self._renew, layers))
 
     def _due_layers(self, snapshot: Snapshot, rules: tuple[Rule, ...]) -> dict[str, RuleLayer | None]:
         outcomes = {rule.label: snapshot.outcome(rule) for rule in rules}

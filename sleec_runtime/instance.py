@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import inspect
 import types
-from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import Any, NamedTuple, TypeVar
 
 from sleec_runtime.errors import AlreadyBound, NotBound, Unbindable, UnknownLabel, UnknownObligation
@@ -85,6 +86,16 @@ class Instance:
         copy.fitting = set()
         copy._variants = {}
         return copy
+
+    @contextmanager
+    def kept_on_failure(self) -> Iterator[None]:
+        """What is bound stays as it is if the block raises."""
+        before = self.copied()
+        try:
+            yield
+        except BaseException:
+            vars(self).update(vars(before))
+            raise
 
     def admit(self, ruleset: Ruleset) -> None:
         """Makes the rules of `ruleset` and their layers known, so that methods can be written for them."""

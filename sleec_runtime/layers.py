@@ -215,11 +215,12 @@ def run_all(
     try:
         for variant in variants:
             _TLS.active_layers = foreign + variant.layers
+            result: object = None
             try:
-                results.append(variant.chain([variant.instance, variant.owner, None], args, kwargs))
+                result = variant.chain([variant.instance, variant.owner, None], args, kwargs)
             except Exception as error:  # noqa: BLE001 - raised again once all have run
                 errors.append((variant.label, error))
-                results.append(None)
+            results.append(result)
     finally:
         _TLS.active_layers, _TLS.context = layers, context
     return results, errors

@@ -76,12 +76,15 @@ class Monitor:
 
     def start(self) -> Monitor:
         """Raises SleecError if another monitor is on, or if an object to be watched takes no attributes."""
-        with self._sleec.held() as snapshot, ExitStack() as undo:
+        self._sleec.hold(self._start)
+        return self
+
+    def _start(self, snapshot: Snapshot) -> None:
+        with ExitStack() as undo:
             self._sleec.attach(self)
             undo.callback(self._sleec.detach, self)
             self._watch_with(undo, (*self._sleec.bound_objects(), *self._watch), snapshot.program.whole.obligations)
             self._on = undo.pop_all()
-        return self
 
     def watch(self, robots: Iterable[object], obligations: Iterable[str]) -> None:
         """Sees the executions of `robots` too, which were bound since, and of obligations that came since."""

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from sleec_runtime import arguments
+from sleec_runtime.critical import CriticalSection, exclusive
 from sleec_runtime.dispatch import Done, Plan, cell_of, due_in, plan, run, run_async
 from sleec_runtime.errors import NotBound, SleecError, UnknownObligation, UnknownTrigger
 from sleec_runtime.evaluation import Due, broken_assumptions
@@ -85,13 +84,13 @@ class Sleec:
         self._own_clock: MonotonicClock | None = None
         self._on_error = on_error
         self._times: Timekeeper | None = None
-        self._lock = threading.RLock()
+        self._section = CriticalSection()
         self._listeners: list[Listener] = []
         self._objections: list[Listener] = []
         self._monitor: Monitor | None = None
         self._snapshot = Snapshot.first(program, {})
         self._instance = Instance(whole)
-        self._keep_times(self._snapshot.program)
+        self._times = self._timekeeper(self._snapshot.program)
 
     # What there is --------------------------------------------------------------------------------------
 
@@ -125,6 +124,7 @@ class Sleec:
         """Marks a method as the one of rule `label`, MM(R); goes above its ``@cop.base``. Raises UnknownLabel."""
         return self._instance.mark(label)
 
+    @exclusive
     def bind(self, *targets: object) -> None:
         """Makes the marked methods of objects, classes, modules or functions those of their rules: all, or none.
 
@@ -132,21 +132,19 @@ class Sleec:
         method, if variants of one are not each on a layer of their own rule, and, under global activation, if a plain
         call would not dispatch it; AlreadyBound for a second method of a rule.
         """
-        with self._lock:
+        with self._instance.kept_on_failure():
             labels = self._instance.bind(targets, self.ruleset.rules if self.activated_globally else ())
-            try:
-                self._watch_bound(self._instance, self._snapshot.program)
-            except SleecError:
-                self._instance.unbind(labels)
-                raise
+            self._watch_bound(self._instance, self._snapshot.program)
             self._plan_anew(labels)
 
+    @exclusive
     def unbind(self, *labels: str) -> None:
         """Takes their methods from rules. Dispatches under way finish with them. Raises UnknownLabel."""
-        with self._lock:
+        with self._instance.kept_on_failure():
             self._instance.unbind(labels)
             self._plan_anew(labels)
 
+    @exclusive
     def implement(self, target: object) -> None:
         """Gives a callable to each of some obligations; rules without a method run these, in the order of the clause.
 
@@ -154,7 +152,7 @@ class Sleec:
         ``@sleec_runtime.obligation("OpenCurtains")`` or named in snake case. Each is called with the arguments of the
         trigger. Raises UnknownObligation, and Unbindable for what is not callable or implements nothing.
         """
-        with self._lock:
+        with self._instance.kept_on_failure():
             self._instance.implement(target, self._snapshot.program.whole.obligations)
             self._plan_anew(rule.label for rule in self.ruleset.rules)
 
@@ -164,6 +162,7 @@ class Sleec:
 
     # Context --------------------------------------------------------------------------------------------
 
+    @exclusive
     def update(self, changes: Mapping[str, object]) -> None:
         """One change of context, whole or not at all: no dispatch sees part of it.
 
@@ -171,12 +170,12 @@ class Sleec:
         UnknownCondition or WrongType, under global activation ConflictInContext or UndeterminedDecision too, and then
         nothing has changed.
         """
-        with self._lock:
-            before = self._snapshot
-            after, rules = before.changed(changes)
-            if after is not before:
-                self._object(before, after, rules)
-                self._publish(before, after, rules)
+        before = self._snapshot
+        after, rules = before.changed(changes)
+        if after is not before:
+            self._object(before, after, rules)
+            self._snapshot = after
+            self._tell(before, after, rules)
 
     def broken_assumptions(self, *triggers: str) -> tuple[Assume, ...]:
         """The assumptions that the context breaks, if `triggers` occur in it.
@@ -199,18 +198,18 @@ class Sleec:
         rules from running; what it raised is raised after them (VariantsFailed holds several). O(rules of the trigger)
         the first time in a context, then O(rules that speak), however many others are loaded.
         """
+        snapshot = self._snapshot
         if self._times is not None:
             return self._times.trigger((name,), args, kwargs, self._monitor)
-        snapshot = self._snapshot
         ready = self._ready(snapshot, name)
         monitor = self._monitor
         return (run if monitor is None else monitor.run)(ready, snapshot, args, kwargs)
 
     def trigger_all(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
         """Several triggers occur at once: one context, the rules of all in their order. Otherwise as `trigger`."""
+        snapshot = self._snapshot
         if self._times is not None:
             return self._times.trigger(arguments.triggers(names), args, kwargs, self._monitor)
-        snapshot = self._snapshot
         ready = plan(snapshot, arguments.triggers(names), self._instance)
         monitor = self._monitor
         return (run if monitor is None else monitor.run)(ready, snapshot, args, kwargs)
@@ -218,18 +217,18 @@ class Sleec:
     async def trigger_async(self, name: str, /, *args: Any, **kwargs: Any) -> Done:
         """`trigger`, where variants may be coroutine functions: they are awaited one after the other. The context is
         that of the moment when this is first awaited."""
+        snapshot = self._snapshot
         if self._times is not None:
             return await self._times.trigger_async((name,), args, kwargs, self._monitor)
-        snapshot = self._snapshot
         ready = self._ready(snapshot, name)
         monitor = self._monitor
         return await (run_async if monitor is None else monitor.run_async)(ready, snapshot, args, kwargs)
 
     async def trigger_all_async(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
         """`trigger_all`, where variants may be coroutine functions."""
+        snapshot = self._snapshot
         if self._times is not None:
             return await self._times.trigger_async(arguments.triggers(names), args, kwargs, self._monitor)
-        snapshot = self._snapshot
         ready = plan(snapshot, arguments.triggers(names), self._instance)
         monitor = self._monitor
         return await (run_async if monitor is None else monitor.run_async)(ready, snapshot, args, kwargs)
@@ -237,9 +236,10 @@ class Sleec:
     def due(self, *names: str) -> Due:
         """What would be due if these triggers occurred now; nothing is run, and no code need be bound. Raises as
         `trigger` does, but for what concerns code."""
+        snapshot = self._snapshot
         if self._times is not None:
             return self._times.due(names)
-        return due_in(self._snapshot, names)
+        return due_in(snapshot, names)
 
     # Times ----------------------------------------------------------------------------------------------
 
@@ -326,11 +326,10 @@ class Sleec:
 
     # Other rules, other modes ---------------------------------------------------------------------------
 
+    @exclusive
     def prepare(self, ruleset: Ruleset) -> None:
         """Makes the labels and layers of `ruleset` known, so that methods can be written for it before `replace`."""
-        whole = arguments.ruleset(ruleset, self._reading)
-        with self._lock:
-            self._instance.admit(whole)
+        self._instance.admit(arguments.ruleset(ruleset, self._reading))
 
     def replace(
         self,
@@ -348,24 +347,28 @@ class Sleec:
         what `bind` and `implement` raise: then nothing has changed. An instance with a certificate needs `certificate`
         for them, signed by the same key if it has one, and raises CertificateRefused.
         """
-        whole = arguments.ruleset(ruleset, self._reading)
-        with self._lock:
-            demand = self._demand
-            if certificate is not None:
-                demand = arguments.demand(certificate, self._chains) if demand is None else demand.of(certificate)
-            instance = self._instance.copied()
-            instance.admit(whole)
-            instance.bind(bind)
-            if implement is not None:
-                instance.implement(implement, whole.obligations)
-            self._install(Program(whole, self.domain, self._strict), instance, demand)
+        self._replace(arguments.ruleset(ruleset, self._reading), tuple(bind), implement, certificate)
 
+    @exclusive
+    def _replace(
+        self, whole: Ruleset, bind: tuple[object, ...], implement: object, certificate: str | Path | None
+    ) -> None:
+        demand = self._demand
+        if certificate is not None:
+            demand = arguments.demand(certificate, self._chains) if demand is None else demand.of(certificate)
+        instance = self._instance.copied()
+        instance.admit(whole)
+        instance.bind(bind)
+        if implement is not None:
+            instance.implement(implement, whole.obligations)
+        self._install(Program(whole, self.domain, self._strict), instance, demand)
+
+    @exclusive
     def enter_domain(self, domain: str | None) -> None:
         """Puts the rules of another domain in force, as `replace` does. Raises UnknownDomain, and CertificateRefused
         where there is a certificate, and not for this domain."""
-        with self._lock:
-            program = Program(self._snapshot.program.whole, domain, self._strict)
-            self._install(program, self._instance, self._demand)
+        program = Program(self._snapshot.program.whole, domain, self._strict)
+        self._install(program, self._instance, self._demand)
 
     def activate_globally(self) -> GlobalActivation:
         """The paper's own mode (Section 4): from now on the layers of the active clauses are globally active, so that
@@ -380,10 +383,9 @@ class Sleec:
     def listen(self, listener: Listener, objection: Listener | None = None) -> Callable[[], None]:
         """Has `listener` told of every change of context, before the next one can come; returns what ends it. An
         `objection` is asked before anything changes, and what it raises keeps all as it is."""
-        with self._lock:
-            self._listeners.append(listener)
-            if objection is not None:
-                self._objections.append(objection)
+        self._listeners.append(listener)
+        if objection is not None:
+            self._objections.append(objection)
 
         def end() -> None:
             self._listeners.remove(listener)
@@ -392,24 +394,21 @@ class Sleec:
 
         return end
 
-    @contextmanager
-    def held(self) -> Iterator[Snapshot]:
-        """The context of now, which does not change within the block: changes wait, dispatches do not."""
-        with self._lock:
-            yield self._snapshot
+    @exclusive
+    def hold(self, act: Callable[[Snapshot], None]) -> None:
+        """Calls `act` with the context of now, which does not change meanwhile: changes wait, dispatches do not."""
+        act(self._snapshot)
 
     def attach(self, monitor: Monitor) -> None:
-        """Lets `monitor` run every dispatch. Raises SleecError if another does."""
-        with self._lock:
-            if self._monitor is not None:
-                raise SleecError("a monitor is on already", "stop() it first")
-            self._monitor = monitor
+        """Lets `monitor` run every dispatch; to be called within `hold`. Raises SleecError if another does."""
+        if self._monitor is not None:
+            raise SleecError("a monitor is on already", "stop() it first")
+        self._monitor = monitor
 
     def detach(self, monitor: Monitor) -> None:
         """Ends that."""
-        with self._lock:
-            if self._monitor is monitor:
-                self._monitor = None
+        if self._monitor is monitor:
+            self._monitor = None
 
     @property
     def activated_globally(self) -> bool:
@@ -439,21 +438,22 @@ class Sleec:
             ready = cell.plan = plan(snapshot, (name,), self._instance)
         return ready
 
-    def _keep_times(self, program: Program) -> None:
-        """Makes ready for what `program` says of time. Raises UnsupportedTimes, and then nothing has changed."""
+    def _timekeeper(self, program: Program) -> Timekeeper | None:
+        """What keeps the times of `program`; None if it has none, and none of before has. Raises UnsupportedTimes."""
         if not program.ruleset.is_timed and not self._chains:
-            return
+            return self._times
         from sleec_runtime.timed.limits import has_times, name_limits
 
         name_limits(program.ruleset, self._chains, self._strict_times)
-        if self._times is None and (self._chains or has_times(program.ruleset)):
-            from sleec_runtime.timed.clocks import MonotonicClock
-            from sleec_runtime.timed.keeper import Timekeeper
+        if self._times is not None or not (self._chains or has_times(program.ruleset)):
+            return self._times
+        from sleec_runtime.timed.clocks import MonotonicClock
+        from sleec_runtime.timed.keeper import Timekeeper
 
-            clock = self._clock
-            if clock is None:
-                clock = self._own_clock = MonotonicClock()
-            self._times = Timekeeper(lambda: (self._snapshot, self._instance), clock, self._chains, self._on_error)
+        clock = self._clock
+        if clock is None:
+            clock = self._own_clock = MonotonicClock()
+        return Timekeeper(lambda: (self._snapshot, self._instance), clock, self._chains, self._on_error)
 
     def _plan_anew(self, labels: Iterable[str]) -> None:
         by_label = self.ruleset.by_label
@@ -481,10 +481,11 @@ class Sleec:
             instance.allow_calls(program.ruleset.rules)
         self._object(before, after, program.ruleset.rules)
         self._watch_bound(instance, program)
-        self._keep_times(program)
-        self._instance = instance
-        self._demand = demand
-        self._publish(before, after, program.ruleset.rules)
+        times = self._timekeeper(program)
+        # In one step, so that a signal handler finds all of before or all of after. A dispatch reads `_snapshot` before
+        # `_times`, so that it never finds rules with times and nothing that keeps these.
+        vars(self).update(_snapshot=after, _instance=instance, _demand=demand, _times=times)
+        self._tell(before, after, program.ruleset.rules)
 
     def _watch_bound(self, instance: Instance, program: Program) -> None:
         if self._monitor is not None:
@@ -494,7 +495,6 @@ class Sleec:
         for objection in self._objections:
             objection(before, after, rules)
 
-    def _publish(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
-        self._snapshot = after
+    def _tell(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         for listener in tuple(self._listeners):
             listener(before, after, rules)

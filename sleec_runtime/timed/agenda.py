@@ -1,11 +1,11 @@
-"""What is to be done, what is forbidden, and what comes when. Not safe by itself: `Timekeeper` holds the lock."""
+"""What is to be done, what is forbidden, and what comes when. Not safe by itself: `Ledger` changes it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from heapq import heapify, heappop, heappush
-from itertools import count, islice
-from typing import TYPE_CHECKING
+from bisect import bisect_left
+from collections.abc import Callable, Iterator
+from itertools import islice
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from sleec_runtime.timed.clocks import Time
@@ -14,25 +14,41 @@ if TYPE_CHECKING:
 OPENS, CLOSES = 0, 1
 """At one time, what opens comes first: it may do what closes undone otherwise."""
 
-_Entry = tuple["Time", int, int, "tuple[Task, ...]", Callable[["Time"], object]]
-
-# Entries of what is done stay in the heap until they come up, or until they are too many.
+# Entries of what is done stay until they come up, or until they are too many.
 _FEW = 64
 
 
+class Entry(NamedTuple):
+    """Something that comes up at a time, if one of `tasks` is open then. No two have one `number`: it says in which
+    order those of one time and kind come up."""
+
+    at: Time
+    kind: int
+    number: int
+    tasks: tuple[Task, ...]
+    decide: Callable[[Time], object]
+
+    @property
+    def counts(self) -> bool:
+        """Whether it still has to come up."""
+        return any(task.is_open for task in self.tasks)
+
+
 class Agenda:
-    """The open obligations and prohibitions by name, and a heap of what the clock starts and ends."""
+    """The open obligations and prohibitions by name, and entries for what the clock starts and ends.
+
+    Each method changes it at once or not at all, even if a signal handler or the comparison of two times raises.
+    """
 
     def __init__(self) -> None:
         self._open: dict[str, dict[Task, None]] = {}
         self._forbidden: dict[str, dict[Task, None]] = {}
-        self._heap: list[_Entry] = []
-        self._numbers = count()
+        self._entries: list[Entry] = []
+        """In order. A heap would be left in disorder by a comparison that raises."""
         self._compact_at = _FEW
 
     def add(self, task: Task) -> None:
         """It is open from now on."""
-        task.number = next(self._numbers)
         by_name = self._forbidden if task.literal.negated else self._open
         by_name.setdefault(task.name, {})[task] = None
 
@@ -43,26 +59,35 @@ class Agenda:
         if tasks is not None:
             tasks.pop(task, None)
             if not tasks:
-                del by_name[task.name]
+                by_name.pop(task.name, None)
 
-    def schedule(self, at: Time, kind: int, tasks: Iterable[Task], call: Callable[[Time], object]) -> None:
-        """Has `call` come up at the time `at`, if any of `tasks` is open then; it is given that time."""
-        heappush(self._heap, (at, kind, next(self._numbers), tuple(tasks), call))
-        if len(self._heap) > self._compact_at:
-            self._heap = [entry for entry in self._heap if _counts(entry)]
-            heapify(self._heap)
-            self._compact_at = max(_FEW, 2 * len(self._heap))
+    def __contains__(self, task: Task) -> bool:
+        by_name = self._forbidden if task.literal.negated else self._open
+        return task in by_name.get(task.name, ())
 
-    def next_time(self) -> Time | None:
-        """When something comes up next."""
-        while self._heap and not _counts(self._heap[0]):
-            heappop(self._heap)
-        return self._heap[0][0] if self._heap else None
+    def insert(self, entry: Entry) -> None:
+        """It comes up at its time; nothing happens if it is there. O(entries), as the time to copy so many pointers."""
+        place = bisect_left(self._entries, entry)
+        if self._entries[place : place + 1] != [entry]:
+            self._entries.insert(place, entry)
 
-    def pop(self, now: Time) -> tuple[Time, Callable[[Time], object]] | None:
-        """The next call that has come up by `now`, if there is one, and its time."""
-        at = self.next_time()
-        return (at, heappop(self._heap)[-1]) if at is not None and at <= now else None
+    def drop(self, entry: Entry) -> None:
+        """It does not come up; nothing happens if it was not there."""
+        place = bisect_left(self._entries, entry)
+        if self._entries[place : place + 1] == [entry]:
+            del self._entries[place]
+
+    def next_entry(self) -> Entry | None:
+        """What comes up next."""
+        return next((entry for entry in self._entries if entry.counts), None)
+
+    def tidy(self) -> None:
+        """Forgets entries that no longer count: the first ones, and, if there are many, all. O(1) on average."""
+        while self._entries and not self._entries[0].counts:
+            del self._entries[0]
+        if len(self._entries) > self._compact_at:
+            self._entries = [entry for entry in self._entries if entry.counts]
+            self._compact_at = max(_FEW, 2 * len(self._entries))
 
     def to_do(self, name: str) -> tuple[Task, ...]:
         """The open obligations to do `name`."""
@@ -86,7 +111,3 @@ class Agenda:
         for by_name in (self._open, self._forbidden):
             for tasks in by_name.values():
                 yield from tasks
-
-
-def _counts(entry: _Entry) -> bool:
-    return any(task.is_open for task in entry[3])

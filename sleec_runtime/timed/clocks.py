@@ -14,6 +14,7 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Protocol, Union
 
+from sleec_runtime.critical import CriticalSection
 from sleec_runtime.errors import WrongType
 from sleec_runtime.timed.bounds import FURTHEST, checked_time
 from sleec_runtime.timed.executor import Executor
@@ -72,7 +73,7 @@ class _Alarms:
         self._calls.pop(key, None)
 
     def clear(self) -> None:
-        self._calls = {key: alarm for key, alarm in self._calls.items() if alarm[2]}
+        self._calls = {key: alarm for key, alarm in tuple(self._calls.items()) if alarm[2]}
 
     def earliest(self) -> Time | None:
         # An instance has one alarm set at a time, so these are as many as share the clock.
@@ -92,21 +93,15 @@ class VirtualClock:
 
     def __init__(self, start: Time = 0) -> None:
         self._now = checked_time(start)
-        self._lock = threading.Lock()
+        self._section = CriticalSection()
         self._alarms = _Alarms()
 
     def now(self) -> Time:
         return self._now
 
     def wake(self, at: Time, call: Callable[[], object]) -> Cancel:
-        with self._lock:
-            key = self._alarms.add(at, call)
-
-        def cancel() -> None:
-            with self._lock:
-                self._alarms.drop(key)
-
-        return cancel
+        key = self._section.run(partial(self._alarms.add, at, call))
+        return partial(self._section.run, partial(self._alarms.drop, key))
 
     def advance(self, seconds: Time) -> None:
         """Lets `seconds` pass, and all happen that is due until then. Raises WrongType for a negative number."""
@@ -114,13 +109,14 @@ class VirtualClock:
         if number is None or not 0 <= number <= FURTHEST:
             raise WrongType("the time that passes", seconds, f"a number of seconds from 0 to {FURTHEST:,}")
         target = self._now + number if not isinstance(self._now, float) else self._now + seconds
-        while True:
-            with self._lock:
-                alarm = self._alarms.take(target)
-                self._now = max(self._now, target if alarm is None else alarm[0])
-            if alarm is None:
-                return
-            alarm[1]()
+        while (call := self._section.run(partial(self._next, target))) is not None:
+            call()
+
+    def _next(self, target: Time) -> Callable[[], object] | None:
+        """Goes to the next alarm before `target`, or to `target`."""
+        alarm = self._alarms.take(target)
+        self._now = max(self._now, target if alarm is None else alarm[0])
+        return None if alarm is None else alarm[1]
 
     def __repr__(self) -> str:
         return f"VirtualClock({self._now})"

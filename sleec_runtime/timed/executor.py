@@ -83,11 +83,16 @@ class Executor:
                 job.report(SleecError(f"no thread can be started for it: {error}", "end code that does not return"))
 
     def _take(self) -> _Job | None:
-        if not self._waiting:
+        try:
+            job = self._waiting.popleft()
+        except IndexError:
             return None
-        job = self._waiting[0]
-        job.alarm = self._wake(monotonic() + OVERLAP, partial(self._overlap, job))
-        self._current = self._waiting.popleft()
+        try:
+            job.alarm = self._wake(monotonic() + OVERLAP, partial(self._overlap, job))
+        except RuntimeError:  # no thread for the clock
+            self._waiting.appendleft(job)
+            raise
+        self._current = job
         return job
 
     def _work(self, job: _Job | None) -> None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 from sleec_runtime.messages import listed, represent, text_of
@@ -43,8 +45,21 @@ class Failures:
         self._kept: deque[Failure] = deque(maxlen=KEPT)
 
     def __call__(self, failure: Failure) -> None:
+        self.keep(failure)
+        self.tell(failure)
+
+    def keep(self, failure: Failure) -> None:
+        """Keeps it."""
         self._kept.append(failure)
-        self._execute(lambda: self._tell(failure), lambda error: log_error("on_error: %s", error))
+
+    def forget(self, failure: Failure) -> None:
+        """Undoes `keep`; nothing happens if it is not kept."""
+        with suppress(ValueError):
+            self._kept.remove(failure)
+
+    def tell(self, failure: Failure) -> None:
+        """Gives it to `on_error`, or to the log."""
+        self._execute(partial(self._tell, failure), lambda error: log_error("on_error: %s", error))
 
     def _tell(self, failure: Failure) -> None:
         if self._on_error is None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from sleec_runtime.timed.refusals import prohibited
@@ -15,12 +16,15 @@ if TYPE_CHECKING:
 
 
 class Instant:
-    """The time `at` at which something was to start or to end, with what was done, and what came to be forbidden."""
+    """The time `at` at which something was to start or to end, with what was done, and what came to be forbidden.
+    Immutable."""
 
-    def __init__(self, at: Time) -> None:
+    def __init__(
+        self, at: Time, done: frozenset[str] = frozenset(), forbidden: Mapping[str, Task] = MappingProxyType({})
+    ) -> None:
         self.at = at
-        self._done: set[str] = set()
-        self._forbidden: dict[str, Task] = {}
+        self._done = done
+        self._forbidden = forbidden
 
     def refuse(self, stages: Sequence[Stage], now: Time) -> None:
         """Raises Prohibited if `stages` do what has been forbidden at this time, or forbid what has been done."""
@@ -34,13 +38,11 @@ class Instant:
                 message = f"{task.name} was done at this moment, and {prohibitions_in_words([task], now)}"
                 raise prohibited(message, task.name, [task], since=self.at)
 
-    def note(self, stages: Sequence[Stage], now: Time) -> None:
-        """`stages` are started now."""
-        for task in self._starting(stages, now):
-            if task.name not in task.origin.instance.takes_time:
-                self._done.add(task.name)
-        for task in self._forbidding(stages, now):
-            self._forbidden[task.name] = task
+    def with_started(self, stages: Sequence[Stage], now: Time) -> Instant:
+        """The same, with `stages` started now."""
+        done = {t.name for t in self._starting(stages, now) if t.name not in t.origin.instance.takes_time}
+        forbidden = {task.name: task for task in self._forbidding(stages, now)}
+        return Instant(self.at, self._done | done, {**self._forbidden, **forbidden})
 
     @staticmethod
     def _starting(stages: Sequence[Stage], now: Time) -> list[Task]:

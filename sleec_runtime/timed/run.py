@@ -74,6 +74,11 @@ class Run:
         """Whether something in it is known to need an event loop."""
         return any(unit.asynchronous for stage in self._stages for unit in stage.units if unit.at <= self._now)
 
+    @property
+    def begun(self) -> bool:
+        """Whether a stage of it has been begun."""
+        return bool(self._begun)
+
     def units(self) -> Iterator[Unit]:
         """What to run, one after the other."""
         while self._stages:

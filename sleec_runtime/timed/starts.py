@@ -8,11 +8,12 @@ from functools import partial
 from math import floor
 from typing import TYPE_CHECKING
 
-from sleec_runtime.errors import DeadlineMissed, Prohibited
+from sleec_runtime.errors import DeadlineMissed, Prohibited, Reentrant
 from sleec_runtime.timed.agenda import CLOSES
 from sleec_runtime.timed.failures import Failure, Failures, raise_interrupt
 from sleec_runtime.timed.instants import Instant
-from sleec_runtime.timed.stages import Stage, in_place_of, opened
+from sleec_runtime.timed.ledger import Act, Ledger
+from sleec_runtime.timed.stages import Moment, Stage, in_place_of, opened
 from sleec_runtime.timed.words import duration_in_words
 
 if TYPE_CHECKING:
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from sleec_runtime.timed.clocks import Time
     from sleec_runtime.timed.executor import Execute
     from sleec_runtime.timed.keeper import Timekeeper
-    from sleec_runtime.timed.ledger import Ledger
     from sleec_runtime.timed.run import Run
     from sleec_runtime.timed.tasks import Task
     from sleec_runtime.timed.units import Unit
@@ -40,47 +40,47 @@ class Starts:
         self._running: set[object] = set()
 
     def tick(self) -> None:
-        """Starts and ends all that is due by now."""
+        """Starts and ends all that is due by now. Raises Reentrant within a change."""
+        self._ledger.refuse_reentry()
         interrupt = None
         while True:
-            with self._ledger.lock:
-                next_one = self._ledger.next_call()
-            if next_one is None:
-                break
-            at, call = next_one
             try:
-                call(at)
+                if not self._ledger.do_next() and not self._ledger.change(self._ledger.decide_next):
+                    break
             except KeyboardInterrupt as error:
                 interrupt = error
         if interrupt is not None:
             raise interrupt
 
+    # Decisions, within a change of the ledger -----------------------------------------------------------------
+
     def open(self, unit: Unit, at: Time) -> None:
         """Its window opens."""
-        with self._ledger.lock:
-            start = self._admit(opened(unit, self._keeper.moment().snapshot), unit.tasks, at)
-        start()
+        self._start(opened(unit, self._keeper.moment().snapshot), unit.tasks, at)
 
     def close(self, task: Task, at: Time) -> None:
         """Its window closes, and it is not done."""
-        with self._ledger.lock:
-            if not task.is_open:
-                return
-            alternatives = task.otherwise
-            if alternatives is None and task.instead is not None and self._still_possible(task.instead):
-                alternatives = task.instead
-            self._ledger.end(task, "missed" if alternatives is None else "replaced")
-            start = self._admit_in_place_of(task, alternatives or (), at)
+        alternatives = task.otherwise
+        if alternatives is None and task.instead is not None and self._still_possible(task.instead):
+            alternatives = task.instead
+        self._ledger.end(task, "missed" if alternatives is None else "replaced")
         if alternatives is None:
             self.miss(task)
-        start()
+        elif alternatives:
+            self._start(in_place_of(task, alternatives, self._keeper.moment().snapshot), alternatives, at)
 
     def miss(self, task: Task) -> None:
         """Reports that its window has closed, and it is not done."""
         assert task.last is not None, "what has no end does not close"
         length = duration_in_words(task.last - task.origin.moment)
         message = f"{task.name} was not done within {length} of the trigger of rule {task.origin.rule.label}"
-        self._fail((task,), DeadlineMissed(message, task.name, task.last))
+        self.report(self._failure((task,), DeadlineMissed(message, task.name, task.last)))
+
+    def report(self, failure: Failure) -> None:
+        """Keeps `failure`, and has it told once the change is made."""
+        self._ledger.undo_by(partial(self._failures.forget, failure))
+        self._failures.keep(failure)
+        self._ledger.after(Act(partial(self._failures.tell, failure), lambda: True))
 
     def _still_possible(self, tasks: Iterable[Task]) -> bool:
         now = self._ledger.clock.now()
@@ -91,61 +91,72 @@ class Starts:
     def close_prohibition(self, task: Task, at: Time) -> None:
         """Its window closes. It forbids to the end of that moment, and is then over."""
         assert task.last is not None, "what has no end does not close"
-        with self._ledger.lock:
-            self._ledger.agenda.schedule(floor(task.last) + 1, CLOSES, (task,), partial(self._end_locked, task))
-            alternatives = task.otherwise if task.otherwise is not None else task.instead
-            broken, task.broken = task.broken, False
-            start = self._admit_in_place_of(task, alternatives if broken and alternatives else (), at)
-        start()
+        self._ledger.schedule(floor(task.last) + 1, CLOSES, (task,), partial(self._end, task))
+        alternatives = task.otherwise if task.otherwise is not None else task.instead
+        broken = task.broken
+        self._ledger.set(task, "broken", False)
+        if broken and alternatives:
+            self._start(in_place_of(task, alternatives, self._keeper.moment().snapshot), alternatives, at)
 
-    def _end_locked(self, task: Task, at: Time) -> None:
-        with self._ledger.lock:
-            self._ledger.end(task, "over")
+    def _end(self, task: Task, at: Time) -> None:
+        self._ledger.end(task, "over")
 
-    def _admit_in_place_of(self, task: Task, alternatives: tuple[Task, ...], at: Time) -> Callable[[], object]:
-        """As `_admit`, for what is due in the place of `task`. In one step, under the lock, with the end of `task`: at
-        no time is neither of them pending."""
-        if not alternatives:
-            return _nothing
-        return self._admit(in_place_of(task, alternatives, self._keeper.moment().snapshot), alternatives, at)
-
-    def _admit(self, stage: Stage, tasks: Sequence[Task], at: Time) -> Callable[[], object]:
-        """Puts what is due now on the agenda; what it returns starts it. What is forbidden now is started once it no
-        longer is, if its window lasts."""
+    def _start(self, stage: Stage, tasks: Sequence[Task], at: Time) -> None:
+        """Starts what is due now. What is forbidden now is started once it no longer is, if its window lasts."""
         loop = _running_loop()
         try:
-            if self._instant.at != at:
-                self._instant = Instant(at)
-            run = self._admit_when_allowed(stage, self._instant, in_loop=loop is not None)
+            run = self._ledger.attempt(partial(self._admit_when_allowed, stage, at, in_loop=loop is not None))
+        except Reentrant:
+            # Raised by a signal handler, which has nothing to do with what is due.
+            raise
         except Exception as error:  # noqa: BLE001 - reported
-            return partial(self._give_up, tasks, error, at)
+            self._give_up(tasks, error, at)
+            return
         if run is None:
-            return _nothing
+            return
         if loop is not None and run.asynchronous:
-            return partial(self._spawn, loop, run, stage)
-        return partial(self._execute, partial(self._go, run, stage), partial(self._fail, stage.tasks))
+            start: Callable[[], object] = partial(self._spawn, loop, run, stage)
+        else:
+            start = partial(self._execute, partial(self._go, run, stage), partial(self._fail, stage.tasks))
+        self._ledger.after(Act(start, lambda: run.begun))
 
-    def _admit_when_allowed(self, stage: Stage, instant: Instant, in_loop: bool) -> Run | None:
+    def _admit_when_allowed(self, stage: Stage, at: Time, in_loop: bool) -> Run | None:
         moment = self._keeper.moment()
         try:
-            stages = self._keeper.closure(stage, moment)
-            instant.refuse(stages, moment.now)
-            run = self._keeper.admit(stages, moment.now, in_loop)
-            instant.note(stages, moment.now)
-            return run
+            return self._ledger.attempt(partial(self._admit, stage, moment, at, in_loop))
         except Prohibited as refusal:
             again = refusal.over
             late = [unit for unit in stage.units if unit.at <= moment.now]
             if again is None or any(task.at_once for unit in late for task in unit.tasks):
                 raise
             for unit in late:
-                unit.at = again
+                self._ledger.set(unit, "at", again)
             # With nothing that starts now, only what it forbids itself can be refused.
-            stages = self._keeper.closure(stage, moment)
-            instant.refuse(stages, moment.now)
-            self._keeper.admit(stages, moment.now, in_loop)
-            instant.note(stages, moment.now)
+            self._admit(stage, moment, at, in_loop)
             return None
+
+    def _admit(self, stage: Stage, moment: Moment, at: Time, in_loop: bool) -> Run:
+        instant = self._instant if self._instant.at == at else Instant(at)
+        stages = self._keeper.closure(stage, moment)
+        instant.refuse(stages, moment.now)
+        run = self._keeper.admit(stages, moment.now, in_loop)
+        self._ledger.set(self, "_instant", instant.with_started(stages, moment.now))
+        return run
+
+    def _give_up(self, tasks: Sequence[Task], error: Exception, at: Time) -> None:
+        """What was to be started now is not. What has a window stays due until that closes."""
+        self.report(self._failure(tasks, error))
+        for task in tasks:
+            watched = task in self._ledger.agenda.to_do(task.name)
+            if watched and not task.at_once:
+                self._ledger.set(task, "unit", None)
+                continue
+            alternatives = task.otherwise if task.at_once and watched else None
+            self._ledger.end(task, "missed" if alternatives is None else "replaced")
+            if alternatives:
+                self._start(in_place_of(task, alternatives, self._keeper.moment().snapshot), alternatives, at)
+
+    # Acts, outside of it --------------------------------------------------------------------------------------
 
     def _go(self, run: Run, stage: Stage) -> None:
         try:
@@ -173,31 +184,16 @@ class Starts:
 
     def _report(self, run: Run, stage: Stage) -> None:
         for label, error in run.errors:
-            self._failures(Failure(self._ledger.clock.now(), label, tuple(task.name for task in stage.tasks), error))
+            self._failures(self._failure(stage.tasks, error, label))
         for _, error in run.errors:
             raise_interrupt(error)
 
-    def _give_up(self, tasks: Sequence[Task], error: Exception, at: Time) -> None:
-        """What was to be started now is not. What has a window stays due until that closes."""
-        self._fail(tasks, error)
-        for task in tasks:
-            with self._ledger.lock:
-                watched = task in self._ledger.agenda.to_do(task.name)
-                if watched and not task.at_once:
-                    task.unit = None
-                    continue
-                alternatives = task.otherwise if task.at_once and watched else None
-                self._ledger.end(task, "missed" if alternatives is None else "replaced")
-                start = self._admit_in_place_of(task, alternatives or (), at)
-            start()
-
     def _fail(self, tasks: Sequence[Task], error: BaseException) -> None:
-        label = tasks[0].origin.rule.label
-        self._failures(Failure(self._ledger.clock.now(), label, tuple(task.name for task in tasks), error))
+        self._failures(self._failure(tasks, error))
 
-
-def _nothing() -> None:
-    """There is nothing to start."""
+    def _failure(self, tasks: Sequence[Task], error: BaseException, label: str | None = None) -> Failure:
+        label = label or tasks[0].origin.rule.label
+        return Failure(self._ledger.clock.now(), label, tuple(task.name for task in tasks), error)
 
 
 def _running_loop() -> AbstractEventLoop | None:
