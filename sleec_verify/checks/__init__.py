@@ -12,6 +12,7 @@ from sleec_verify.checks.assumptions import ASSUMPTIONS
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.claims import CONCERN, PURPOSE
 from sleec_verify.checks.conflict import CONFLICT, Enough
+from sleec_verify.checks.confusable import CONFUSABLE
 from sleec_verify.checks.constant import CONSTANT_CONDITION
 from sleec_verify.checks.dead import DEAD_HEDGE, DEAD_RULE
 from sleec_verify.checks.defects import DEFECTS
@@ -46,6 +47,7 @@ CHECKS: Mapping[str, Check] = {
         EMPTY_HEDGE,
         TRIGGER_OBLIGATION,
         PHRASE_KEYWORD,
+        CONFUSABLE,
         DEFECTS,
         DUPLICATE_RULE,
         STRAY_EVENT,
@@ -65,6 +67,8 @@ Progress = Callable[[str, int, int], None]
 def checks_for(ruleset: Ruleset) -> list[str]:
     """The names of the checks that are made of a ruleset unless told."""
     left_out = {REALIZABILITY.name}
+    if ruleset.source.text.isascii():
+        left_out.add(CONFUSABLE.name)
     if ruleset.syntax != "dsl":
         # Structured English has no defects: it refuses them.
         left_out.add(DEFECTS.name)

@@ -1,0 +1,182 @@
+"""What a reader takes for something else: look-alike words, mixed scripts, odd letters, turned lines (UTS #39, #55).
+
+It takes a character beyond ASCII to do so: a text in ASCII is not looked at.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from sleec_runtime.model import Ruleset, Span
+from sleec_verify.checks.base import Check, FindingKind
+from sleec_verify.cone import Cones
+from sleec_verify.finding import Finding
+
+_DIRECTION = re.compile("[\u202a-\u202e\u2066-\u2069]")
+
+
+def _confusable(cones: Cones) -> Iterator[Finding]:
+    ruleset = cones.ruleset
+    if not ruleset.source.text.isascii():
+        words, keywords = _words(ruleset)
+        alike = _alike(words, keywords)
+        for word, other in alike.items():
+            yield _looks_like(ruleset, words, word, other, other in keywords)
+        yield from _odd(ruleset, {word: span for word, span in words.items() if word not in alike})
+        yield from _directions(ruleset)
+
+
+def _words(ruleset: Ruleset) -> tuple[dict[str, Span], frozenset[str]]:
+    """The names, labels and keywords in a text, word by word, each with its first place; and all keywords there are.
+    Comments are left out."""
+    if ruleset.syntax == "dsl":
+        from sleec_runtime.language.dsl.scanner import KEYWORDS, scan
+    else:
+        from sleec_runtime.language.keywords import KEYWORDS
+        from sleec_runtime.language.scanner import scan
+    text = ruleset.source.text
+    tokens = scan(text)
+    words: dict[str, Span] = {}
+    for start, end in zip(tokens.starts, tokens.ends):
+        words.setdefault(text[start:end], Span(start, end))
+    return words, frozenset(KEYWORDS)
+
+
+def _alike(words: dict[str, Span], keywords: frozenset[str]) -> dict[str, str]:
+    """Each word that looks like another one, with that: one in ASCII, if there is one, and of these a keyword."""
+    from sleec_verify.checks.skeleton import skeleton
+
+    groups: dict[str, list[str]] = {skeleton(word): [] for word in words if not word.isascii()}
+    for word in sorted({*words, *keywords}, key=lambda word: (not word.isascii(), word not in keywords, word)):
+        groups.get(skeleton(word), []).append(word)
+    # Words that differ in ASCII only, as by l and 1, are no matter of scripts.
+    return {
+        word: first
+        for first, *others in groups.values()
+        for word in others
+        if _beyond_ascii(word) != _beyond_ascii(first)
+    }
+
+
+def _beyond_ascii(word: str) -> set[str]:
+    return {c for c in word if not c.isascii()}
+
+
+def _looks_like(ruleset: Ruleset, words: dict[str, Span], word: str, other: str, is_keyword: bool) -> Finding:
+    from sleec_verify.checks.skeleton import described
+
+    span, place = words[word], words.get(other)
+    one, two = _beyond_ascii(word), _beyond_ascii(other)
+    what = "the keyword " if is_keyword else ""
+    return CONFUSABLE.finding(
+        f"\u201c{word}\u201d looks like {what}\u201c{other}\u201d and is another word: "
+        f"{'it' if one - two else 'the other one'} holds {described(c for c in word + other if c in one ^ two)}",
+        span,
+        rules=_rules_at(ruleset, span),
+        note=None
+        if is_keyword
+        else "rules about the one are not about the other, so that no conflict of both is found",
+        help=f"if both are meant to be the same, write {other}",
+        related=() if place is None else ((place, "the word that it looks like"),),
+    )
+
+
+def _odd(ruleset: Ruleset, words: dict[str, Span]) -> Iterator[Finding]:
+    """The words with characters that are not what they seem."""
+    from sleec_verify.checks.skeleton import described, foreign_letters, odd_characters, plain
+
+    for word, span in words.items():
+        if word.isascii():
+            continue
+        if odd := odd_characters(word):
+            yield CONFUSABLE.finding(
+                f"\u201c{word}\u201d holds {described(odd)}",
+                span,
+                kind=2,
+                rules=_rules_at(ruleset, span),
+                help=f"write {plain(word)}",
+            )
+        elif foreign := foreign_letters(word):
+            yield CONFUSABLE.finding(
+                f"\u201c{word}\u201d mixes scripts: it holds {described(foreign)}",
+                span,
+                kind=1,
+                rules=_rules_at(ruleset, span),
+                help="write it in the letters of one script",
+            )
+
+
+def _directions(ruleset: Ruleset) -> Iterator[Finding]:
+    """The lines with controls that turn the direction of writing, in comments too."""
+    from sleec_verify.checks.skeleton import described
+
+    source = ruleset.source
+    by_line: dict[int, list[int]] = {}
+    for found in _DIRECTION.finditer(source.text):
+        by_line.setdefault(source.place(Span(*found.span())).line, []).append(found.start())
+    for places in by_line.values():
+        span = Span(places[0], places[-1] + 1)
+        yield CONFUSABLE.finding(
+            f"this line holds {described(source.text[at] for at in places)}",
+            span,
+            kind=3,
+            rules=_rules_at(ruleset, span),
+            note="an editor may show the line in another order than it is read in",
+            help="remove these characters",
+        )
+
+
+def _rules_at(ruleset: Ruleset, span: Span) -> tuple[str, ...]:
+    return tuple(rule.label for rule in ruleset.rules if rule.span.start <= span.start < rule.span.end)
+
+
+CONFUSABLE = Check(
+    "confusable",
+    "Does every word look like what it is?",
+    (
+        FindingKind(
+            "SLEEC515",
+            "warning",
+            "two words that look alike",
+            "Two names, or a name and a keyword, look the same and differ in their characters: a Cyrillic \u041e for a "
+            "Latin O, a letter with its accent typed apart. To the rules they are two things. A rule that forbids the "
+            "one does not conflict with a rule that obliges the other.",
+            "Write one of them everywhere. If both are meant, give one a name that looks different.",
+            "WHEN DoorbellRings THEN OpenDoor\nWHEN NightFalls THEN NOT \u041epenDoor\n",
+            "WHEN DoorbellRings THEN OpenDoor\nWHEN NightFalls THEN NOT \u00d6ffneFenster\n",
+        ),
+        FindingKind(
+            "SLEEC516",
+            "warning",
+            "a name that mixes scripts",
+            "A name has letters of several scripts side by side, as a Cyrillic letter among Latin ones. A reader takes "
+            "it for a name in one script. What else names it, such as assertions, policies and code, may do so, too.",
+            "Write the name in the letters of one script.",
+            "WHEN D\u043e\u043erbellRings THEN Answer\n",
+            "WHEN DoorbellRings THEN \u041e\u0442\u0432\u0435\u0442\u0438\u0442\u044c\n",
+        ),
+        FindingKind(
+            "SLEEC517",
+            "warning",
+            "a name with an invisible or unusual form of a letter",
+            "A name holds a character that nobody sees, or a full-width, mathematical or other variant of a letter. "
+            "The name is not the one that a reader sees in it.",
+            "Write the name in plain letters.",
+            "WHEN \uff24oorbellRings THEN Answer\n",
+            "WHEN DoorbellRings THEN Answer // \uff24oorbell\n",
+        ),
+        FindingKind(
+            "SLEEC518",
+            "warning",
+            "a control that turns the direction of writing",
+            "The text holds a bidirectional control, in a comment or elsewhere. It changes the order in which an "
+            "editor shows the line, so that a reader sees other rules than those that count (CVE-2021-42574).",
+            "Leave it out: scripts that are written from the right need no such control.",
+            "WHEN DoorbellRings THEN Answer // \u202eebyam\n",
+            "WHEN DoorbellRings THEN Answer // \u05d0\u05d5\u05dc\u05d9\n",
+        ),
+    ),
+    _confusable,
+    scope="text",
+)
