@@ -333,7 +333,8 @@ def test_whenever_a_snapshot_can_be_taken_something_of_a_chain_is_pending_until_
         seen.append(names)
         assert len(names) == (last not in [entry[0] for entry in robot.log] or last in names)
 
-    times._ledger.lock = Freed(times._ledger.lock, freed)  # type: ignore[assignment]
+    section = times._ledger._section
+    section._lock = Freed(section._lock, freed)  # type: ignore[assignment]
     robot.clock.advance(60)
     assert {("X",), ("Y",), ()} <= set(seen)
     assert robot.taken()[-1] == last
