@@ -26,7 +26,7 @@ EXTRAS = [
 ]
 GROUPS: dict[str, list[Any]] = VERIFY["dependency-groups"]
 ASKED = {
-    "build": GROUPS["build"],
+    "build": [*GROUPS["build"], *VERIFY["build-system"]["requires"], *RUNTIME["build-system"]["requires"]],
     "dev": [*NEEDED, *EXTRAS, *GROUPS["build"], *GROUPS["dev"]],
     "docs": GROUPS["docs"],
     "fuzz": GROUPS["fuzz"],
