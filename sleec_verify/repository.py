@@ -63,8 +63,8 @@ class Repository:
         """
         shown = os.path.relpath(os.path.join(self.folder, path))
         if not leads_below(shown, self.folder, ""):
-            raise GitError(f"{shown} leads out of the working tree", "put the file itself there, not a link")
-        return shown
+            raise GitError(f"{shown} leads out of the repository", "put the file itself there, not a link")
+        return _as_file(shown)
 
     def entry(self, commit: str, path: str) -> tuple[str, str] | None:
         """The mode and the object of a path in a commit; None if there is none."""
@@ -184,7 +184,7 @@ class Repository:
             self._skipped(path)
             return {}
         if os.path.lexists(path) and not os.path.isdir(path):
-            return {inside: Place(path)}
+            return {inside: Place(_as_file(path))}
         return self._listed(inside)
 
     def _listed(self, inside: str) -> dict[str, Place]:
@@ -212,6 +212,11 @@ class Repository:
                 elif status == b"S":  # left out of a sparse checkout: it is as it is in the index
                     found[name] = Place(shown, about.split()[1].decode(), self)
         return found
+
+
+def _as_file(path: str) -> str:
+    """A path that is never taken for standard input."""
+    return os.path.join(os.curdir, path) if path == "-" else path
 
 
 def _is_file(path: str) -> bool:

@@ -70,6 +70,4 @@ class Tree(NamedTuple):
         return UnreadableFile(f"{self.called(path)} cannot be read: {error.strerror}")
 
     def _leads_out(self, path: str) -> GitError:
-        return GitError(
-            f"{self.called(path)} is a link that leads to no file of the repository", "put the file itself there"
-        )
+        return GitError(f"{self.called(path)} leads out of the repository", "put the file itself there, not a link")

@@ -13,6 +13,7 @@ from sleec_runtime.errors import SleecError
 from sleec_runtime.files import read_file
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.output import complain, note_link, tell, write
+from sleec_verify.folders import SUFFIX
 from sleec_verify.report import FORMATS
 
 if TYPE_CHECKING:
@@ -182,13 +183,14 @@ def _selected(config: Config) -> Set[str]:
 
 
 def _targets(base: Config, own: Config, repository: Repository) -> list[Target]:
-    """Those of the base and those of the change, but none that the change removes together with its code."""
+    """Those of the base and those of the change, but none that the change removes together with its code, and none that
+    the change adds with rules in other files than rulesets: errors in them would print their lines."""
     kept = (
         one
         for one in base.targets
         if one in own.targets or os.path.lexists(os.path.join(repository.folder, one.at(one.code)))
     )
-    return list(dict.fromkeys([*kept, *own.targets]))
+    return list(dict.fromkeys([*kept, *(one for one in own.targets if one.rules.endswith(SUFFIX))]))
 
 
 def _check_files(output: str | None, summary: str | None) -> None:

@@ -62,12 +62,15 @@ def judge(found: Gated, policy: Policy) -> None:
     found.heeded = policy.unknown
 
 
+_HELP = "the base decides about this change all the same; let an owner of the file approve it"
+
+
 def _heeded(changes: Iterable[Block], blocking: bool) -> Iterator[Block]:
     """Changes of what decides, as errors if they block."""
     for change in changes:
         assert change.finding is not None, "it is shown as a finding"
         severity: Severity = "error" if blocking else "note"
-        yield change._replace(finding=replace(change.finding, severity=severity))
+        yield change._replace(finding=replace(change.finding, severity=severity, help=_HELP))
 
 
 def _new_suppressions(one: Examined) -> Iterator[Block]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 from sleec_runtime.errors import SleecError
 from sleec_runtime.language import load
 from sleec_verify.gate.baseline import Known
@@ -12,6 +14,7 @@ from sleec_verify.internal_error import internal_errors_of
 
 
 def conform(target: Target, locate: Locate, known: Known) -> Conformed:
+    """The verdict on a target, and its findings that are not `known`."""
     from sleec_runtime.errors import UnsupportedTimes
     from sleec_verify.conformance.structure import UNDECIDED, check_structure
     from sleec_verify.conformance.structure.target import python_files
@@ -23,7 +26,10 @@ def conform(target: Target, locate: Locate, known: Known) -> Conformed:
             if target.domain is not None and target.domain not in found.ruleset.domains:
                 named = ", ".join(found.ruleset.domains) or "none"
                 raise SleecError(f"there is no domain {target.domain} in {target.rules}", f"it has {named}")
-            found.result = check_structure(found.ruleset, python_files(locate(target.at(target.code))), target.domain)
+            code = locate(target.at(target.code))
+            if not os.path.lexists(code):  # what is not there might be a module from elsewhere
+                raise SleecError(f"there is no file or folder {code}", "check the spelling of its name and folder")
+            found.result = check_structure(found.ruleset, python_files(code), target.domain)
     except UnsupportedTimes as error:
         found.why = str(error)
         return found

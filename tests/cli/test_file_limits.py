@@ -55,6 +55,9 @@ ROLES = {
 NOT_FOLLOWED = {"check of a folder", "fmt --check", "diff --git", "gate"}
 """A link that leaves the folder or the repository is skipped or refused before it is read."""
 
+IN_REPOSITORY = {"gate --config", "gate --baseline"}
+"""Files that the base has, too: a link that leaves the repository is refused."""
+
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
@@ -100,6 +103,9 @@ def test_a_file_is_refused_in_every_role(role: str, kind: str, folder: Path, cli
     ran = cli(*made(folder, ROLES[role], make))
     if kind == "device" and role in NOT_FOLLOWED:
         assert "X.sleec" in ran.err
+    elif kind == "device" and role in IN_REPOSITORY:
+        assert ran.code == 2
+        assert "leads out of the repository" in ran.err
     else:
         assert ran.code == 2
         assert why in ran.err
@@ -119,7 +125,8 @@ def test_a_file_that_the_configuration_names_is_refused(setting: str, kind: str,
     make(folder / name)
     ran = cli("gate", "--max-size", str(LIMIT))
     assert ran.code == 2
-    assert why in ran.err
+    # The device is outside the repository.
+    assert (f"{name} leads out of the repository" if kind == "device" else why) in ran.err
 
 
 @pytest.mark.parametrize("command", ["diff --git HEAD", "diff --git HEAD..HEAD rules", "gate"])
