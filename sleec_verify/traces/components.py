@@ -1,0 +1,100 @@
+"""Components: the parts of a ruleset that no conflict joins.
+
+Two rules are joined if one requires an event that the other forbids or is triggered by, or if a relation mentions
+events of both. A minimal set of rules in conflict lies in one component: what other components require can be done at
+the same time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from sleec_runtime.model import Obligation, Rule, formulas_of, literals, names_of
+from sleec_verify.solver import Undecided
+from sleec_verify.traces.index import Index
+from sleec_verify.traces.relations import Relation, events_of, formulas_of_relation
+
+
+class _Union:
+    """Union-find over names."""
+
+    def __init__(self) -> None:
+        self._parent: dict[object, object] = {}
+
+    def root(self, item: object) -> object:
+        while self._parent.setdefault(item, item) != item:
+            self._parent[item] = self._parent[self._parent[item]]
+            item = self._parent[item]
+        return item
+
+    def join(self, one: object, other: object) -> None:
+        self._parent[self.root(one)] = self.root(other)
+
+
+def components(index: Index) -> list[Index]:
+    """The components with more than one side to an event or with relations, in the order of the text."""
+    union = _Union()
+    contested = {rule.label: list(_contested(index, rule)) for rule in index.ruleset.rules}
+    obliging: dict[str, list[str]] = {}
+    about: dict[str, list[str]] = {}
+    for rule in index.ruleset.rules:
+        for event in dict.fromkeys([rule.trigger, *(o.name for o in contested[rule.label])]):
+            about.setdefault(event, []).append(rule.label)
+        for response in contested[rule.label]:
+            if not response.negated:
+                obliging.setdefault(response.name, []).append(rule.label)
+    for rule in index.ruleset.rules:
+        for response in contested[rule.label]:
+            others = [other.label for other in index.by_trigger.get(response.name, ())]
+            for label in (*others, *(obliging.get(response.name, ()) if response.negated else ())):
+                union.join(rule.label, label)
+    for key, relation in index.relation_by_key.items():
+        for event in events_of(relation):
+            for label in about.get(event, ()):
+                union.join(label, key)
+        for formula in formulas_of_relation(relation):
+            for name in names_of(formula):
+                union.join(("measure", name), key)
+    rules: dict[object, list[Rule]] = {}
+    for rule in index.ruleset.rules:
+        rules.setdefault(union.root(rule.label), []).append(rule)
+    relations: dict[object, list[Relation]] = {}
+    for key, relation in index.relation_by_key.items():
+        relations.setdefault(union.root(key), []).append(relation)
+    return [
+        _part(index, group, [r for root in _roots(union, root, group) for r in relations.get(root, ())])
+        for root, group in rules.items()
+        if root in relations or _has_sides([(rule, contested[rule.label]) for rule in group])
+    ]
+
+
+def _roots(union: _Union, root: object, rules: list[Rule]) -> list[object]:
+    """The groups of relations that bind rules: through events, or through the measures that the rules read."""
+    measures = (name for rule in rules for formula in formulas_of(rule) for name in names_of(formula))
+    return list(dict.fromkeys([root, *(union.root(("measure", name)) for name in measures)]))
+
+
+def _contested(index: Index, rule: Rule) -> Iterator[Obligation]:
+    """The responses at any depth that a conflict can be about."""
+    for clause in rule.clauses():
+        try:
+            obligations = index.contested(clause)
+        except Undecided:
+            obligations = clause.obligations
+        yield from literals(replace(clause, obligations=obligations))
+
+
+def _has_sides(rules: list[tuple[Rule, list[Obligation]]]) -> bool:
+    """Whether something can stand in the way of a response: a prohibition, or its own consequences."""
+    required = {response.name for _, responses in rules for response in responses if not response.negated}
+    triggers = {rule.trigger for rule, _ in rules}
+    forbidden = {response.name for _, responses in rules for response in responses if response.negated}
+    return bool(required & forbidden or required & triggers or forbidden & triggers)
+
+
+def _part(index: Index, rules: list[Rule], relations: list[Relation]) -> Index:
+    kept = sorted((*rules, *relations), key=lambda statement: statement.span)
+    measures = tuple(index.ruleset.measures.values())
+    ruleset = replace(index.ruleset, statements=tuple(kept), inferred=measures)
+    return Index(ruleset, index.untimed, index.recorder, index)

@@ -1,0 +1,294 @@
+"""Conflicts: minimal sets of rules with a situation in which no response complies with them (docs/times.md).
+
+Counterexample-guided refinement of "there is a situation that no continuation suits". The search proposes an abstract
+situation. If a continuation complies with the selected rules, its template excludes all situations that it suits. If
+none does, the rules are reduced to a minimal set, and a lawful history is looked for that leads to the situation; if
+there is none, the facts that no history gives are excluded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from typing import NamedTuple
+
+from sleec_runtime.model import Rule, Value
+from sleec_verify.solver import Undecided
+from sleec_verify.traces.continuations import Continuations
+from sleec_verify.traces.histories import Histories, Moment
+from sleec_verify.traces.index import Index
+from sleec_verify.traces.situations import Fact, Situations
+from sleec_verify.traces.templates import Defeat, Template, template_of
+
+MOST_COPIES = 8
+"""Slots for responses that need several. Published rulesets need one."""
+
+MOST_UNDECIDED = 4
+"""Situations that may stay undecided while the search for other conflicts goes on."""
+
+MOST_TEMPLATES = 400
+"""Templates after which the search gives up."""
+
+
+LATER = -1
+"""The clause of a rule that the response triggers at an instant to come."""
+
+
+class Pair(NamedTuple):
+    """A rule and its clause that decides."""
+
+    rule: str
+    clause: int
+
+
+class Conflict(NamedTuple):
+    """The rules, each with the clauses that decide; a lawful history up to now, and the inputs and measures of now."""
+
+    pairs: tuple[Pair, ...]
+    history: tuple[Moment, ...]
+    now: Moment
+    facts: tuple[Fact, ...]
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(pair.rule for pair in self.pairs))
+
+
+class ConflictSearch:
+    """The conflicts of one component of a ruleset."""
+
+    def __init__(self, index: Index) -> None:
+        self._index = index
+        self._templates: list[Template] = []
+        self._found: list[Conflict] = []
+        self._undecided: list[Undecided] = []
+        self._begin(1)
+
+    def _begin(self, copies: int) -> None:
+        self._copies = copies
+        self._needs_all = False
+        self._situations = Situations(self._index, copies)
+        self._defeat = Defeat(self._situations)
+        self._present: dict[Pair, int] = {}
+        self._counting: dict[int, Template] = {}
+        for template in self._templates or [Template()]:
+            self._add(template)
+        for conflict in self._found:
+            self._exclude_pairs(conflict.pairs)
+
+    def _add(self, template: Template) -> None:
+        if template not in self._templates:
+            self._templates.append(template)
+        self._counting[self._defeat.add(template)] = template
+
+    def find(self) -> Iterator[Conflict]:
+        """Every minimal conflict, by its pairs; none whose pairs contain those of another one found before.
+
+        Raises Undecided where that is all that could be decided.
+        """
+        while True:
+            without_history = [-slot.active for slot in self._situations.slots]
+            without_history += [-active for _, active, _ in self._situations.lasting.values()]
+            # Situations without a history make the plainest witnesses.
+            for assumed in (without_history, []):
+                while self._situations.find(*assumed, *self._counting):
+                    try:
+                        conflict = self._look()
+                    except Undecided as error:
+                        self._leave_open(error)
+                        continue
+                    if conflict is not None:
+                        self._found.append(conflict)
+                        self._exclude_pairs(conflict.pairs)
+                        yield conflict
+            if self._undecided:
+                raise self._undecided[0]
+            # Each template fails because of one pending demand, so that as many copies are enough to defeat all.
+            needed = len(self._situations.core & self._counting.keys())
+            if self._situations.is_exact or (needed <= self._copies and not self._needs_all):
+                return
+            if self._copies >= MOST_COPIES:
+                raise Undecided(f"no conflict with {self._copies} pending triggerings of one response")
+            self._begin(min(MOST_COPIES, max(needed, self._copies + 1)))
+
+    def _leave_open(self, error: Undecided) -> None:
+        """Go on without the situations of the same rules, inputs and slots as the one that was not decided."""
+        self._undecided.append(error)
+        if len(self._undecided) > MOST_UNDECIDED:
+            raise error
+        self._situations.exclude([f for f in self._situations.facts() if f[0] in ("rule", "input", "slot") and f[-1]])
+
+    # One situation --------------------------------------------------------------------------------------------
+
+    def _look(self) -> Conflict | None:
+        """The conflict in the situation proposed, if it is one; else it is excluded with others like it."""
+        s = self._situations
+        facts = s.facts()
+        rules = [str(fact[1]) for fact in facts if fact[0] == "rule"]
+        continuations = Continuations(s, facts)
+        if continuations.complies(rules):
+            template = template_of(continuations, from_now=not s.is_exact)
+            if template in self._templates or len(self._templates) >= MOST_TEMPLATES:
+                raise Undecided(f"no answer after {len(self._templates)} continuations")
+            self._add(template)
+            return None
+        rules = self._minimal(continuations, rules)
+        core = continuations.core()
+        given = {str(fact[1]) for fact in facts if fact[0] == "input" and fact[-1]}
+        foreign = {e for e in given if not any(rule.label in rules for rule in self._index.by_trigger[e])}
+        if foreign or not rules:
+            # With an input of other rules this is no situation of these rules, and of no more it is minimal.
+            for event in foreign if rules else ("",):
+                s.exclude([*core, *([("input", event, True)] if event else [])])
+            return None
+        if not any(self._decides(label, given) for label in rules):
+            # A situation of these rules has one that decides now.
+            needed = [s.formula.every(self._speaking(label)) for label in rules]
+            s.add([*(-s.literal(fact) for fact in core), *needed])
+            return None
+        facts, continuations, given = self._with_fewer_inputs(rules, facts, continuations, given)
+        core = self._without_slots(continuations, rules, facts)
+        slots = {int(str(f[1])) for f in core if f[0] == "slot"}
+        pairs = self._pairs(continuations, rules, given, slots)
+        return self._confirmed(rules, core, given, pairs)
+
+    def _minimal(self, continuations: Continuations, rules: list[str]) -> list[str]:
+        """A minimal set of rules that no response complies with; the last answer is that for these rules there is none.
+        Afterwards, the last answer is that for the minimal set."""
+        kept = [label for label in rules if ("rule", label, True) in continuations.core()]
+        for label in list(kept):
+            less = [other for other in kept if other != label]
+            if not continuations.complies(less):
+                core = continuations.core()
+                kept = [other for other in less if ("rule", other, True) in core]
+        stuck = not continuations.complies(kept)
+        assert stuck, "a core is inconsistent by itself"
+        return kept
+
+    def _with_fewer_inputs(
+        self, rules: list[str], facts: list[Fact], continuations: Continuations, given: set[str]
+    ) -> tuple[list[Fact], Continuations, set[str]]:
+        """A situation with fewer inputs in which the same rules are in conflict."""
+        for event in sorted(given):
+            fewer = given - {event}
+            if any(self._decides(label, fewer) for label in rules):
+                less: list[Fact] = [("input", event, False) if f[:2] == ("input", event) else f for f in facts]
+                smaller = Continuations(self._situations, less)
+                if not smaller.complies(rules) and self._minimal(smaller, rules) == rules:
+                    facts, continuations, given = less, smaller, fewer
+        return facts, continuations, given
+
+    def _without_slots(self, continuations: Continuations, rules: list[str], facts: list[Fact]) -> list[Fact]:
+        """A core with as few slots as can be."""
+        core = continuations.core()
+        left_out: list[Fact] = []
+        for number in sorted({int(str(f[1])) for f in core if f[0] == "slot"}, reverse=True):
+            node = self._situations.slots[number].node
+            about = [f for f in facts if (f[0] in ("slot", "came") and f[1] == number) or f[:2] == ("age", node)]
+            if not continuations.complies(rules, [*left_out, *about]):
+                left_out += about
+        stuck = not continuations.complies(rules, left_out)
+        assert stuck, "the facts that are left suffice"
+        return continuations.core()
+
+    def _decides(self, label: str, given: set[str]) -> bool:
+        rule = self._index.ruleset.by_label[label]
+        return rule.trigger in given and any(map(self._situations.holds, self._situations.guards[label]))
+
+    def _speaking(self, label: str) -> list[int]:
+        s = self._situations
+        trigger = s.inputs[self._index.ruleset.by_label[label].trigger]
+        return [trigger, s.formula.any_of(s.guards[label])]
+
+    def _confirmed(
+        self, rules: list[str], core: list[Fact], given: set[str], pairs: tuple[Pair, ...]
+    ) -> Conflict | None:
+        """The conflict with a lawful history, if there is one."""
+        s = self._situations
+        slots = {int(str(f[1])) for f in core if f[0] == "slot"}
+        histories = Histories(s, self._about_past(core, slots), rules)
+        if not histories.exist():
+            # A history may leave more pending of these rules; then the situation has to say so.
+            own = {n for n, slot in enumerate(s.slots) if slot.rule.label in rules and s.holds(slot.active)}
+            if not histories.exist(strict=False):
+                s.exclude(self._less(histories, strict=False))
+                return None
+            histories = Histories(s, self._about_past(core, slots | own), rules)
+            if not histories.exist():
+                others = [slot for n, slot in enumerate(s.slots) if slot.rule.label in rules and n not in own]
+                needed = [*self._less(histories, strict=True), *(("rule", label, True) for label in rules)]
+                s.add([*(-s.literal(fact) for fact in needed), *(slot.active for slot in others)])
+                self._needs_all = True
+                return None
+        moments, time = histories.history()
+        now = Moment(time, frozenset(given), self._values())
+        return Conflict(pairs, tuple(moments), now, tuple(core))
+
+    def _about_past(self, core: list[Fact], slots: set[int]) -> list[Fact]:
+        """The facts of a core about the past, with all that is known of some slots."""
+        s = self._situations
+        nodes = {s.slots[number].node for number in slots}
+        nodes |= {s.lasting[str(f[1])][2] for f in core if f[0] == "lasts" and f[-1]}
+        return [
+            f
+            for f in s.facts()
+            if f in core or (f[0] in ("slot", "came") and f[1] in slots) or (f[0] == "age" and f[1] in nodes)
+        ]
+
+    @staticmethod
+    def _less(histories: Histories, strict: bool) -> list[Fact]:
+        """A minimal set of facts that no history gives."""
+        needed = histories.refuted()
+        for fact in list(needed):
+            less = [f for f in histories.facts if f not in needed or f == fact]
+            with suppress(Undecided):
+                if not histories.exist(but=less, strict=strict):
+                    refuted = histories.refuted()
+                    needed = [f for f in needed if f in refuted]
+        return needed
+
+    def _values(self) -> Mapping[str, Value]:
+        instant, holds = self._situations.instant, self._situations.holds
+        found: dict[str, Value] = {
+            key[1]: holds(variable) for key, variable in instant.variables.items() if key[0] == "condition"
+        }
+        decoded = instant.measures.decode(holds)
+        assert not isinstance(decoded, list), "find accepts a model only once its order has room"
+        found.update(decoded)
+        return dict(sorted(found.items()))
+
+    def _pairs(
+        self, continuations: Continuations, rules: list[str], given: set[str], slots: set[int]
+    ) -> tuple[Pair, ...]:
+        s = self._situations
+        found: set[Pair] = set()
+        for label in rules:
+            rule: Rule = self._index.ruleset.by_label[label]
+            own = {Pair(label, s.slots[n].pending.number) for n in slots if s.slots[n].rule.label == label}
+            if rule.trigger in given or (not own and self._is_forced(continuations, rules, rule)):
+                own.update(Pair(label, n) for n, guard in enumerate(s.guards[label]) if s.holds(guard))
+            # A rule that only the response triggers, later, has no clause that decides yet.
+            found |= own or {Pair(label, LATER)}
+        order = {label: place for place, label in enumerate(self._index.ruleset.by_label)}
+        return tuple(sorted(found, key=lambda pair: (order[pair.rule], pair.clause)))
+
+    @staticmethod
+    def _is_forced(continuations: Continuations, rules: list[str], rule: Rule) -> bool:
+        """Whether each response that complies with the other rules triggers a rule now."""
+        others = [label for label in rules if label != rule.label]
+        event = continuations.model.instants[continuations.now].event(rule.trigger)
+        return not continuations.complies(others, (), -event)
+
+    def _exclude_pairs(self, pairs: tuple[Pair, ...]) -> None:
+        """No further situation has all these pairs."""
+        s = self._situations
+        for pair in pairs:
+            if pair not in self._present:
+                present = self._present[pair] = s.formula.fresh()
+                selected = s.selected[pair.rule]
+                decides = s.true if pair.clause == LATER else s.guards[pair.rule][pair.clause]
+                s.add([-selected, -decides, present])
+                for slot in s.slots:
+                    if (slot.rule.label, slot.pending.number) == pair:
+                        s.add([-selected, -slot.active, present])
+        s.add([-self._present[pair] for pair in pairs])

@@ -1,0 +1,148 @@
+"""Continuations: whether the robot has a response that complies with some rules in a situation."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+
+from sleec_runtime.model import Clause, Obligation
+from sleec_runtime.model_time import Lasting
+from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
+from sleec_verify.traces.induction import impossible_events
+from sleec_verify.traces.model import TraceModel
+from sleec_verify.traces.relations import relation_key
+from sleec_verify.traces.situations import Fact, Situations, Slot, state_formulas
+
+
+class _Contested(TraceModel):
+    """Traces in which what can always be met is left out."""
+
+    def obligations(self, clause: Clause) -> tuple[Obligation, ...]:
+        return self.index.contested(clause)
+
+
+class Continuations:
+    """What can follow one situation: `facts`, as `Situations.facts` gives them.
+
+    `complies` answers for any set of rules; each fact is an assumption, so that a core names those that matter."""
+
+    def __init__(self, situations: Situations, facts: Iterable[Fact], impossible: frozenset[str] = frozenset()) -> None:
+        """`impossible` events do not occur from now on."""
+        self.situations = situations
+        self._given = tuple(facts)
+        self._is_inductive = bool(impossible)
+        self._inductive: Continuations | None = None
+        self._relied: tuple[str, ...] = ()
+        self.model = model = _Contested(situations.index, impossible=impossible)
+        self.facts: dict[Fact, int] = {}
+        facts = self._given
+        self.nodes = {situations.now: model.node()}
+        self.now = self.nodes[situations.now]
+        slots = {int(str(fact[1])) for fact in facts if fact[0] == "slot" and fact[-1]}
+        for number in slots:
+            self.nodes[situations.slots[number].node] = model.node()
+        self._active = {str(fact[1]): model.formula.fresh() for fact in facts if fact[0] == "lasts" and fact[-1]}
+        for key in self._active:
+            self.nodes[situations.lasting[key][2]] = model.node()
+        occurred = {event: model.formula.fresh() for event in situations.occurred}
+        model.occurred = lambda event: occurred.get(event, -model.formula.true)
+        for key in self._active:
+            law, _, node = situations.lasting[key]
+            model.began[key] = lambda at, key=key, law=law, node=node: self._lasts(key, law, node, at)  # type: ignore[misc]
+        model.instant(model.formula.true, at=self.now)
+        model.after = self.now
+        instant = model.instants[self.now]
+        for formula in state_formulas(situations.index):
+            instant.literal(formula)
+        for event in sorted(situations.index.mere_inputs - situations.inputs.keys()):
+            model.add([-instant.event(event)])
+        active = {number: model.formula.fresh() for number in slots}
+        came: dict[tuple[int, Occurs], int] = {}
+        for number in slots:
+            slot = situations.slots[number]
+            for leaf, flag in slot.came.items():
+                known = flag == -situations.true
+                came[number, leaf] = -model.formula.true if known else model.formula.fresh()
+            demand = self._pending(slot, number, slot.demand, came)
+            model.add([-model.in_force(slot.rule.label), -active[number], demand])
+        for fact in facts:
+            literal = self._literal(fact, active, came, occurred)
+            if literal is not None:
+                self.facts[fact] = literal
+
+    def _lasts(self, key: str, law: Lasting, node: int, at: int) -> list[int]:
+        """Literals that together say that a relation that began before now binds at an instant."""
+        if law.duration is None:
+            return [self._active[key]]
+        return [self._active[key], self.model.times.at_most(self.nodes[node], at, last_second(law.duration))]
+
+    def _pending(self, slot: Slot, number: int, demand: Demand, came: dict[tuple[int, Occurs], int]) -> int:
+        """A literal that implies that a pending demand is met from now on."""
+        model = self.model
+        assert not isinstance(demand, int), "slots have no literals"
+        if isinstance(demand, Occurs):
+            later = model.occurs(self.nodes[slot.node], demand)
+            flag = came[number, demand]
+            return model.formula.every([-flag, later]) if demand.negated else model.formula.any_of([flag, later])
+        parts = [self._pending(slot, number, part, came) for part in demand.parts]
+        return model.formula.every(parts) if isinstance(demand, Every) else model.formula.any_of(parts)
+
+    def _literal(
+        self, fact: Fact, active: dict[int, int], came: dict[tuple[int, Occurs], int], occurred: dict[str, int]
+    ) -> int | None:
+        """The literal of a fact here; None for one that binds nobody: that an act does not occur yet."""
+        kind, name, *rest = fact
+        value = bool(rest[-1])
+        instant = self.model.instants[self.now]
+        if kind == "rule" or (kind == "lasts" and not value):
+            return None
+        if kind == "input":
+            if not value and name not in self.situations.index.mere_inputs:
+                return None
+            literal = instant.event(str(name))
+        elif kind == "state":
+            literal = instant.variables[name]  # type: ignore[index]
+        elif kind == "slot":
+            literal = active[int(str(name))]
+        elif kind == "came":
+            literal = came[int(str(name)), rest[0]]  # type: ignore[index]
+        elif kind == "age":
+            literal = self.model.times.at_most(self.nodes[int(str(name))], self.now, int(str(rest[0])))
+        elif kind == "occurred":
+            literal = occurred[str(name)]
+        else:
+            literal = self._active[str(name)]
+        return literal if value else -literal
+
+    @property
+    def relations(self) -> list[str]:
+        return [relation_key(relation) for relation in self.situations.index.relations]
+
+    @property
+    def answering(self) -> Continuations:
+        """What gave the last answer: these, or those without the events that induction excludes."""
+        return self if self._inductive is None else self._inductive
+
+    def complies(self, rules: Collection[str], but: Collection[Fact] = (), *more: int) -> bool:
+        """Whether some response and continuation complies with `rules`. Facts of `but` are left open.
+
+        Raises Undecided."""
+        self._inductive = None
+        index = self.situations.index
+        if index.is_cyclic and not self._is_inductive:
+            # Where a response leads back to its trigger, instants could be added for ever.
+            impossible = impossible_events(index, rules)
+            if impossible:
+                self._relied = tuple(rules)
+                self._inductive = Continuations(self.situations, self._given, impossible)
+                return self._inductive.complies(rules, but)
+        literals = [literal for fact, literal in self.facts.items() if fact not in but]
+        return self.model.ask(*literals, *more, counting=[*rules, *self.relations])
+
+    def core(self) -> list[Fact]:
+        """The facts that the last answer, which was no, rests on."""
+        if self._inductive is not None:
+            # That events are impossible rests on all rules.
+            found = [fact for fact in self._inductive.core() if fact[0] != "rule"]
+            return [*found, *(("rule", label, True) for label in self._relied)]
+        found = [fact for fact, literal in self.facts.items() if literal in self.model.core]
+        return [*found, *(("rule", key, True) for key in self.model.matter() if key in self.situations.selected)]

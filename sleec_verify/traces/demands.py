@@ -1,0 +1,211 @@
+"""Demands: what a response asks of a trace, as a formula over occurrences in windows.
+
+A demand is a formula of metric temporal logic over one instant, in negation normal form (R. Koymans, "Specifying
+real-time properties with metric temporal logic", 1990): its atoms say that an event occurs, or does not occur, in a
+window of seconds after that instant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import chain as chained
+from itertools import product
+from math import ceil, floor
+from typing import Literal, NamedTuple, Union
+
+from sleec_runtime.model import Clause, Obligation, Rational, in_text_order
+from sleec_runtime.model_time import Length, Window
+from sleec_verify.solver import Undecided
+
+Untimed = Literal["at", "eventually"]
+"""What a response without a window means: at the instant of its trigger (LEGOS), or at some time from then on
+(SLEEC-TK)."""
+
+
+class Occurs(NamedTuple):
+    """The event occurs (`negated`: does not occur) at some time from `start` to `end`, in seconds after the trigger,
+    both included. None is no bound."""
+
+    event: str
+    start: int | None
+    end: int | None
+    negated: bool = False
+
+    @property
+    def is_immediate(self) -> bool:
+        """Whether its window is the instant of the trigger."""
+        return self.start == self.end == 0
+
+
+class Every(NamedTuple):
+    parts: tuple[Demand, ...]
+
+
+class Some(NamedTuple):
+    parts: tuple[Demand, ...]
+
+
+Demand = Union[int, Occurs, Every, Some]
+"""A formula in negation normal form. An integer is a literal about the instant of the trigger."""
+
+Chain = Callable[[Clause], Sequence[int]]
+"""For each clause of a chain that stands by itself, in the order of the text, the literal "this clause decides"."""
+
+
+class Responses:
+    """Reads responses under one meaning of those without a window."""
+
+    def __init__(self, untimed: Untimed) -> None:
+        self._untimed = untimed
+
+    def of(self, obligations: tuple[Obligation, ...], chain: Chain, kept: bool = True, after: int = 0) -> Demand:
+        """The demand that all of `obligations`, which are due after so many seconds, are met (not `kept`: that one is
+        not met).
+
+        Raises Undecided for a window whose length a measure gives.
+        """
+        parts = tuple(self._obligation(o, chain, kept, after) for o in obligations)
+        return _joined(parts, every=kept)
+
+    def of_clause(self, clause: Clause, chain: Chain, kept: bool = True, after: int = 0) -> Demand:
+        """As `of`, for a response with a chain of hedges of its own."""
+        members = []
+        for member, decides in zip(in_text_order(clause), chain(clause)):
+            due = self.of(member.obligations, chain, kept, after)
+            members.append(Some((-decides, due)) if kept else Every((decides, due)))
+        return _joined(tuple(members), every=kept)
+
+    def _obligation(self, obligation: Obligation, chain: Chain, kept: bool, after: int) -> Demand:
+        timing = obligation.timing
+        start, end = self.window(obligation)
+        negated = obligation.negated == kept
+        itself = Occurs(obligation.name, after + start, None if end is None else after + end, negated)
+        if timing is None:
+            return itself
+        parts: list[Demand] = [itself]
+        if timing.otherwise is not None:
+            closed = after + end if timing.window is not None and end is not None else after
+            parts.append(self.of_clause(timing.otherwise, chain, kept, closed))
+        if timing.instead is not None:
+            parts.append(self.of_clause(timing.instead, chain, kept, after))
+        return _joined(tuple(parts), every=not kept)
+
+    def window(self, obligation: Obligation) -> tuple[int, int | None]:
+        """The first and the last second of the window of a response, after its trigger.
+
+        Raises Undecided where a measure gives the length.
+        """
+        window: Window | None = None if obligation.timing is None else obligation.timing.window
+        if window is None:
+            return (0, 0) if self._untimed == "at" else (0, None)
+        # Instants are whole seconds.
+        start = 0 if window.start is None else ceil(seconds(window.start))
+        return start, None if window.end is None else floor(seconds(window.end))
+
+    def variants(self, obligation: Obligation) -> list[tuple[Demand, list[tuple[int, ...]]]]:
+        """The demands of one obligation, without literals, each with the choices that lead to it: which clause of each
+        chain of hedges inside the response decides."""
+        found: dict[Demand, list[tuple[int, ...]]] = {}
+        for choice in _choices(obligation):
+            values = {_DECIDES: True, -_DECIDES: False}
+            demand = simplified(self.of((obligation,), _Chosen(choice, lambda _: ()).flags), values)
+            found.setdefault(demand, []).append(choice)
+        return list(found.items())
+
+    def deciding(self, obligation: Obligation, choice: tuple[int, ...], chain: Chain) -> list[int]:
+        """The literals by which the chains inside a response decide as in `choice`."""
+        chosen = _Chosen(choice, chain)
+        self.of((obligation,), chosen.flags)
+        return chosen.literals
+
+
+class _Chosen:
+    """One choice of deciding clauses, applied to the chains of a response in the order in which they are read."""
+
+    def __init__(self, choice: tuple[int, ...], chain: Chain) -> None:
+        self._choice = iter(choice)
+        self._chain = chain
+        self.literals: list[int] = []
+
+    def flags(self, clause: Clause) -> list[int]:
+        number = next(self._choice)
+        literals = self._chain(clause)
+        if number < len(literals):
+            self.literals.append(literals[number])
+        return [_DECIDES if place == number else -_DECIDES for place, _ in enumerate(in_text_order(clause))]
+
+
+_DECIDES = 1
+
+
+def _choices(obligation: Obligation) -> Iterator[tuple[int, ...]]:
+    """Which clause of each chain inside a response decides, in the order in which `Responses` reads the chains."""
+    alternatives = [] if obligation.timing is None else list(obligation.timing.alternatives())
+    for parts in product(*(list(_choices_of_chain(clause)) for clause in alternatives)):
+        yield tuple(chained.from_iterable(parts))
+
+
+def _choices_of_chain(clause: Clause) -> Iterator[tuple[int, ...]]:
+    members = list(in_text_order(clause))
+    inner = [_choices(obligation) for member in members for obligation in member.obligations]
+    for parts in product(*(list(choices) for choices in inner)):
+        for number in range(len(members)):
+            yield (number, *chained.from_iterable(parts))
+
+
+def simplified(demand: Demand, values: dict[int, bool]) -> Demand:
+    """The demand with the literals of `values` replaced by their values. `Every(())` is true and `Some(())` false."""
+    if isinstance(demand, Occurs):
+        return demand
+    if isinstance(demand, int):
+        return (Every(()) if values[demand] else Some(())) if demand in values else demand
+    parts: list[Demand] = []
+    absorbing: Demand = Some(()) if isinstance(demand, Every) else Every(())
+    for part in demand.parts:
+        simple = simplified(part, values)
+        if simple == absorbing and type(simple) is type(absorbing):
+            return absorbing
+        if type(simple) is type(demand):
+            parts += simple.parts
+        else:
+            parts.append(simple)
+    if len(parts) == 1:
+        return parts[0]
+    return Every(tuple(parts)) if isinstance(demand, Every) else Some(tuple(parts))
+
+
+def seconds(length: Length) -> Rational:
+    """A length of time in seconds. Raises Undecided where a measure gives it."""
+    value = length.seconds
+    if value is None:
+        raise Undecided(f"the length of time {length} is that of a measure: not analysed")
+    return value
+
+
+def last_second(length: Length) -> int:
+    """The last second of what lasts so long, counted from 0. Raises Undecided where a measure gives the length."""
+    return int(-(-seconds(length) // 1) - 1)
+
+
+def _joined(parts: tuple[Demand, ...], every: bool) -> Demand:
+    if len(parts) == 1:
+        return parts[0]
+    return Every(parts) if every else Some(parts)
+
+
+def occurrences(demand: Demand) -> Iterator[Occurs]:
+    """Every atom of a demand."""
+    if isinstance(demand, Occurs):
+        yield demand
+    elif not isinstance(demand, int):
+        for part in demand.parts:
+            yield from occurrences(part)
+
+
+def conjuncts(demand: Demand) -> Iterator[Occurs]:
+    """The atoms that hold wherever the demand does, whatever its literals are."""
+    if isinstance(demand, Occurs):
+        yield demand
+    elif isinstance(demand, Every):
+        for part in demand.parts:
+            yield from conjuncts(part)

@@ -1,0 +1,180 @@
+"""Histories: whether a lawful history leads to an abstract situation, and one that does.
+
+A history is lawful if no rule and no relation is violated so far, each triggering by itself (docs/times.md). It is a
+trace model in which all instants come before now, and a demand whose window is still open at now need not be met.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+from typing import NamedTuple
+
+from sleec_runtime.model import Rule, Value
+from sleec_runtime.model_time import Lasting
+from sleec_verify.traces.demands import Demand, Every, Occurs
+from sleec_verify.traces.model import TraceModel
+from sleec_verify.traces.situations import Fact, Situations, Slot
+
+
+class Moment(NamedTuple):
+    """One instant of a history: its time in seconds, its events, and the conditions and measures that count."""
+
+    time: int
+    events: frozenset[str]
+    conditions: Mapping[str, Value]
+
+
+class Histories(TraceModel):
+    """The lawful histories that lead to the situations with some `facts`.
+
+    With `strict`, the slots of the facts are all that the history leaves pending of `rules`."""
+
+    def __init__(self, situations: Situations, facts: Iterable[Fact], rules: Collection[str]) -> None:
+        super().__init__(situations.index)
+        self.strict = self.formula.fresh()
+        self._situations = situations
+        self._of = frozenset(rules)
+        self._slots: dict[int, Slot] = {}
+        self.now = self.before = self.node()
+        self.facts: dict[Fact, int] = {}
+        nodes: dict[int, int] = {}
+        wanted = [fact for fact in facts if fact[0] in ("slot", "came", "age", "occurred", "lasts")]
+        for fact in wanted:
+            if fact[0] == "slot" and fact[-1]:
+                slot = situations.slots[int(str(fact[1]))]
+                self._slots[nodes.setdefault(slot.node, self.node())] = slot
+            elif fact[0] == "lasts" and fact[-1]:
+                nodes.setdefault(situations.lasting[str(fact[1])][2], self.node())
+        for fact in wanted:
+            literal = self._literal(fact, nodes)
+            if literal is not None:
+                self.facts[fact] = literal
+
+    def _literal(self, fact: Fact, nodes: dict[int, int]) -> int | None:
+        kind, name, *rest = fact
+        value = bool(rest[-1])
+        if kind == "slot":
+            if not value:
+                return None
+            slot = self._situations.slots[int(str(name))]
+            return self._triggers(slot, nodes[slot.node])
+        if kind == "came":
+            slot = self._situations.slots[int(str(name))]
+            leaf = rest[0]
+            assert isinstance(leaf, Occurs)
+            return self._came(nodes[slot.node], leaf) if value else self._never(nodes[slot.node], leaf)
+        if kind == "age":
+            if int(str(name)) not in nodes:
+                return None
+            literal = self.times.at_most(nodes[int(str(name))], self.now, int(str(rest[0])))
+            return literal if value else -literal
+        if kind == "occurred":
+            event = str(name)
+            return self.exists(lambda at: self.instants[at].event(event)) if value else self._never_at_all(event)
+        law, _, node = self._situations.lasting[str(name)]
+        return self._lasts(law, nodes[node]) if value else None
+
+    def _triggers(self, slot: Slot, node: int) -> int:
+        """A literal that implies that a slot's demand is triggered at the time of a node and, as far as flags do not
+        say it, is neither met nor broken."""
+        unmet = [self._never(node, leaf) for leaf, flag in slot.came.items() if flag == -self._situations.true]
+
+        def triggered(at: int) -> int:
+            same_time = self.times.within(node, at, 0, 0)
+            if -self.formula.true in same_time:
+                return -self.formula.true
+            guard = self.instants[at].guards(slot.rule, self.reading)[slot.pending.number]
+            choices = [
+                self.formula.every(self.index.responses.deciding(slot.pending.obligation, choice, self.chain(at)))
+                for choice in slot.pending.choices
+            ]
+            return self.formula.every([*same_time, self.instants[at].used, guard, self.formula.any_of(choices)])
+
+        return self.formula.every([self.exists(triggered), *unmet])
+
+    def _came(self, at: int, leaf: Occurs) -> int:
+        return self.exists(lambda other: self.occurrence(at, other, leaf._replace(negated=False)))
+
+    def _never(self, at: int, leaf: Occurs) -> int:
+        return self.occurs(at, leaf._replace(negated=True))
+
+    def _never_at_all(self, event: str) -> int:
+        never = self.formula.fresh()
+        self.everywhere(lambda at: self.add([-never, -self.instants[at].event(event)]))
+        return never
+
+    def _lasts(self, law: Lasting, node: int) -> int:
+        """A literal that implies that a relation begins at the time of a node and is not over before now."""
+
+        def begins(at: int) -> int:
+            same_time = self.times.within(node, at, 0, 0)
+            return self.formula.every(
+                [*same_time, self.instants[at].event(law.event), self.condition(at, law.condition)]
+            )
+
+        began = self.exists(begins)
+        if law.end is None:
+            return began
+        end, goes_on = law.end, self.formula.fresh()
+
+        def not_over(other: int) -> None:
+            ends = [self.instants[other].event(end), self.condition(other, law.end_condition)]
+            self.add([-goes_on, *(-literal for literal in (*ends, *self.times.within(node, other, 0, None)))])
+
+        self.everywhere(not_over)
+        return self.formula.every([began, goes_on])
+
+    # Nothing else is pending ----------------------------------------------------------------------------------
+
+    def _encode(self, at: int, rule: Rule) -> None:
+        super()._encode(at, rule)
+        if rule.label not in self._of:
+            return
+        for number, (clause, guard) in enumerate(self.guards(at, rule)):
+            for obligation in self.index.contested(clause):
+                demand = self.due(at, (obligation,))
+                settled = self.formula.any_of([self._settled(at, demand), *self._dominated(at, rule, number, demand)])
+                self.add([-self.strict, -guard, settled])
+
+    def _settled(self, at: int, demand: Demand) -> int:
+        """A literal that implies that a demand is met before now, whatever follows."""
+        if isinstance(demand, int):
+            return demand
+        if isinstance(demand, Occurs):
+            if not demand.negated:
+                return self.exists(lambda other: self.occurrence(at, other, demand))
+            if demand.end is None:
+                return -self.formula.true
+            return self.formula.every([self.occurs(at, demand), -self.open(at, demand)])
+        parts = [self._settled(at, part) for part in demand.parts]
+        return self.formula.every(parts) if isinstance(demand, Every) else self.formula.any_of(parts)
+
+    def _dominated(self, at: int, rule: Rule, number: int, demand: Demand) -> list[int]:
+        """Literals each of which implies that a slot says all that a demand leaves."""
+        found = []
+        for node, slot in self._slots.items():
+            if (slot.rule.label, slot.pending.number) == (rule.label, number):
+                found.append(self.formula.every(self.times.within(node, at, 0, 0)))
+                if slot.is_dominant and slot.demand == demand and isinstance(demand, Occurs):
+                    earlier, later = (at, node) if demand.negated else (node, at)
+                    found.append(self.times.at_most(later, earlier, 0))
+        return found
+
+    # Questions ------------------------------------------------------------------------------------------------
+
+    def exist(self, *, but: Collection[Fact] = (), strict: bool = True) -> bool:
+        """Whether there is such a history; facts of `but` are left open. Raises Undecided."""
+        literals = [literal for fact, literal in self.facts.items() if fact not in but]
+        return self.ask(*literals, *([self.strict] if strict else []))
+
+    def refuted(self) -> list[Fact]:
+        """The facts that the last answer, which was no, rests on."""
+        return [fact for fact, literal in self.facts.items() if literal in self.core]
+
+    def history(self) -> tuple[list[Moment], int]:
+        """The instants of the history of the last answer, which was yes, and the time of now; the first is at 0."""
+        times, _ = self.schedule()
+        nodes = sorted((n for n in self.used() if n in self.instants), key=lambda n: times[n])
+        begin = min((times[node] for node in nodes), default=times[self.now])
+        moments = [Moment(times[n] - begin, self.events(n), dict(sorted(self.values(n).items()))) for n in nodes]
+        return moments, times[self.now] - begin

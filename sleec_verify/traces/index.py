@@ -1,0 +1,150 @@
+"""The indices of a ruleset that questions about traces need, each made once, in time linear in the ruleset."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from graphlib import CycleError, TopologicalSorter
+from typing import TypeVar
+
+from sleec_runtime.model import (
+    Agent,
+    Assume,
+    Clause,
+    Declaration,
+    Exclusive,
+    Never,
+    Obligation,
+    Rule,
+    Ruleset,
+    literals,
+)
+from sleec_runtime.model_time import RELATIONS
+from sleec_verify.solver import Recorder
+from sleec_verify.traces.demands import Responses, Untimed
+from sleec_verify.traces.relations import Relation, events_of, relation_key, required_events
+
+_Indexed = TypeVar("_Indexed", Rule, Relation)
+
+
+class Index:
+    """A ruleset under one meaning of responses without a window. `recorder` is told of every question asked."""
+
+    def __init__(
+        self,
+        ruleset: Ruleset,
+        untimed: Untimed = "at",
+        recorder: Recorder | None = None,
+        whole: Index | None = None,
+    ) -> None:
+        """`whole` is the ruleset that this is a part of."""
+        if whole is not None:
+            self.mere_inputs = whole.mere_inputs
+            self.free = whole.free
+        self.ruleset = ruleset
+        self.untimed = untimed
+        self.recorder = recorder
+        self.responses = Responses(untimed)
+
+    @cached_property
+    def relations(self) -> list[Relation]:
+        """Relations and constraints, in the order of the text."""
+        return [s for s in self.ruleset.statements if isinstance(s, (*RELATIONS, Exclusive, Never, Assume))]
+
+    @cached_property
+    def relation_by_key(self) -> dict[str, Relation]:
+        return {relation_key(relation): relation for relation in self.relations}
+
+    @cached_property
+    def by_trigger(self) -> dict[str, list[Rule]]:
+        return _index((rule.trigger, rule) for rule in self.ruleset.rules)
+
+    @cached_property
+    def obliging(self) -> dict[str, list[Rule]]:
+        """The rules with a response, at any depth, that obliges an event."""
+        return self._responding(negated=False)
+
+    @cached_property
+    def forbidding(self) -> dict[str, list[Rule]]:
+        """The rules with a response, at any depth, that forbids an event."""
+        return self._responding(negated=True)
+
+    def _responding(self, negated: bool) -> dict[str, list[Rule]]:
+        return _index((o.name, rule) for rule in self.ruleset.rules for o in responses_of(rule) if o.negated == negated)
+
+    @cached_property
+    def free(self) -> frozenset[str]:
+        """The events that are free (`sleec_verify.traces.freedom`)."""
+        from sleec_verify.traces.freedom import free_events
+
+        return free_events(self)
+
+    def contested(self, clause: Clause) -> tuple[Obligation, ...]:
+        """The obligations of a clause that cannot always be met, whatever the hedges inside them decide.
+
+        Raises Undecided for a window whose length a measure gives.
+        """
+        from sleec_verify.traces.freedom import is_always_met
+
+        return tuple(
+            obligation
+            for obligation in clause.obligations
+            if not all(is_always_met(demand, self.free) for demand, _ in self.responses.variants(obligation))
+        )
+
+    @cached_property
+    def relations_of_event(self) -> dict[str, list[Relation]]:
+        return _index((event, relation) for relation in self.relations for event in events_of(relation))
+
+    @cached_property
+    def is_cyclic(self) -> bool:
+        """Whether a response can lead back to its own trigger, through other rules and relations too."""
+        graph: TopologicalSorter[str] = TopologicalSorter()
+        for rule in self.ruleset.rules:
+            graph.add(rule.trigger, *(o.name for o in responses_of(rule) if not o.negated))
+        for relation in self.relations:
+            for event in required_events(relation):
+                for other in events_of(relation):
+                    if other != event:
+                        graph.add(other, event)
+        try:
+            graph.prepare()
+        except CycleError:
+            return True
+        return False
+
+    @cached_property
+    def agents(self) -> dict[str, Agent]:
+        """Whose each event of a rule is: as it is declared; else the robot's if a response names it, and the
+        environment's if it is a trigger only."""
+        found: dict[str, Agent] = {}
+        for statement in self.ruleset.statements:
+            if isinstance(statement, Declaration) and statement.agent is not None:
+                found.update(dict.fromkeys(statement.names, statement.agent))
+        for rule in self.ruleset.rules:
+            for response in responses_of(rule):
+                found.setdefault(response.name, "system")
+        for rule in self.ruleset.rules:
+            found.setdefault(rule.trigger, "environment")
+        return found
+
+    @cached_property
+    def mere_inputs(self) -> frozenset[str]:
+        """The events that only the environment causes (docs/times.md)."""
+        return frozenset(event for event, agent in self.agents.items() if agent == "environment")
+
+
+def responses_of(rule: Rule) -> Iterator[Obligation]:
+    """Every response of a rule at any depth, in the order of the text."""
+    for clause in rule.clauses():
+        yield from literals(clause)
+
+
+def _index(pairs: Iterable[tuple[str, _Indexed]]) -> dict[str, list[_Indexed]]:
+    """The values of each key, each once, in their order."""
+    index: dict[str, list[_Indexed]] = {}
+    for key, value in pairs:
+        values = index.setdefault(key, [])
+        if not values or values[-1] is not value:
+            values.append(value)
+    return index

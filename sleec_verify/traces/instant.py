@@ -1,0 +1,102 @@
+"""One instant of a trace as a copy of the propositional encoding: its events, its conditions, its measures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from sleec_runtime.model import Measure
+from sleec_verify.cnf import Encoder, Key
+
+
+class Formula:
+    """The clauses that the instants of one trace share, and the numbers of its variables."""
+
+    def __init__(self) -> None:
+        self.clauses: list[list[int]] = []
+        self.top = 0
+        self.true = self.fresh()
+        self.clauses.append([self.true])
+
+    def fresh(self) -> int:
+        self.top += 1
+        return self.top
+
+    def any_of(self, literals: list[int]) -> int:
+        """A literal that implies that one of these is true."""
+        literals = [literal for literal in literals if literal != -self.true]
+        if self.true in literals:
+            return self.true
+        if len(literals) <= 1:
+            return literals[0] if literals else -self.true
+        some = self.fresh()
+        self.clauses.append([-some, *literals])
+        return some
+
+    def every(self, literals: list[int]) -> int:
+        """A literal that implies all of these."""
+        literals = [literal for literal in literals if literal != self.true]
+        if -self.true in literals:
+            return -self.true
+        if len(literals) <= 1:
+            return literals[0] if literals else self.true
+        every = self.fresh()
+        self.clauses += ([-every, literal] for literal in literals)
+        return every
+
+
+class Instant(Encoder):
+    """An encoder whose triggers and obligations are one kind of thing: the events of this instant.
+
+    `used` says whether the trace has this instant. `impossible` are events that cannot occur here.
+    """
+
+    def __init__(
+        self,
+        formula: Formula,
+        measures: Mapping[str, Measure],
+        used: int,
+        impossible: frozenset[str] = frozenset(),
+    ) -> None:
+        self._formula = formula
+        super().__init__(measures, clauses=formula.clauses)
+        self._true = formula.true
+        self.used = used
+        self._impossible = impossible
+        self.expanded: set[str] = set()
+        self._regions = 0
+
+    def fresh(self) -> int:
+        return self._formula.fresh()
+
+    def event(self, name: str) -> int:
+        """The literal "the event occurs at this instant"; the trace then has the instant."""
+        return self.variable(("event", name))
+
+    def variable(self, key: Key) -> int:
+        if key[0] in ("trigger", "obligation"):
+            key = ("event", key[1])
+        variable = self.variables.get(key)
+        if variable is None:
+            variable = super().variable(key)
+            if key[0] == "event":
+                self.clauses.append([-variable, self.used])
+                if key[1] in self._impossible:
+                    self.clauses.append([-variable])
+        return variable
+
+    def events(self) -> dict[str, int]:
+        """The events that the formula mentions, with their literals."""
+        return {key[1]: variable for key, variable in self.variables.items() if key[0] == "event"}
+
+    def state(self) -> dict[Key, int]:
+        """The variables of conditions and measures, by what they stand for."""
+        return {key: variable for key, variable in self.variables.items() if key[0] != "event"}
+
+    def settle(self) -> None:
+        """Order the regions of the measures that the formula has mentioned since the last call."""
+        if self._count() != self._regions:
+            self.measures.close()
+            self._regions = self._count()
+
+    def _count(self) -> int:
+        return sum(map(len, self.measures.cuts.values())) + len(self.measures.orders)

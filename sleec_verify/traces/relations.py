@@ -1,0 +1,112 @@
+"""Relations and constraints: the events and measures that they mention, and what they demand of one instant.
+
+Here a relation is any statement of a ruleset that binds every trace besides the rules: `Relation`, `Exclusive`,
+`Never` and `Assume`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import Union
+
+from sleec_runtime.model import Assume, Atom, Exclusive, Formula, Never, leaves
+from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
+from sleec_runtime.model_time import Relation as TimedRelation
+from sleec_verify.traces.instant import Instant
+
+Relation = Union[TimedRelation, Exclusive, Never, Assume]
+
+
+def relation_key(relation: Relation) -> str:
+    """A key for a relation that is not the label of a rule: the place of its text."""
+    return f"relation at {relation.span.start}"
+
+
+def events_of(relation: Relation) -> Iterator[str]:
+    """The events that a relation mentions."""
+    if isinstance(relation, EventRelation):
+        yield relation.left
+        yield relation.right
+    elif isinstance(relation, Effect):
+        yield relation.event
+    elif isinstance(relation, Lasting):
+        yield relation.event
+        if relation.end is not None:
+            yield relation.end
+    elif isinstance(relation, Exclusive):
+        yield from relation.names
+    elif isinstance(relation, (Never, Assume)):
+        yield from (a.name for a in leaves(relation.formula) if isinstance(a, Atom) and a.kind != "condition")
+
+
+def formulas_of_relation(relation: Relation) -> Iterator[Formula]:
+    """The formulas of a relation over conditions and measures."""
+    if isinstance(relation, MeasureRelation):
+        candidates: tuple[Formula | None, ...] = (relation.left, relation.right)
+    elif isinstance(relation, Lasting):
+        candidates = (relation.condition, relation.formula, relation.end_condition)
+    elif isinstance(relation, (Effect, Never, Assume)):
+        candidates = (relation.formula,)
+    else:
+        candidates = ()
+    yield from (formula for formula in candidates if formula is not None)
+
+
+def exclusions(relation: Relation) -> Iterator[tuple[str, str]]:
+    """The pairs of events that a relation excludes from one instant, whatever else holds there."""
+    if isinstance(relation, EventRelation) and relation.relation == "mutualExclusive":
+        yield relation.left, relation.right
+    elif isinstance(relation, Exclusive):
+        yield from combinations(dict.fromkeys(relation.names), 2)
+
+
+def required_events(relation: Relation) -> Iterator[str]:
+    """The events that a relation can require to occur."""
+    if isinstance(relation, EventRelation):
+        if relation.relation in ("equal", "happenBefore"):
+            yield relation.left
+        if relation.relation in ("equal", "witness"):
+            yield relation.right
+    elif isinstance(relation, Lasting):
+        if relation.end is not None:
+            yield relation.end
+    elif isinstance(relation, (Assume, Never)) or (isinstance(relation, Effect) and relation.relation == "causation"):
+        yield from events_of(relation)
+
+
+def invariant(instant: Instant, relation: Relation) -> Iterator[list[int]]:
+    """The clauses of a relation about one instant by itself; none for `happenBefore` and `when … until`."""
+    unused = -instant.used
+    if isinstance(relation, EventRelation):
+        left, right = instant.event(relation.left), instant.event(relation.right)
+        if relation.relation == "mutualExclusive":
+            yield [-left, -right]
+        elif relation.relation != "happenBefore":
+            yield [-left, right]
+            if relation.relation == "equal":
+                yield [-right, left]
+    elif isinstance(relation, MeasureRelation):
+        left = instant.literal(relation.left)
+        if relation.right is None:
+            yield [unused, left]
+            return
+        right = instant.literal(relation.right)
+        if relation.relation in ("imply", "iff"):
+            yield [unused, -left, right]
+            if relation.relation == "iff":
+                yield [unused, left, -right]
+        else:
+            yield [unused, -left, -right]
+    elif isinstance(relation, Effect):
+        occurs, holds = instant.event(relation.event), instant.literal(relation.formula)
+        if relation.relation == "causation":
+            yield [unused, -holds, occurs]
+        else:
+            yield [-occurs, holds if relation.relation == "includes" else -holds]
+    elif isinstance(relation, Exclusive):
+        for one, other in exclusions(relation):
+            yield [-instant.event(one), -instant.event(other)]
+    elif isinstance(relation, (Assume, Never)):
+        holds = instant.literal(relation.formula)
+        yield [unused, holds if isinstance(relation, Assume) else -holds]

@@ -1,0 +1,308 @@
+"""Situations as an abstract state: what a history leaves pending, and the inputs and measures of now.
+
+The state has *slots*. A slot is one pending demand: a response of a clause that decided before now and that the events
+so far have neither met nor broken. For a response with a single window that opens at its trigger, one slot is enough:
+the earliest deadline implies all later ones, and the latest end of a prohibition implies all earlier ones (dominance,
+proved in Coq: proofs/traces). Other responses have `copies` slots each.
+
+Nothing here says that a lawful history leads to the state: `sleec_verify.traces.histories` decides that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from sleec_runtime.model import Atom, Obligation, Rule, formulas_of, leaves
+from sleec_runtime.model import Formula as Condition
+from sleec_runtime.model_time import EventRelation, Lasting
+from sleec_verify.solver import MiniSat, Undecided
+from sleec_verify.traces.demands import Demand, Every, Occurs, last_second, occurrences
+from sleec_verify.traces.difference import Differences
+from sleec_verify.traces.index import Index
+from sleec_verify.traces.instant import Formula, Instant
+from sleec_verify.traces.relations import formulas_of_relation, relation_key
+
+Fact = tuple[object, ...]
+"""A literal of a situation by its meaning, and True or False: ``("rule", label)``, ``("input", event)``,
+``("state", key)``, ``("slot", n)``, ``("came", n, leaf)``, ``("age", node, seconds)`` (the age is at most so many
+seconds), ``("occurred", event)`` or ``("lasts", key)``."""
+
+
+class Pending(NamedTuple):
+    """What a history can leave pending: the `demand` of a response of clause `number` of a rule, where the chains of
+    hedges inside the response decide as in one of `choices`."""
+
+    rule: Rule
+    number: int
+    obligation: Obligation
+    demand: Demand
+    choices: tuple[tuple[int, ...], ...]
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A pending demand, triggered at the time `node`.
+
+    `came` says of atoms of the demand that the event came about in their windows before now."""
+
+    pending: Pending
+    node: int
+    active: int
+    is_dominant: bool
+    came: dict[Occurs, int] = field(default_factory=dict)
+
+    @property
+    def rule(self) -> Rule:
+        return self.pending.rule
+
+    @property
+    def demand(self) -> Demand:
+        return self.pending.demand
+
+
+class Situations:
+    """The formula of all abstract states of a component."""
+
+    def __init__(self, index: Index, copies: int) -> None:
+        self.index = index
+        self.reading = index.ruleset.reading
+        self.formula = Formula()
+        self.true = self.formula.true
+        self.add = self.formula.clauses.append
+        self.times = Differences(self.formula.fresh, self.add, self.true)
+        self.nodes = 1
+        self.now = 0
+        self.instant = Instant(self.formula, index.ruleset.measures, self.true)
+        self.core: set[int] = set()
+        """The literals that the last `find`, which found none, rests on."""
+        self._solver = MiniSat()
+        self._sent = 0
+        for formula in state_formulas(index):
+            self.instant.literal(formula)
+        self.selected = {rule.label: self.formula.fresh() for rule in index.ruleset.rules}
+        self.inputs = {event: self.formula.fresh() for event in sorted(index.by_trigger)}
+        self.guards = {rule.label: self.instant.guards(rule, self.reading, self.true) for rule in index.ruleset.rules}
+        self.slots: list[Slot] = []
+        self.is_exact = True
+        """Whether the slots can hold all that any history leaves pending."""
+        self.occurred = {
+            law.left: self.formula.fresh()
+            for law in index.relations
+            if isinstance(law, EventRelation) and law.relation == "happenBefore"
+        }
+        self.lasting = {
+            relation_key(law): (law, self.formula.fresh(), self._node())
+            for law in index.relations
+            if isinstance(law, Lasting)
+        }
+        for law, active, node in self.lasting.values():
+            if law.duration is not None:
+                self._pending_since(node, active, last_second(law.duration))
+        for rule in index.ruleset.rules:
+            for number, clause in enumerate(rule.clauses()):
+                for obligation in index.contested(clause):
+                    for demand, choices in index.responses.variants(obligation):
+                        self._add_slots(Pending(rule, number, obligation, demand, tuple(choices)), copies)
+        self._require_inputs()
+
+    def _node(self) -> int:
+        self.nodes += 1
+        return self.nodes - 1
+
+    # Slots ----------------------------------------------------------------------------------------------------
+
+    def _add_slots(self, pending: Pending, copies: int) -> None:
+        demand = pending.demand
+        leaves = list(dict.fromkeys(occurrences(demand)))
+        if not any(leaf.end is None or leaf.end > 0 for leaf in leaves):
+            return
+        dominant = isinstance(demand, Occurs) and (demand.start is None or demand.start <= 1)
+        previous: Slot | None = None
+        enough = 1 if dominant else _most_pending(leaves)
+        self.is_exact &= enough <= copies
+        for _ in range(min(enough, copies)):
+            slot = Slot(pending, self._node(), self.formula.fresh(), dominant)
+            ends = [leaf.end for leaf in leaves]
+            last = None if None in ends else max(end for end in ends if end is not None)
+            self._pending_since(slot.node, slot.active, last)
+            self._add_flags(slot)
+            self.slots.append(slot)
+            if previous is not None:
+                # The copies are interchangeable: the earlier trigger comes first.
+                self.add([-slot.active, previous.active])
+                self.add([-slot.active, self.times.before(previous.node, slot.node)])
+            previous = slot
+
+    def _pending_since(self, node: int, active: int, last: int | None) -> None:
+        self.add([-active, self.times.before(node, self.now)])
+        if last is not None:
+            self.add([-active, self.times.at_most(node, self.now, last)])
+
+    def _add_flags(self, slot: Slot) -> None:
+        """Which atoms came about before now is open, except where the demand would be decided by it."""
+        decisive = set(_alternatives(slot.demand))
+        for leaf in dict.fromkeys(occurrences(slot.demand)):
+            if (leaf in decisive and not leaf.negated) or (leaf == slot.demand):
+                slot.came[leaf] = -self.true
+                continue
+            came = slot.came[leaf] = self.formula.fresh()
+            # There was time for it: after the trigger's instant at the earliest, and before now.
+            self.add([-came, slot.active])
+            self.add([-came, -self.times.at_most(slot.node, self.now, max(leaf.start or 0, 0))])
+        self.add([-slot.active, self._can_be_met(slot, slot.demand)])
+
+    def _can_be_met(self, slot: Slot, demand: Demand) -> int:
+        """A literal that implies that the past alone does not break a demand."""
+        assert not isinstance(demand, int), "slots have no literals"
+        if isinstance(demand, Occurs):
+            if demand.negated:
+                return -slot.came[demand]
+            open_still = self.true if demand.end is None else self.times.at_most(slot.node, self.now, demand.end)
+            return self.formula.any_of([slot.came[demand], open_still])
+        parts = [self._can_be_met(slot, part) for part in demand.parts]
+        return self.formula.every(parts) if isinstance(demand, Every) else self.formula.any_of(parts)
+
+    # What a situation is --------------------------------------------------------------------------------------
+
+    def _require_inputs(self) -> None:
+        """Some input occurs; each triggers a selected rule; a clause of one of these decides."""
+        decides = []
+        for event, given in self.inputs.items():
+            rules = self.index.by_trigger[event]
+            self.add([-given, *(self.selected[rule.label] for rule in rules)])
+            for rule in rules:
+                speaks = self.formula.any_of(self.guards[rule.label])
+                decides.append(self.formula.every([given, self.selected[rule.label], speaks]))
+        self.add(decides)
+        for slot in self.slots:
+            allowed = self._allows_inputs(slot, slot.demand)
+            if allowed != self.true:
+                self.add([-slot.active, -self.selected[slot.rule.label], allowed])
+
+    def _allows_inputs(self, slot: Slot, demand: Demand) -> int:
+        """A literal that implies that no input breaks what a slot forbids now."""
+        assert not isinstance(demand, int), "slots have no literals"
+        if isinstance(demand, Occurs):
+            can_be_met = self._can_be_met(slot, demand)
+            given = self.inputs.get(demand.event)
+            if not demand.negated or given is None:
+                return can_be_met
+            bounds = self.times.within(slot.node, self.now, demand.start, demand.end)
+            return self.formula.every([can_be_met, self.formula.any_of([-given, *(-bound for bound in bounds)])])
+        parts = [self._allows_inputs(slot, part) for part in demand.parts]
+        return self.formula.every(parts) if isinstance(demand, Every) else self.formula.any_of(parts)
+
+    # Facts ----------------------------------------------------------------------------------------------------
+
+    def literal(self, fact: Fact) -> int:
+        """The literal of a fact."""
+        kind, name, *rest = fact
+        value = bool(rest[-1])
+        if kind == "rule":
+            literal = self.selected[str(name)]
+        elif kind == "input":
+            literal = self.inputs[str(name)]
+        elif kind == "state":
+            literal = self.instant.variables[name]  # type: ignore[index]
+        elif kind == "slot":
+            literal = self.slots[int(str(name))].active
+        elif kind == "came":
+            literal = self.slots[int(str(name))].came[rest[0]]  # type: ignore[index]
+        elif kind == "age":
+            literal = self.times.at_most(int(str(name)), self.now, int(str(rest[0])))
+        elif kind == "occurred":
+            literal = self.occurred[str(name)]
+        else:
+            literal = self.lasting[str(name)][1]
+        return literal if value else -literal
+
+    def exclude(self, facts: Iterator[Fact] | list[Fact] | set[Fact]) -> None:
+        """No further situation has all these facts."""
+        self.add([-self.literal(fact) for fact in facts])
+
+    def facts(self) -> list[Fact]:
+        """The facts of the situation of the last `find`, without what no slot or rule depends on."""
+        times, _ = self.times.schedule(self.holds, self._used())
+        found: list[Fact] = [("rule", label, True) for label, s in self.selected.items() if self.holds(s)]
+        found += [("input", event, self.holds(given)) for event, given in self.inputs.items()]
+        found += [("state", key, self.holds(variable)) for key, variable in self.instant.state().items()]
+        for number, slot in enumerate(self.slots):
+            if self.holds(slot.active):
+                found.append(("slot", number, True))
+                flags = ((leaf, flag) for leaf, flag in slot.came.items() if flag != -self.true)
+                found += [("came", number, leaf, self.holds(flag)) for leaf, flag in flags]
+                found += self._age(slot.node, times)
+        found += [("occurred", event, self.holds(flag)) for event, flag in self.occurred.items()]
+        for key, (law, active, node) in self.lasting.items():
+            found.append(("lasts", key, self.holds(active)))
+            if self.holds(active) and law.duration is not None:
+                found += self._age(node, times)
+        return found
+
+    def _age(self, node: int, times: dict[int, int]) -> list[Fact]:
+        age = times[self.now] - times[node]
+        return [("age", node, age, True), ("age", node, age - 1, False)]
+
+    def _used(self) -> list[int]:
+        nodes = [slot.node for slot in self.slots if self.holds(slot.active)]
+        nodes += [node for law, active, node in self.lasting.values() if self.holds(active)]
+        return [self.now, *nodes]
+
+    # Solving --------------------------------------------------------------------------------------------------
+
+    def find(self, *assumed: int) -> bool:
+        """Whether a situation is left, in which all these literals are true."""
+        while True:
+            self.instant.settle()
+            self._solver.add(self.formula.clauses[self._sent :])
+            self._sent = len(self.formula.clauses)
+            recorder = self.index.recorder
+            answer = self._solver.solve(assumed)
+            if answer is None:
+                raise Undecided("the solver gave up after its budget of conflicts")
+            if not answer:
+                self.core = set(self._solver.core())
+                if recorder is not None:
+                    recorder.refuted(self.formula.clauses, list(self.core))
+                return False
+            refused = self.times.refused(self.holds, self._used())
+            lemma = self.instant.measures.refused(self.holds, recorder is not None)
+            refused += [] if lemma is None else [lemma]
+            if not refused:
+                return True
+            self.formula.clauses += refused
+
+    def holds(self, literal: int) -> bool:
+        return self._solver.holds(literal)
+
+
+def _most_pending(leaves: list[Occurs]) -> int:
+    """How many triggerings of one response can leave different demands. There is one for each second until the last
+    bound of a window; after that, those without end differ in what came about only."""
+    last = max(bound for leaf in leaves for bound in (leaf.start or 0, leaf.end or 0))
+    endless = sum(leaf.end is None for leaf in leaves)
+    return last + (2**endless if endless else 0)
+
+
+def _alternatives(demand: Demand) -> Iterator[Occurs]:
+    """The atoms each of which meets a demand by itself."""
+    if isinstance(demand, Occurs):
+        yield demand
+    elif not isinstance(demand, (int, Every)):
+        for part in demand.parts:
+            yield from _alternatives(part)
+
+
+def state_formulas(index: Index) -> Iterator[Condition]:
+    """All formulas over conditions and measures that decide anything at one instant."""
+    for rule in index.ruleset.rules:
+        yield from formulas_of(rule)
+    for relation in index.relations:
+        if isinstance(relation, Lasting) or not isinstance(relation, EventRelation):
+            yield from (f for f in formulas_of_relation(relation) if _is_about_state(f))
+
+
+def _is_about_state(formula: Condition) -> bool:
+    return not any(isinstance(leaf, Atom) and leaf.kind != "condition" for leaf in leaves(formula))

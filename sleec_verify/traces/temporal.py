@@ -1,0 +1,86 @@
+"""The relations of a trace model: what each demands of every instant and of the instants around it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from sleec_runtime.model_time import EventRelation, Lasting
+from sleec_verify.traces.demands import last_second
+from sleec_verify.traces.relations import Relation, invariant, relation_key
+
+if TYPE_CHECKING:
+    from sleec_verify.traces.model import TraceModel
+
+
+def relation_at(model: TraceModel, relation: Relation) -> Callable[[int], None]:
+    """A function that encodes the relation for an instant, where it is in force."""
+    in_force = model.in_force(relation_key(relation))
+
+    if isinstance(relation, EventRelation) and relation.relation == "happenBefore":
+        # The first occurrence comes before all events that have to follow it.
+        first, occurs = model.node(), model.formula.fresh()
+        left = relation.left
+        model.add(
+            [
+                -occurs,
+                model.exists(
+                    lambda at: model.formula.every(
+                        [model.instants[at].event(left), *model.times.within(first, at, 0, 0)]
+                    )
+                ),
+            ]
+        )
+
+    def precedence(at: int, precedes: EventRelation) -> None:
+        right = model.instants[at].event(precedes.right)
+        came = model.formula.every([occurs, model.times.before(first, at)])
+        model.add([-in_force, -right, came, model.occurred(precedes.left)])
+
+    def lasting(at: int, law: Lasting) -> None:
+        model.everywhere(lambda other: _binds(model, law, at, other, in_force))
+        if law_key in model.began:
+            require = model.condition(at, law.formula)
+            away = [-literal for literal in model.began[law_key](at)]
+            model.add([-in_force, -model.instants[at].used, *away, *_stopped(model, law, None, at), require])
+
+    law_key = relation_key(relation)
+
+    def make(at: int) -> None:
+        if isinstance(relation, Lasting):
+            lasting(at, relation)
+        elif isinstance(relation, EventRelation) and relation.relation == "happenBefore":
+            precedence(at, relation)
+        else:
+            for clause in invariant(model.instants[at], relation):
+                model.add([-in_force, *clause])
+
+    return make
+
+
+def _binds(model: TraceModel, law: Lasting, at: int, other: int, in_force: int) -> None:
+    """If the relation begins at instant `at`, its formula holds at instant `other`, unless it is over then."""
+    begins = [model.instants[at].event(law.event), model.condition(at, law.condition)]
+    last = None if law.duration is None else last_second(law.duration)
+    bounds = model.times.within(at, other, 0, last)
+    away = [-literal for literal in (*begins, model.instants[other].used, *bounds)]
+    if model.formula.true not in away:
+        holds = model.condition(other, law.formula)
+        model.add([-in_force, *away, *_stopped(model, law, at, other), holds])
+
+
+def _stopped(model: TraceModel, law: Lasting, since: int | None, until: int) -> list[int]:
+    """A literal that implies that an event ended the relation between two instants, if an event can end it."""
+    if law.end is None:
+        return []
+    end = law.end
+
+    def stops(other: int) -> int:
+        bounds = model.times.within(other, until, 0, None)
+        bounds += [] if since is None else model.times.within(since, other, 0, None)
+        if -model.formula.true in bounds:
+            return -model.formula.true
+        instant = model.instants[other]
+        return model.formula.every([instant.event(end), model.condition(other, law.end_condition), *bounds])
+
+    return [model.exists(stops)]

@@ -1,0 +1,210 @@
+"""Conflicts of rules with time: worked examples, an explicit-state oracle, and metamorphic properties."""
+
+from __future__ import annotations
+
+import json
+import random
+from pathlib import Path
+
+import pytest
+
+from sleec_runtime.language import load, parse
+from sleec_verify.solver import Undecided
+from sleec_verify.traces.components import components
+from sleec_verify.traces.conflicts import Conflict, ConflictSearch
+from sleec_verify.traces.index import Index
+from tests.explicit.conflicts import Explicit
+
+SHARED = Path(__file__).parents[2].parent / "shared"
+EXAMPLES = SHARED / "conflict-examples.json"
+NEEDS_SHARED = "the rulesets of others are not part of the project"
+
+
+def conflicts_of(text: str) -> tuple[list[Conflict], str | None]:
+    """The conflicts that the engine finds, and why there may be more."""
+    found: list[Conflict] = []
+    reason = None
+    for component in components(Index(parse(text))):
+        try:
+            found.extend(ConflictSearch(component).find())
+        except Undecided as error:
+            reason = str(error)
+    return found, reason
+
+
+def rules_of(text: str) -> set[frozenset[str]]:
+    found, reason = conflicts_of(text)
+    assert reason is None
+    return {frozenset(conflict.rules) for conflict in found}
+
+
+def dsl(*rules: str, events: str = "ABCDFGLOPTXY", relations: tuple[str, ...] = ()) -> str:
+    lines = ["def_start", *(f"  event {event}" for event in events), "  measure b0: boolean", "  measure b1: boolean"]
+    lines += ["  measure r: scale(low, middle, high)", "def_end"]
+    lines += ["rule_start", *(f"  R{number} when {rule}" for number, rule in enumerate(rules, 1)), "rule_end"]
+    lines += ["relation_start", *(f"  {relation}" for relation in relations), "relation_end"] if relations else []
+    return "\n".join(lines) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("rules", "relations", "expected"),
+    [
+        # A deadline that a prohibition outlasts.
+        (("A then X within 3 seconds", "B then not X within 2 seconds"), (), [{"R1", "R2"}]),
+        # The alternative stays possible.
+        (("A then X within 2 seconds otherwise Y within 1 seconds", "B then not X within 3 seconds"), (), []),
+        # A smaller set of pairs hides a larger one.
+        (("A then X", "X then not Y", "A then Y"), (), [{"R2", "R3"}]),
+        # No rule requires what is forbidden, or excluded.
+        (("P then T", "T then not D"), (), []),
+        (("F then O",), ("mutualExclusive O L",), []),
+        # Two rules that require the same do not hide each other.
+        (("F then O", "F then O", "G then L"), ("mutualExclusive O L",), [{"R1", "R3"}, {"R2", "R3"}]),
+        # A rule that forbids an input is no conflict; one that forbids its own trigger is.
+        (("A then not B", "B then X"), (), []),
+        (("A then not A",), (), [{"R1"}]),
+        # Hedges decide by the measures of the trigger.
+        (("A then X unless {b0}", "B then not X unless (not {b0})"), (), []),
+        # The chain through T reaches a prohibition.
+        (("A then T", "T then not D", "B then D"), (), [{"R1", "R2", "R3"}]),
+    ],
+)
+def test_worked_examples(rules: tuple[str, ...], relations: tuple[str, ...], expected: list[set[str]]) -> None:
+    assert rules_of(dsl(*rules, relations=relations)) >= {frozenset(e) for e in expected}
+    assert (not expected) == (not rules_of(dsl(*rules, relations=relations)))
+
+
+def test_a_conflict_has_a_lawful_history() -> None:
+    (conflict,), reason = conflicts_of(dsl("A then X within 3 minutes", "B then not X within 2 minutes"))
+    assert reason is None
+    assert [sorted(moment.events) for moment in conflict.history] == [["A"]]
+    assert sorted(conflict.now.events) == ["B"]
+    assert 60 <= conflict.now.time - conflict.history[0].time <= 3 * 60
+
+
+def test_without_need_of_one_there_is_no_history() -> None:
+    (conflict,), reason = conflicts_of(dsl("A then X within 3 minutes", "B then not X within 5 minutes"))
+    assert reason is None
+    assert (conflict.history, sorted(conflict.now.events)) == ((), ["A", "B"])
+
+
+def assert_agrees(text: str, smallest: set[frozenset[str]], every: set[frozenset[str]]) -> bool:
+    """The engine finds each smallest set and none that is not one; returns whether it decided everything."""
+    found, reason = conflicts_of(text)
+    sets = {frozenset(conflict.rules) for conflict in found}
+    assert sets <= every
+    assert reason is not None or smallest <= sets
+    return reason is None
+
+
+def examples(first: int, last: int) -> int:
+    if not EXAMPLES.exists():
+        pytest.skip(NEEDS_SHARED)
+    chosen = json.loads(EXAMPLES.read_text())[first:last]
+    return sum(
+        not assert_agrees(one["dsl"], {frozenset(s) for s in one["smallest"]}, {frozenset(s) for s in one["all"]})
+        for one in chosen
+    )
+
+
+def test_examples_of_an_exact_automaton() -> None:
+    assert examples(10, 60) <= 2
+
+
+@pytest.mark.long
+def test_all_examples_of_an_exact_automaton() -> None:
+    assert examples(0, 150) <= 10
+
+
+RELATIONS = (
+    "mutualExclusive A B",
+    "happenBefore A B",
+    "witness C D",
+    "equal A C",
+    "causation C {b0}",
+    "includes B {b0}",
+    "forbid D {b0}",
+    "measure invariant {b0}",
+    "measure imply {b0} ({r} > low)",
+    "measure iff {b0} {b1}",
+    "measure opposite {b0} {b1}",
+    "when A then {b0} until B",
+    "when A and {b1} then (not {b0}) until C and {b1}",
+    "when C then {b0} for 2 seconds",
+)
+
+
+def random_rules(seed: int) -> str:
+    """Three rules over few events, with windows of at most two seconds, and sometimes a relation."""
+    chance = random.Random(seed)
+
+    def response(depth: int = 0) -> str:
+        text = f"{'not ' if chance.random() < 0.4 else ''}{chance.choice('ABCD')}"
+        kind = chance.random()
+        if kind < 0.5:
+            start = chance.randint(0, 1)
+            window = f"within [{start},{start + chance.randint(0, 1)}]" if chance.random() < 0.3 else "within 2"
+            text += f" {window} seconds" if chance.random() < 0.85 else " eventually"
+            if depth == 0 and chance.random() < 0.3:
+                text += f" otherwise {response(1)}"
+        return text
+
+    rules = []
+    for _ in range(3):
+        rule = f"{chance.choice('ABCD')}{' and {b0}' if chance.random() < 0.3 else ''} then {response()}"
+        if chance.random() < 0.3:
+            condition = chance.choice(("{b0}", "({r} >= middle)"))
+            rule += f" unless {condition}{' then ' + response() if chance.random() < 0.7 else ''}"
+        rules.append(rule)
+    chosen = (chance.choice(RELATIONS),) if chance.random() < 0.6 else ()
+    return dsl(*rules, events="ABCD", relations=chosen)
+
+
+def agreement(seeds: range) -> int:
+    undecided = 0
+    for seed in seeds:
+        text = random_rules(seed)
+        every = Explicit(parse(text)).conflicts()
+        smallest = {rules for rules in every if not any(other < rules for other in every)}
+        undecided += not assert_agrees(text, smallest, every)
+    return undecided
+
+
+def test_agreement_with_explicit_states() -> None:
+    assert agreement(range(60)) <= 3
+
+
+@pytest.mark.long
+def test_long_agreement_with_explicit_states() -> None:
+    assert agreement(range(1000, 1600)) <= 30
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_rules_over_fresh_names_change_nothing(seed: int) -> None:
+    text = random_rules(seed)
+    more = text.replace("def_end", "  event Z\n  event W\ndef_end").replace(
+        "rule_end", "  R7 when Z then W within 5 minutes\n  R8 when Z then not W within 2 minutes\nrule_end"
+    )
+    before, after = conflicts_of(text), conflicts_of(more)
+    assert [c for c in after[0] if not {"R7", "R8"} & set(c.rules)] == before[0]
+    assert after[1] == before[1]
+
+
+def with_simple_windows() -> list[int]:
+    return [seed for seed in range(100) if "[" not in random_rules(seed) and "otherwise" not in random_rules(seed)][:20]
+
+
+@pytest.mark.parametrize("seed", with_simple_windows())
+def test_scaling_all_windows_changes_no_rules(seed: int) -> None:
+    text = random_rules(seed)
+    found, reason = conflicts_of(text)
+    scaled, other = conflicts_of(text.replace("seconds", "minutes"))
+    assert (reason, other) == (None, None)
+    assert {frozenset(c.rules) for c in found} == {frozenset(c.rules) for c in scaled}
+
+
+@pytest.mark.skipif(not SHARED.exists(), reason=NEEDS_SHARED)
+def test_published_rulesets_are_decided() -> None:
+    for path in sorted((SHARED / "case-studies").glob("*/*.sleec")):
+        for component in components(Index(load(path))):
+            list(ConflictSearch(component).find())
