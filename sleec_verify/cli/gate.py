@@ -85,7 +85,7 @@ def command(
     """One verdict on a change to the rules at or below PATH, for CI: check, diff with what the change and the base have
     in common, assertions, conformance of the configured code, and clause coverage.
 
-    What blocks is set in [tool.sleec-verify] of pyproject.toml, or in sleec-verify.toml.
+    What blocks is set in [tool.sleec-verify] of pyproject.toml, or in sleec-verify.toml, as the base has it.
 
     Exit codes: 0 passed; 1 something blocks; 2 something cannot be read or set so; 3 something is not decided.
     """
