@@ -21,6 +21,7 @@ from sleec_verify.internal_error import internal_errors_of
 SUFFIX = ".py"
 _STDIN = "-"
 _HEAD = re.compile(r"(?:async\s+)?(?:def|class)\s+\w+")
+_NOT_IN_PYTHON = re.compile("[\0\ud800-\udfff]")
 _NOT_THE_DEVELOPERS = {"__pycache__", "node_modules", "site-packages"}
 
 
@@ -191,22 +192,37 @@ def _bytes(path: str) -> tuple[str, bytes]:
 
 def _source(path: str) -> Source:
     from hashlib import sha256
+
+    path, data = _bytes(path)
+    text = _decoded(path, data)
+    found = _NOT_IN_PYTHON.search(text)
+    if found is not None:
+        line = text.count("\n", 0, found.start()) + 1
+        what = "a NUL byte" if found[0] == "\0" else f"the lone surrogate U+{ord(found[0]):04X}"
+        raise UnreadableFile(f"{path} is not a text of Python: line {line} holds {what}")
+    return Source(path, tidy(text), sha256(data).hexdigest())
+
+
+def _decoded(path: str, data: bytes) -> str:
+    """The text that these bytes are in the encoding that they declare. Raises `UnreadableFile`."""
     from io import BytesIO
     from tokenize import detect_encoding
 
-    path, data = _bytes(path)
     try:
         encoding, _ = detect_encoding(BytesIO(data).readline)
-        text = data.decode(encoding)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of escapes in a text that is all escapes
+            return data.decode(encoding)
     except SyntaxError as error:  # a cookie that names no encoding, or bytes that are not UTF-8 in the first lines
         raise UnreadableFile(f"{path} cannot be read: {error.msg}", "mend its `# -*- coding` line") from None
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise UnreadableFile(
-            f"{path} is not {error.encoding} text: line {line} holds the byte 0x{data[error.start]:02x}",
+            f"{path} is not {error.encoding} text: line {line} holds the byte 0x{error.object[error.start]:02x}",
             "save it as UTF-8, or say its encoding in the first line: # -*- coding: latin-1 -*-",
         ) from None
-    if "\0" in text:
-        line = text.count("\n", 0, text.index("\0")) + 1
-        raise UnreadableFile(f"{path} is not a text of Python: line {line} holds a NUL byte")
-    return Source(path, tidy(text), sha256(data).hexdigest())
+    except (LookupError, UnicodeError):  # not an encoding of texts, such as `hex`, or one that does not say where
+        raise UnreadableFile(
+            f"{path} is not text in the encoding {encoding}, which it declares",
+            "save it as UTF-8, and remove its `# -*- coding` line",
+        ) from None

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import encodings
 import os
 import sys
+from contextlib import suppress
+from encodings.aliases import aliases
 from io import BytesIO, TextIOWrapper
 from pathlib import Path
+from pkgutil import iter_modules
 
 import pytest
 
 from sleec_runtime.errors import UnreadableFile
+from sleec_verify.cli import run
 from sleec_verify.conformance.structure.target import NoTarget, NotPython, python_files
 
 
@@ -144,3 +149,53 @@ def test_a_forbidden_file_and_a_folder_with_a_files_name(folder: Path) -> None:
     write(folder / "lib" / "a" / "b.txt")
     with pytest.raises(NoTarget):
         python_files("lib/a/b/c")
+
+
+def test_a_lone_surrogate_is_refused(folder: Path) -> None:
+    write(folder / "odd.py", "# coding: raw_unicode_escape\nx = '\\ud800'\n")
+    with pytest.raises(UnreadableFile, match="line 2 holds the lone surrogate U\\+D800"):
+        python_files("odd.py")
+
+
+CODECS = sorted({*aliases, *aliases.values(), *(module.name for module in iter_modules(encodings.__path__))})
+BODIES = (
+    b"x = 1\n",
+    b"x = '\xff\xfe\x80\x00'\n",
+    b"x = '+2AA-'\n",  # a lone surrogate in UTF-7
+    b"x = '\\ud800 \\q \\x'\n",
+    bytes(range(256)),
+    "x = '\xe4\u1234\ud800'\n",
+    "x = '\xe4'\n",
+    "",
+)
+
+
+def encoded(body: str | bytes, codec: str) -> bytes | None:
+    """A source in the encoding that it declares, as far as the codec can write it; bytes are taken as they are."""
+    head = f"# -*- coding: {codec} -*-\n"
+    if isinstance(body, bytes):
+        return head.encode() + body
+    try:
+        return (head + body).encode(codec)
+    except (LookupError, UnicodeError):
+        return None
+
+
+@pytest.mark.parametrize("codec", CODECS)
+def test_every_codec_that_python_knows_is_read_or_refused(codec: str, folder: Path) -> None:
+    for body in BODIES:
+        data = encoded(body, codec)
+        if data is not None:
+            write(folder / "odd.py", data)
+            with suppress(UnreadableFile, NotPython):
+                python_files("odd.py")
+
+
+@pytest.mark.parametrize("codec", ["rot13", "hex", "undefined", "punycode", "zlib", "utf_7"])
+def test_a_codec_that_is_not_of_texts_is_refused(codec: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(folder / "rules.sleec", "WHEN A THEN B\n")
+    write(folder / "odd.py", f"# coding: {codec}\nx = '+2AA-\\ud800'\n")
+    assert run(["conform", "odd.py", "--ruleset", "rules.sleec"]) == 2
+    message = capsys.readouterr().err
+    assert message.startswith("error: odd.py is not ")
+    assert "internal error" not in message
