@@ -8,6 +8,7 @@ from functools import partial, wraps
 from typing import Concatenate, ParamSpec, Protocol, TypeVar
 
 from sleec_runtime.errors import Reentrant
+from sleec_runtime.forks import renew_after_fork
 
 T = TypeVar("T")
 P = ParamSpec("P")
@@ -20,10 +21,13 @@ class CriticalSection:
     a thread, calls what is being changed. It cannot wait, and must not see half of a change.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, undo: Callable[[], object] | None = None) -> None:
+        """`undo` undoes a change of another thread, which a forked process finds half made."""
         # Reentrant, because a handler may also come just before or after a change, while the thread has the lock.
         self._lock = threading.RLock()
         self._changing = False
+        self._undo = undo
+        renew_after_fork(self)
 
     def run(self, change: Callable[[], T]) -> T:
         """Makes the change. Raises Reentrant within another one of this thread."""
@@ -40,6 +44,16 @@ class CriticalSection:
         with self._lock:
             if self._changing:
                 raise Reentrant
+
+    def after_fork(self) -> None:
+        if self._lock.acquire(blocking=False):
+            # Nobody has it, or the thread that forked.
+            self._lock.release()
+            return
+        self._lock = threading.RLock()
+        self._changing = False
+        if self._undo is not None:
+            self._undo()
 
 
 class _HasSection(Protocol):

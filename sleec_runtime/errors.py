@@ -233,6 +233,18 @@ class Reentrant(SleecError):
         )
 
 
+class Forked(SleecError):
+    """A call in a process made by `os.fork`, of an instance with which something was pending then: the process that was
+    forked goes on with that."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "this process was forked from one in which something was pending, which goes on with it",
+            "load the rules anew in this process; restore(…) there what pending_snapshot() of this instance returns if "
+            "the other process has ended",
+        )
+
+
 class VariantsFailed(SleecError):
     """Several variants of one dispatch raised. `errors` pairs the label of each rule with what its variant raised."""
 

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Protocol, Union
 
 from sleec_runtime.critical import CriticalSection
 from sleec_runtime.errors import WrongType
+from sleec_runtime.forks import renew_after_fork
 from sleec_runtime.timed.bounds import FURTHEST, checked_time
 from sleec_runtime.timed.executor import Executor
 from sleec_runtime.timed.failures import call_and_log
@@ -150,6 +151,11 @@ class MonotonicClock:
         if number is None or number <= 0:
             raise WrongType("limit", limit, "a number of seconds above 0")
         self._limit = float(number)
+        self.after_fork()
+        renew_after_fork(self)
+
+    def after_fork(self) -> None:
+        """Nothing is set, and no thread runs."""
         self._changed = threading.Condition()
         self._alarms = _Alarms()
         self._thread: threading.Thread | None = None

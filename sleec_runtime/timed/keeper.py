@@ -281,7 +281,7 @@ class Timekeeper:
 
     def view(self, tasks: Iterable[Task]) -> tuple[Pending, ...]:
         """What users see of those of `tasks` that are not over, by when they end."""
-        still = self._ledger.change(partial(self._still_open, tasks))
+        still = self._ledger.look(partial(self._still_open, tasks))
         still.sort(key=lambda task: (task.last is None, task.first if task.last is None else task.last))
         return self.view_all(still)
 
@@ -297,7 +297,7 @@ class Timekeeper:
 
     def snapshot(self, saved_at: Time) -> dict[str, Any]:
         """What is pending, as plain data: `Sleec.pending_snapshot`."""
-        return self._ledger.change(partial(self._checkpoint, saved_at))
+        return self._ledger.look(partial(self._checkpoint, saved_at))
 
     def _checkpoint(self, saved_at: Time) -> dict[str, Any]:
         from sleec_runtime.timed.checkpoint import checkpoint
@@ -345,7 +345,7 @@ class Timekeeper:
 
     def close(self) -> None:
         """Nothing is watched any more. What runs, runs on."""
-        self._ledger.change(self._ledger.close)
+        self._ledger.look(self._ledger.close)
 
 
 def _done_though_forbidden(name: str, prohibitions: Sequence[Task], now: Time) -> Prohibited:

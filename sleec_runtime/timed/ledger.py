@@ -10,6 +10,8 @@ from itertools import count
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from sleec_runtime.critical import CriticalSection
+from sleec_runtime.errors import Forked
+from sleec_runtime.forks import renew_after_fork
 from sleec_runtime.timed.agenda import Agenda, Entry
 
 if TYPE_CHECKING:
@@ -40,19 +42,27 @@ class Ledger:
         self.acts: deque[Act] = deque()
         """What has been decided to be done, first to last."""
         self._tick = tick
-        self._section = CriticalSection()
+        self._section = CriticalSection(partial(self._undo_to, 0))
         self._numbers = count()
         self._undo: list[Callable[[], object]] = []
         self._new_acts: list[Act] = []
         self._woken_at: Time | None = None
         self._cancel: Cancel | None = None
+        self._forked = False
+        renew_after_fork(self)
 
     # Changes --------------------------------------------------------------------------------------------------
 
     def change(self, make: Callable[[], T]) -> T:
         """Makes one change, by `make`. If that raises, all is as it was before. No other thread sees part of it. Raises
-        Reentrant within another change."""
+        Reentrant within another change, and Forked in a process that was forked while something was pending."""
+        if self._forked:
+            raise Forked
         return self._section.run(partial(self._change, make))
+
+    def look(self, at: Callable[[], T]) -> T:
+        """As `change`, for what starts nothing: in a forked process, too."""
+        return self._section.run(partial(self._change, at))
 
     def _change(self, make: Callable[[], T]) -> T:
         self._undo, self._new_acts = [], []
@@ -65,8 +75,16 @@ class Ledger:
             with suppress(Exception):  # the clock has failed, and this is what is raised
                 self._rewake()
             raise
+        self._undo = []
         self.agenda.tidy()
         return result
+
+    def after_fork(self) -> None:
+        """What is pending is up to the process that was forked, and so is what it had decided to do."""
+        self._section.after_fork()
+        self._forked = self._forked or any(True for _ in self.agenda)
+        self.acts.clear()
+        self._woken_at = self._cancel = None
 
     def refuse_reentry(self) -> None:
         """Raises Reentrant within a change of this thread."""
@@ -177,7 +195,7 @@ class Ledger:
 
     def _rewake(self) -> None:
         """Has the clock wake for what comes next, if that is not what it wakes for already."""
-        entry = None if self.closed else self.agenda.next_entry()
+        entry = None if self.closed or self._forked else self.agenda.next_entry()
         at = None if entry is None else entry.at
         if at == self._woken_at:
             return
