@@ -44,9 +44,9 @@ def read_baseline(data: bytes, called: str) -> frozenset[Key]:
 
     try:
         table = json.loads(data)
-        if table["version"] != _VERSION:
+        if type(table["version"]) is not int or table["version"] != _VERSION:
             raise ConfigError(f"{called} is a baseline of version {shortened(repr(table['version']))}", _RENEW)
-        return frozenset(_key(entry) for entry in table["findings"])
+        return frozenset(map(_key, _list(table["findings"])))
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise ConfigError(f"{called} is no baseline", _RENEW) from None
 
@@ -55,11 +55,18 @@ _RENEW = "make it anew: sleec-verify gate --write-baseline …"
 
 
 def _key(entry: Mapping[str, Any]) -> Key:
-    texts = [entry["ruleset"], entry["code"], *entry["rules"], *entry["obligations"]]
-    clauses = tuple((str(clause["rule"]), int(clause["clause"])) for clause in entry["clauses"])
-    if not all(isinstance(text, str) for text in texts):
-        raise TypeError("names are texts")
-    return entry["ruleset"], entry["code"], tuple(entry["rules"]), clauses, tuple(entry["obligations"])
+    clauses = tuple((clause["rule"], clause["clause"]) for clause in _list(entry["clauses"]))
+    rules, obligations = tuple(_list(entry["rules"])), tuple(_list(entry["obligations"]))
+    texts = [entry["ruleset"], entry["code"], *rules, *obligations, *(rule for rule, _ in clauses)]
+    if not all(type(text) is str for text in texts) or not all(type(number) is int for _, number in clauses):
+        raise TypeError("names are texts, and clauses have numbers")
+    return entry["ruleset"], entry["code"], rules, clauses, obligations
+
+
+def _list(value: object) -> list[Any]:
+    if type(value) is not list:
+        raise TypeError("several things are a list")
+    return value
 
 
 def baseline_text(keys: Iterable[Key]) -> str:
