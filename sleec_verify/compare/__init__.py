@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from itertools import chain
 from typing import TypeVar, Union
 
-from sleec_runtime.model import Ruleset
+from sleec_runtime.model import Formula, Never, Ruleset, formulas_of
 from sleec_verify.calculations import calculations, named
 from sleec_verify.compare.conflicts import conflict_changes
 from sleec_verify.compare.names import name_changes
@@ -31,7 +31,7 @@ from sleec_verify.compare.result import (
 )
 from sleec_verify.compare.sides import condition_names, over_time
 from sleec_verify.compare.situations import situation_changes
-from sleec_verify.compare.world import World
+from sleec_verify.compare.world import SIDES, Which, World, other
 from sleec_verify.timed.scope import Untimed, speaks_of_traces
 
 __all__ = [
@@ -113,10 +113,20 @@ def _compared(world: World, domain: str | None) -> list[_Any]:
 
 def _conditions_that_are_measures(world: World) -> Iterator[Undecidable]:
     """Names that one text compares as numbers or on a scale, and the other takes as true or false."""
-    for at, theirs in ((0, world.sides["new"]), (1, world.sides["old"])):
-        rules = [rule for pair, _ in world.changed if (rule := pair[at]) is not None]
-        for name in sorted(condition_names(rules) & theirs.stated.measures.keys()):
+    for which in SIDES:
+        measures = world.sides[other(which)].stated.measures
+        for name in sorted(condition_names(_formulas(world, which)) & measures.keys()):
             yield Undecidable(name, f"{name} is true or false in the one text and a measure in the other")
+
+
+def _formulas(world: World, which: Which) -> Iterator[Formula]:
+    """The formulas of one side, but for those in rules that both sides have."""
+    for pair, _ in world.changed:
+        rule = pair.old if which == "old" else pair.new
+        if rule is not None:
+            yield from formulas_of(rule)
+    yield from (given.formula for given in world.sides[which].given)
+    yield from (one.formula for one in world.sides[which].constraints if isinstance(one, Never))
 
 
 def _merged(found: Sequence[_Told]) -> tuple[_Told, ...]:

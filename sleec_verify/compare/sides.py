@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -254,12 +254,11 @@ def over_time(ruleset: Ruleset) -> list[Relation]:
     ]
 
 
-def condition_names(rules: Sequence[Rule]) -> set[str]:
-    """The names that these rules use as conditions, true or false."""
+def condition_names(formulas: Iterable[Formula]) -> set[str]:
+    """The names that these formulas use as conditions, true or false."""
     return {
         leaf.name
-        for rule in rules
-        for formula in formulas_of(rule)
+        for formula in formulas
         for leaf in leaves(formula)
         if isinstance(leaf, Atom) and leaf.kind == "condition"
     }

@@ -3,14 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from sleec_runtime.language.source import source_of
+from sleec_runtime.model import Context
 from sleec_verify.assertions import Vocabulary, ask, read_assertions
+from sleec_verify.chains import chain
 from sleec_verify.entailment import entail
+from sleec_verify.report.entailment import RENDERERS
+from sleec_verify.report.explanation import render as explanation
+from sleec_verify.report.palette import PLAIN
+from sleec_verify.schedule import schedule
 from sleec_verify.situation import parse_situation
 from tests.fuzz.files import RULESET
 from tests.fuzz.property import unless_refused
+from tests.fuzz.rules import read
+
+
+def entailment(data: bytes, folder: Path) -> None:
+    """What any rules oblige when everything occurs, and why, can be shown."""
+    ruleset = read(data)
+    if ruleset is None:
+        return
+    for value in (False, True):
+        context = Context(ruleset.triggers, dict.fromkeys(ruleset.conditions, value))
+        answer = unless_refused(entail, ruleset, context)
+        if answer is None:
+            return
+        steps, at_odds = chain(ruleset, context, answer)
+        answer = replace(answer, chain=steps, at_odds=at_odds)
+        answer = replace(answer, schedule=schedule(ruleset, context, answer, "at"))
+        for render in (*RENDERERS.values(), explanation):
+            "".join(render(ruleset, context, answer, PLAIN))
 
 
 def situation(data: bytes, folder: Path) -> None:

@@ -407,3 +407,23 @@ def test_labels_that_two_rules_have() -> None:
     twice = replace(old, statements=tuple(replace(r, label="a") for r in old.statements if isinstance(r, Rule)))
     assert compare(old, twice).relation == "equivalent"
     assert compare(twice, old).relation == "equivalent"
+
+
+_PLACES = {
+    "a guard": "WHEN T AND {} THEN X",
+    "a hedge": "WHEN T THEN X UNLESS {} IN WHICH CASE Y",
+    "an assumption": "WHEN T THEN X ASSUME c OR {}",
+    "a prohibition": "WHEN T THEN X NEVER X AND {}",
+    "a relation": "WHEN T THEN X RELATION ALWAYS {} IMPLIES c",
+}
+
+
+@pytest.mark.parametrize("comparison", ["m > 1", "m = low"])
+@pytest.mark.parametrize("other", _PLACES)
+@pytest.mark.parametrize("one", _PLACES)
+def test_a_condition_that_is_a_measure_in_the_other_text_is_undecided(one: str, other: str, comparison: str) -> None:
+    condition = "CONDITION m, c " + _PLACES[one].format("m")
+    measure = f"MEASURE m: {'number' if '>' in comparison else 'low < high'} " + _PLACES[other].format(comparison)
+    for found in (differ(condition, measure), differ(measure, condition)):
+        assert found.relation == "unknown"
+        assert found.undecided == (("m", "m is true or false in the one text and a measure in the other"),)
