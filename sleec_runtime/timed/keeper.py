@@ -6,28 +6,25 @@ of triggers or of the clock, ever decide on half of what the other brings.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.dispatch import one_of
-from sleec_runtime.errors import NeedsAwait, Prohibited, SleecError, SnapshotRefused, UnknownObligation
+from sleec_runtime.errors import SleecError, SnapshotRefused, UnknownObligation
 from sleec_runtime.evaluation import Due
-from sleec_runtime.messages import listed
 from sleec_runtime.obligations import recording
 from sleec_runtime.timed.agenda import CLOSES, OPENS
 from sleec_runtime.timed.bounds import CheckedClock
 from sleec_runtime.timed.failures import Failure, Failures
 from sleec_runtime.timed.ledger import Ledger
+from sleec_runtime.timed.lifecycle import Lifecycle, done_though_forbidden
 from sleec_runtime.timed.pending import Pending
-from sleec_runtime.timed.refusals import prohibited, refuse
+from sleec_runtime.timed.refusals import refuse
 from sleec_runtime.timed.run import Run, TimedDone
-from sleec_runtime.timed.stages import Moment, Stage, called_by, in_place_of, with_chains
-from sleec_runtime.timed.starts import Starts
+from sleec_runtime.timed.stages import called_by
 from sleec_runtime.timed.tasks import Task
-from sleec_runtime.timed.units import Unit
-from sleec_runtime.timed.words import prohibitions_in_words
 
 if TYPE_CHECKING:
     from sleec_runtime.instance import Instance
@@ -56,7 +53,7 @@ class Timekeeper:
         self._chains = chains
         self._restored = False
         self._ledger = Ledger(self.clock, self.tick)
-        self._starts = Starts(self, self._ledger, self.failures, self.clock.execute)
+        self._lifecycle = Lifecycle(state, self._ledger, chains, self.failures, self.clock.execute)
 
     # Triggers -------------------------------------------------------------------------------------------------
 
@@ -69,7 +66,7 @@ class Timekeeper:
             run.go()
         if run.errors:
             raise one_of(run.errors)
-        return run.done(names, snapshot)
+        return run.done(names, snapshot, self.view)
 
     async def trigger_async(
         self, names: tuple[str, ...], args: tuple[Any, ...], kwargs: Mapping[str, Any], monitor: Monitor | None
@@ -80,7 +77,7 @@ class Timekeeper:
             await run.go_async()
         if run.errors:
             raise one_of(run.errors)
-        return run.done(names, snapshot)
+        return run.done(names, snapshot, self.view)
 
     def _looked_at(
         self, names: tuple[str, ...], snapshot: Snapshot, run: Run, monitor: Monitor | None
@@ -98,7 +95,7 @@ class Timekeeper:
         return self._ledger.change(partial(self._due, names))
 
     def _due(self, names: tuple[str, ...]) -> Due:
-        moment = self.moment()
+        moment = self._lifecycle.moment()
         stage = called_by(names, moment, code=False)
         refuse([stage], self._ledger.agenda, moment.now, names if self._chains else ())
         return Due(stage.decisions)
@@ -119,7 +116,7 @@ class Timekeeper:
             if run.errors:
                 raise one_of(run.errors)
         if broken:
-            raise _done_though_forbidden(name, broken, now)
+            raise done_though_forbidden(name, broken, now)
         return self.view_all(discharged)
 
     def _discharge(
@@ -130,11 +127,6 @@ class Timekeeper:
             raise UnknownObligation(name, program.whole.obligations)
         discharged, broken = self._ledger.note(name)
         return discharged, broken, waiting, self.clock.now()
-
-    def moment(self, args: tuple[Any, ...] = (), kwargs: Mapping[str, Any] | None = None) -> Moment:
-        """Now."""
-        snapshot, instance = self._state()
-        return Moment(self.clock.now(), snapshot, instance, args, kwargs or {})
 
     def _decide(
         self,
@@ -154,124 +146,13 @@ class Timekeeper:
         in_loop: bool,
         settled: bool,
     ) -> tuple[Run, Snapshot]:
-        moment = self.moment(args, kwargs)
-        stages = self.closure(called_by(names, moment), moment)
-        run = self.admit(stages, moment.now, in_loop, names if self._chains else (), settled)
+        moment = self._lifecycle.moment(args, kwargs)
+        stages = self._lifecycle.closure(called_by(names, moment), moment)
+        run = self._lifecycle.admit(stages, moment.now, in_loop, names if self._chains else (), settled)
         if self._chains:
             for name in names:
                 self._ledger.note(name)
         return run, moment.snapshot
-
-    def closure(self, stage: Stage, moment: Moment) -> list[Stage]:
-        """`stage`, and with chains what follows from it at once. Raises as `with_chains`."""
-        return with_chains(stage, moment) if self._chains else [stage]
-
-    # Deciding, within a change of the ledger ------------------------------------------------------------------
-
-    def admit(
-        self, stages: Sequence[Stage], now: Time, in_loop: bool, events: Sequence[str] = (), settled: bool = False
-    ) -> Run:
-        """Checks all that `stages` bring, and puts it on the agenda. Raises before any of it is there."""
-        refuse(stages, self._ledger.agenda, now, events, settled)
-        run = Run(self, stages, now)
-        if run.asynchronous and not in_loop:
-            labels = [unit.origin.rule.label for stage in stages for unit in stage.units if unit.asynchronous]
-            raise NeedsAwait(
-                f"code of {listed(dict.fromkeys(labels))} is a coroutine function",
-                "await trigger_async(…) instead; what the clock starts needs an AsyncioClock",
-            )
-        watched = [task for stage in stages if not stage.watched for task in stage.tasks if self._is_watched(task, now)]
-        if watched and self._ledger.closed:
-            raise SleecError("the instance is closed, and what is due needs to be watched", "load the rules anew")
-        for task in watched:
-            self._watch(task)
-        for stage in stages:
-            for unit in stage.units:
-                if unit.at > now:
-                    self._ledger.schedule(unit.at, OPENS, unit.tasks, partial(self._starts.open, unit))
-        for stage in stages:
-            for task in stage.tasks:
-                if task.literal.negated and task not in watched and not stage.watched:
-                    self._ledger.set(task, "state", "over")
-        return run
-
-    def _is_watched(self, task: Task, now: Time) -> bool:
-        """Whether anything of it outlasts the moment, or may."""
-        if not task.at_once or task.first > now:
-            return True
-        # What is due in the place of another is nowhere else, once that is over.
-        return not task.literal.negated and (task.is_alternative or task.name in task.origin.instance.takes_time)
-
-    def _watch(self, task: Task) -> None:
-        self._ledger.add(task)
-        if task.literal.negated:
-            if task.last is not None:
-                self._ledger.schedule(task.last, CLOSES, (task,), partial(self._starts.close_prohibition, task))
-        elif task.at_once:
-            if task.name in task.origin.instance.takes_time:
-                task.last = None
-        elif task.last is not None:
-            self._ledger.schedule(task.last, CLOSES, (task,), partial(self._starts.close, task))
-
-    # For a run ------------------------------------------------------------------------------------------------
-
-    def begin(self, unit: Unit) -> list[Task]:
-        """The tasks of `unit` that are still open. They are under way from now on."""
-        return self._ledger.change(partial(self._begin, unit))
-
-    def _begin(self, unit: Unit) -> list[Task]:
-        tasks = [task for task in unit.tasks if task.is_open]
-        for task in tasks:
-            self._ledger.set(task, "state", "under way")
-            self._ledger.set(task, "unit", None)
-        return tasks
-
-    def happened(self, name: str, task: Task) -> list[Exception]:
-        """`name` is done, as `task` asks for. Returns what is wrong with that."""
-        _, broken = self._ledger.change(partial(self._ledger.note, name, task))
-        return [_done_though_forbidden(name, broken, self.clock.now())] if broken else []
-
-    def failed(self, task: Task) -> list[Stage]:
-        """What `task` asks for was started, and its code raised: what is to be run in its place, on the agenda already.
-
-        With nothing in its place, it can still be done until its window closes. Raises as a dispatch does.
-        """
-        alternatives = task.instead
-        if alternatives is None and task.at_once:
-            alternatives = task.otherwise
-        if alternatives is not None:
-            try:
-                return self._ledger.change(partial(self._replace, task, alternatives))
-            except Exception:
-                self._ledger.change(partial(self._keep_open, task))
-                raise
-        self._ledger.change(partial(self._keep_open, task))
-        return []
-
-    def _keep_open(self, task: Task) -> None:
-        """It can still be done if it has a window."""
-        if task.is_open and task.at_once:
-            self._ledger.end(task, "missed")
-        elif task.is_open:
-            self._ledger.set(task, "state", "waiting")
-
-    def _replace(self, task: Task, alternatives: tuple[Task, ...]) -> list[Stage]:
-        if not task.is_open:
-            return []
-        self._ledger.end(task, "replaced")
-        moment = self.moment()
-        stages = self.closure(in_place_of(task, alternatives, moment.snapshot), moment)
-        self.admit(stages, moment.now, in_loop=True)
-        return stages
-
-    def withdraw(self, tasks: Iterable[Task]) -> None:
-        """What was called for by an event that did not happen is not due."""
-        self._ledger.change(partial(self._withdraw, tasks))
-
-    def _withdraw(self, tasks: Iterable[Task]) -> None:
-        for task in tasks:
-            if task.is_open:
-                self._ledger.end(task, "withdrawn")
 
     # What there is --------------------------------------------------------------------------------------------
 
@@ -324,30 +205,25 @@ class Timekeeper:
         self._ledger.set(self, "_restored", True)
         for task in recovered.tasks:
             last = task.last
-            self._watch(task)
+            self._lifecycle.watch(task)
             if task.at_once and task.state == "waiting" and task.unit is None and last is not None:
                 # The moment at which it was due has passed.
                 task.last = last
-                self._ledger.schedule(last, CLOSES, (task,), partial(self._starts.close, task))
+                self._ledger.schedule(last, CLOSES, (task,), partial(self._lifecycle.starts.close, task))
         for unit in recovered.units:
-            self._ledger.schedule(unit.at, OPENS, unit.tasks, partial(self._starts.open, unit))
+            self._ledger.schedule(unit.at, OPENS, unit.tasks, partial(self._lifecycle.starts.open, unit))
         for task in recovered.tasks:
             if task.otherwise is not None and not task.literal.negated and task.last is not None and task.last < now:
-                self._starts.miss(task)
+                self._lifecycle.starts.miss(task)
         for label, name in recovered.left_out:
             lost = SnapshotRefused(f"{name} was pending under rules that had been replaced, and is not restored")
-            self._starts.report(Failure(now, label, (name,), lost))
+            self._lifecycle.starts.report(Failure(now, label, (name,), lost))
 
     def tick(self) -> None:
         """Starts and ends all that is due by now. The monitor of a dispatch that calls this does not look at it."""
         with recording(apart=True):
-            self._starts.tick()
+            self._lifecycle.starts.tick()
 
     def close(self) -> None:
         """Nothing is watched any more. What runs, runs on."""
         self._ledger.look(self._ledger.close)
-
-
-def _done_though_forbidden(name: str, prohibitions: Sequence[Task], now: Time) -> Prohibited:
-    message = f"{name} was done, and {prohibitions_in_words(prohibitions, now)}"
-    return prohibited(message, name, prohibitions, "it was begun before that")

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from sleec_runtime.model import Obligation
     from sleec_runtime.snapshot import Snapshot
     from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.keeper import Timekeeper
+    from sleec_runtime.timed.lifecycle import Lifecycle
     from sleec_runtime.timed.pending import Pending
     from sleec_runtime.timed.stages import Stage
     from sleec_runtime.timed.tasks import Task
@@ -58,10 +58,10 @@ class Run:
     Each is with the label of its rule.
     """
 
-    def __init__(self, keeper: Timekeeper, stages: Sequence[Stage], now: Time) -> None:
+    def __init__(self, lifecycle: Lifecycle, stages: Sequence[Stage], now: Time) -> None:
         self.errors: list[tuple[str, BaseException]] = []
         self.fulfilled: list[tuple[str, Obligation]] = []
-        self._keeper = keeper
+        self._lifecycle = lifecycle
         self._now = now
         self._stages = deque(stages)
         self._happened: set[str] = set()
@@ -84,7 +84,7 @@ class Run:
         while self._stages:
             stage = self._stages.popleft()
             if stage.event is not None and stage.event not in self._happened:
-                self._keeper.withdraw(stage.tasks)
+                self._lifecycle.withdraw(stage.tasks)
                 continue
             self._begun.append(stage)
             for task in stage.tasks:
@@ -141,10 +141,10 @@ class Run:
         """It is interrupted: what the rest would be called for by does not happen."""
         for stage in self._stages:
             if stage.event is not None and stage.event not in self._happened:
-                self._keeper.withdraw(stage.tasks)
+                self._lifecycle.withdraw(stage.tasks)
 
     def _begin(self, unit: Unit) -> Variant:
-        tasks = self._keeper.begin(unit)
+        tasks = self._lifecycle.begin(unit)
         if unit.written is None:
             self.fulfilled += [
                 (task.origin.rule.label, task.literal)
@@ -156,7 +156,7 @@ class Run:
     def did(self, task: Task) -> None:
         """The obligation is done, now."""
         self._happened.add(task.name)
-        self.errors += [(task.origin.rule.label, error) for error in self._keeper.happened(task.name, task)]
+        self.errors += [(task.origin.rule.label, error) for error in self._lifecycle.happened(task.name, task)]
 
     def ended(self, unit: Unit, variant: Variant, result: object, error: BaseException | None) -> None:
         """A unit has run. What it left undone, because it raised, may have something in its place."""
@@ -172,15 +172,20 @@ class Run:
 
     def _replace(self, task: Task) -> None:
         try:
-            stages = self._keeper.failed(task)
+            stages = self._lifecycle.failed(task)
         except Exception as error:  # noqa: BLE001 - the alternative was refused, and is kept with the others
             self.errors.append((task.origin.rule.label, error))
         else:
             self._stages.extendleft(reversed(stages))
 
-    def done(self, triggers: tuple[str, ...], snapshot: Snapshot) -> TimedDone:
-        """What it did, if nothing was raised."""
+    def done(
+        self,
+        triggers: tuple[str, ...],
+        snapshot: Snapshot,
+        view: Callable[[Iterable[Task]], tuple[Pending, ...]],
+    ) -> TimedDone:
+        """What it did, if nothing was raised. `view` shows users what of it is not over."""
         decisions = tuple(decision for stage in self._begun for decision in stage.decisions)
         plan = Plan(triggers, Due(decisions), tuple(self._variants), snapshot.mark)
         tasks = [task for stage in self._begun for task in stage.tasks]
-        return TimedDone(plan, snapshot, self._results, tasks, self._keeper.view)
+        return TimedDone(plan, snapshot, self._results, tasks, view)

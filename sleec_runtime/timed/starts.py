@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from sleec_runtime.timed.clocks import Time
     from sleec_runtime.timed.executor import Execute
-    from sleec_runtime.timed.keeper import Timekeeper
+    from sleec_runtime.timed.lifecycle import Lifecycle
     from sleec_runtime.timed.run import Run
     from sleec_runtime.timed.tasks import Task
     from sleec_runtime.timed.units import Unit
@@ -31,8 +31,8 @@ class Starts:
     """Starts, by `execute`, what opens, and what is due because something closes undone. What goes wrong is reported to
     `failures`, and not raised: only a KeyboardInterrupt in the main thread is both."""
 
-    def __init__(self, keeper: Timekeeper, ledger: Ledger, failures: Failures, execute: Execute) -> None:
-        self._keeper = keeper
+    def __init__(self, lifecycle: Lifecycle, ledger: Ledger, failures: Failures, execute: Execute) -> None:
+        self._lifecycle = lifecycle
         self._ledger = ledger
         self._failures = failures
         self._execute = execute
@@ -56,7 +56,7 @@ class Starts:
 
     def open(self, unit: Unit, at: Time) -> None:
         """Its window opens."""
-        self._start(opened(unit, self._keeper.moment().snapshot), unit.tasks, at)
+        self._start(opened(unit, self._lifecycle.moment().snapshot), unit.tasks, at)
 
     def close(self, task: Task, at: Time) -> None:
         """Its window closes, and it is not done."""
@@ -67,7 +67,7 @@ class Starts:
         if alternatives is None:
             self.miss(task)
         elif alternatives:
-            self._start(in_place_of(task, alternatives, self._keeper.moment().snapshot), alternatives, at)
+            self._start(in_place_of(task, alternatives, self._lifecycle.moment().snapshot), alternatives, at)
 
     def miss(self, task: Task) -> None:
         """Reports that its window has closed, and it is not done."""
@@ -96,7 +96,7 @@ class Starts:
         broken = task.broken
         self._ledger.set(task, "broken", False)
         if broken and alternatives:
-            self._start(in_place_of(task, alternatives, self._keeper.moment().snapshot), alternatives, at)
+            self._start(in_place_of(task, alternatives, self._lifecycle.moment().snapshot), alternatives, at)
 
     def _end(self, task: Task, at: Time) -> None:
         self._ledger.end(task, "over")
@@ -121,7 +121,7 @@ class Starts:
         self._ledger.after(Act(start, lambda: run.begun))
 
     def _admit_when_allowed(self, stage: Stage, at: Time, in_loop: bool) -> Run | None:
-        moment = self._keeper.moment()
+        moment = self._lifecycle.moment()
         try:
             return self._ledger.attempt(partial(self._admit, stage, moment, at, in_loop))
         except Prohibited as refusal:
@@ -137,9 +137,9 @@ class Starts:
 
     def _admit(self, stage: Stage, moment: Moment, at: Time, in_loop: bool) -> Run:
         instant = self._instant if self._instant.at == at else Instant(at)
-        stages = self._keeper.closure(stage, moment)
+        stages = self._lifecycle.closure(stage, moment)
         instant.refuse(stages, moment.now)
-        run = self._keeper.admit(stages, moment.now, in_loop)
+        run = self._lifecycle.admit(stages, moment.now, in_loop)
         self._ledger.set(self, "_instant", instant.with_started(stages, moment.now))
         return run
 
@@ -154,7 +154,7 @@ class Starts:
             alternatives = task.otherwise if task.at_once and watched else None
             self._ledger.end(task, "missed" if alternatives is None else "replaced")
             if alternatives:
-                self._start(in_place_of(task, alternatives, self._keeper.moment().snapshot), alternatives, at)
+                self._start(in_place_of(task, alternatives, self._lifecycle.moment().snapshot), alternatives, at)
 
     # Acts, outside of it --------------------------------------------------------------------------------------
 
