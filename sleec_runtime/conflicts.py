@@ -57,10 +57,9 @@ def find_conflict(
     O(literals + constraints) where nothing that a `NEVER` mentions is left open; exponential in what is, in the
     worst case. In the open world a `NEVER` that unreported conditions may make true counts as broken.
     """
-    opposed = {literal.name for literal in literals if literal.negated}
-    for literal in literals:
-        if not literal.negated and literal.name in opposed:
-            return Conflict(tuple(other for other in literals if other.name == literal.name))
+    opposed = _opposed(literals)
+    if opposed is not None:
+        return Conflict(tuple(other for other in literals if other.name == opposed))
     if not constraints or _possible(literals, constraints, situation):
         return None
     needed = list(constraints)
@@ -77,10 +76,21 @@ def find_conflict(
     return Conflict(tuple(at_odds), tuple(needed))
 
 
+def has_conflict(literals: Sequence[Obligation], constraints: Sequence[Forbidding], situation: Situation) -> bool:
+    """Whether there is a conflict, at a fraction of what it takes to find a smallest one."""
+    return _opposed(literals) is not None or not _possible(literals, constraints, situation)
+
+
 def missing_for(constraints: Iterable[Forbidding], situation: Situation) -> tuple[str, ...]:
     """The unreported conditions that the `NEVER`s among `constraints` may depend on."""
     formulas = (constraint.formula for constraint in constraints if isinstance(constraint, Never))
     return tuple(dict.fromkeys(name for formula in formulas for name in unreported(formula, situation)))
+
+
+def _opposed(literals: Sequence[Obligation]) -> str | None:
+    """The first name that is due and forbidden at once."""
+    forbidden = {literal.name for literal in literals if literal.negated}
+    return next((one.name for one in literals if not one.negated and one.name in forbidden), None)
 
 
 def _possible(literals: Iterable[Obligation], constraints: Sequence[Forbidding], situation: Situation) -> bool:

@@ -10,11 +10,17 @@ from functools import lru_cache
 from typing import Any
 
 from sleec_runtime.model import Calculated, Rational
+from sleec_verify.budget import Budget, Undecided, current
 from sleec_verify.calculations import named
-from sleec_verify.solver import Undecided
 
 RESOURCES = 1_000_000
 """What z3 may spend on one question, in its own measure: about a second, and the same on every machine."""
+
+_PER_RESOURCE, _SETUP = 0.5, 5_000
+"""Steps of a budget for one of these, and to set up z3 for a question."""
+
+_STOPPED = ("canceled", "timeout", "max. resource limit exceeded")
+"""What z3 calls it if it was stopped, and did not give up by itself."""
 
 INSTALL = "pip install z3-solver"
 
@@ -60,7 +66,8 @@ def values_for(
         f"(declare-const a{number} Bool)(assert (=> a{number} {formula}))" for number, formula in enumerate(formulas)
     )
     try:
-        found = _answer("\n".join((*sorts, *assumed)), len(formulas))
+        budget = current()
+        found = _answer("\n".join((*sorts, *assumed)), len(formulas), None if budget is None else budget.whole)
     except ImportError:
         raise _unknown(compared, "what {} can be is for z3, which is not installed (" + INSTALL + ")") from None
     if found is None:
@@ -77,20 +84,34 @@ def _unknown(compared: Iterable[Compared], message: str) -> NotCalculated:
 
 
 @lru_cache(maxsize=10_000)
-def _answer(question: str, assumed: int) -> dict[str, Rational] | list[int] | None:
+def _answer(question: str, assumed: int, asked_for: Budget | None) -> dict[str, Rational] | list[int] | None:
     """Values of ``m0``, ``m1``, … in a model of a text in SMT-LIB in which so many of ``a0``, ``a1``, … are true; or
     the numbers of some of these that contradict one another; None if z3 does not decide it.
 
-    It is asked by a text, as to build formulas by its API takes longer than z3 takes to answer. Answers are kept: the
-    checks ask the same again and again. Raises ImportError without z3.
+    It is asked by a text, as to build formulas by its API takes longer than z3 takes to answer. Answers are kept, as
+    the checks ask the same again and again, but for one budget only, so that no file profits from another.
+
+    Raises ImportError without z3, OutOfBudget where the budget at hand was spent before `RESOURCES` were.
     """
     import z3
 
+    budget = current()
     context = z3.Context()
     solver = z3.Solver(ctx=context)
-    solver.set("rlimit", RESOURCES)
+    allowed = RESOURCES
+    if budget is not None:
+        budget.spend(_SETUP)
+        allowed = int(min(RESOURCES, budget.steps / _PER_RESOURCE))
+        if budget.is_timed:
+            solver.set("timeout", int(budget.seconds() * 1000) + 1)
+    solver.set("rlimit", allowed + 1)  # 0 would be no limit
     solver.from_string(question)
     answer = solver.check([z3.Bool(f"a{number}", context) for number in range(assumed)])
+    if budget is not None:
+        used = solver.statistics().get_key_value("rlimit count")
+        budget.spend(_PER_RESOURCE * min(used, allowed))
+        if answer == z3.unknown and used < RESOURCES and solver.reason_unknown() in _STOPPED:
+            budget.give_up()
     if answer == z3.unsat:
         return [int(one.decl().name()[1:]) for one in solver.unsat_core()]
     if answer == z3.unknown:

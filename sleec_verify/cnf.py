@@ -114,6 +114,15 @@ class Encoder:
         """A literal equal to the disjunction of any number of literals."""
         return -self.all_of([-literal for literal in literals])
 
+    def at_least_two(self, literals: Sequence[int]) -> int:
+        """A literal equal to "two of these are true", by a variable for "one of those so far": linear."""
+        repeated = []
+        so_far = -self.true()
+        for literal in literals:
+            repeated.append(self.both(so_far, literal))
+            so_far = self.any_of([so_far, literal])
+        return self.any_of(repeated)
+
     def literal(self, formula: Formula) -> int:
         """A literal equal to the formula. O(size of the formula)."""
         if isinstance(formula, Atom):

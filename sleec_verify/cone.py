@@ -28,8 +28,10 @@ from sleec_runtime.model import (
     leaves,
     measures_of,
 )
+from sleec_verify.budget import Undecided
 
 if TYPE_CHECKING:
+    from sleec_verify.clashes import Clashes
     from sleec_verify.cutting import Cutting
     from sleec_verify.solver import Recorder
     from sleec_verify.timed.program import Program
@@ -100,6 +102,10 @@ class Cones:
         """The clauses of each rule, by the rule's position."""
         return [tuple(rule.clauses()) for rule in self.rules]
 
+    def labelled(self) -> Iterator[tuple[str, int]]:
+        """The label of each rule, with its position."""
+        return ((rule.label, position) for position, rule in enumerate(self.rules))
+
     @cached_property
     def by_trigger(self) -> dict[str, list[int]]:
         """The positions of the rules of each trigger."""
@@ -122,16 +128,28 @@ class Cones:
     def assumptions(self) -> list[Assume]:
         return [c for c in self.ruleset.constraints if isinstance(c, Assume)]
 
-    @cached_property
+    @property
     def possible(self) -> bool:
         """Whether the assumptions leave any situation possible. If they do, those that share no name with a question
-        can be left out of it; if they do not, every question has the answer no."""
+        can be left out of it; if they do not, every question has the answer no.
+
+        It is asked once. Raises Undecided each time if it was not decided then.
+        """
+        if isinstance(self._possible, Undecided):
+            raise Undecided(self._possible.message, self._possible.hint)
+        return self._possible
+
+    @cached_property
+    def _possible(self) -> bool | Undecided:
         from sleec_verify.question import Question
 
         with Question(self, assuming=False) as question:
             for assumption in self.assumptions:
                 question.require_formula(assumption.formula)
-            return question.ask()
+            try:
+                return question.ask()
+            except Undecided as error:
+                return error
 
     @cached_property
     def constraints(self) -> list[Exclusive | Never]:
@@ -159,6 +177,20 @@ class Cones:
                     seen |= fresh
                     open_names += fresh
         return [self.constraints[position] for position in sorted(found)]
+
+    @cached_property
+    def clashes(self) -> Clashes:
+        """Every minimal set of literals that cannot be due together and that the rules can oblige."""
+        from sleec_verify.clashes import Clash, Clashes, clashes, opposite
+
+        obliged = self.by_obligation
+        direct = [
+            Clash(frozenset((literal, opposite(literal))))
+            for literal in obliged
+            if not literal.negated and opposite(literal) in obliged
+        ]
+        declared = clashes(self.constraints, obliged)
+        return Clashes([*direct, *declared.listed], declared.exclusions)
 
     @cached_property
     def _assumptions_by_name(self) -> dict[Name, list[int]]:

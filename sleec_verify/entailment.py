@@ -168,7 +168,7 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     rules = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
     cones = Cones(ruleset)
     ruled_out = clashes(cones.constraints, {o for rule in rules for c in rule.clauses() for o in c.obligations})
-    labels = list(dict.fromkeys(label for clash in ruled_out for label in clash.labels))
+    labels = list(dict.fromkeys(label for clash in ruled_out.listed for label in clash.labels))
     conditions = [formula for rule in rules for formula, _, _ in _conditions(rule)]
     assumed = [assumption.formula for assumption in cones.assumptions]
     named = [name for rule in rules for name in names_of_rule(rule)]
@@ -194,9 +194,8 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     ]
     due = definition.entailed(context)
     obliged = {o for place in active for o in cones.clauses[place.rule][place.number].obligations}
-    here = [clash for clash in ruled_out if clash.labels <= come_true]
     witness = Witness(tuple(sorted(context.triggers)), dict(context.conditions))
-    conflicts = tuple(conflict_in(cones, active, here, witness))
+    conflicts = tuple(conflict_in(cones, active, ruled_out, come_true, witness))
     consistent = due is not None and not conflicts
     later = [o for place in active for o in _clause(stated[cones.rules[place.rule].label], place.number) if o.timing]
     due = frozenset((due or frozenset()) | set(later))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from types import TracebackType
 
 from sleec_runtime.model import Clause, Context, Formula, Obligation, Rule, Value
@@ -24,6 +24,8 @@ class Question:
         self.encoder = Encoder(cones.ruleset.measures)
         self._guards: dict[int, list[int]] = {}
         self._solver: Solver | None = None
+        self._doubt: Undecided | None = None
+        """Why it is not known whether any situation is possible. If none is, every answer is no."""
 
     def guards(self, position: int) -> list[int]:
         """The guards of the rule at `position`, one literal a clause."""
@@ -60,10 +62,15 @@ class Question:
 
     def _complete(self) -> Solver:
         if self._assuming:
-            if not self.cones.possible:
+            try:
+                possible = self.cones.possible
+            except Undecided as error:
+                possible, self._doubt = True, error
+            if possible:
+                for assumption in self.cones.assumptions_about(self.names()):
+                    self.require_formula(assumption.formula)
+            else:
                 self.require()
-            for assumption in self.cones.assumptions_about(self.names()):
-                self.require_formula(assumption.formula)
         self.encoder.close()
         return MiniSat(self.encoder.clauses)
 
@@ -85,11 +92,20 @@ class Question:
                 return False
             refusal = self._refused()
             if refusal is None:
+                if self._doubt is not None:
+                    raise self._doubt
                 if recorder is not None:
                     recorder.satisfied(clauses, literals, self._solver.holds)
                 return True
             clauses.append(refusal)
             self._solver.add([refusal])
+
+    def exclude(self, *literals: int) -> None:
+        """From the next `ask` on, not all of these are true together."""
+        assert self._solver is not None, "before the first question, there is `require`"
+        clause = [-literal for literal in literals]
+        self.encoder.clauses.append(clause)
+        self._solver.add([clause])
 
     def _refused(self) -> list[int] | None:
         """A clause that rules out the model at hand, where measures cannot have values as it says."""
@@ -105,6 +121,11 @@ class Question:
         """Literals of the last `ask` that suffice for its answer to be no."""
         assert self._solver is not None, "there is a core only after a question"
         return self._solver.core()
+
+    def core_among(self, literals: Iterable[int]) -> list[int]:
+        """Those of these literals that are in the core, in their order."""
+        core = set(self.core())
+        return [literal for literal in literals if literal in core]
 
     def situation(self) -> Context:
         """The context that the last `ask` found, with a value for every name in the formula."""

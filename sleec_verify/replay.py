@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from sleec_runtime.conflicts import conflict
-from sleec_runtime.evaluation import decide, holds
+from sleec_runtime.conflicts import forbidding, has_conflict
+from sleec_runtime.evaluation import Situation, decide, due, holds
 from sleec_runtime.model import READINGS, Context, Never, Rule, Ruleset
 from sleec_verify.cone import Cones, names_in, names_of_rule
 from sleec_verify.finding import Finding
@@ -30,15 +30,14 @@ def replays(cones: Cones, finding: Finding) -> bool:
     context = finding.witness.context()
     assumed = cones.assumptions_that_may_break(context)
     possible = all(holds(assumption.formula, context, cones.ruleset.measures) for assumption in assumed)
-    return possible and _CLAIMS[finding.check](_about(cones, finding, context), finding, context)
+    return possible and _CLAIMS[finding.check](_about(cones, finding), finding, context)
 
 
-def _about(cones: Cones, finding: Finding, context: Context) -> Ruleset:
-    """The ruleset with only the rules that the context triggers, as the others oblige nothing there, the constraints
-    that can concern what they oblige, and the measures of both."""
-    positions = {position for trigger in context.triggers for position in cones.by_trigger.get(trigger, ())}
-    rules = [cones.rules[position] for position in sorted(positions)]
-    obliged = {o.name for p in positions for clause in cones.clauses[p] for o in clause.obligations}
+def _about(cones: Cones, finding: Finding) -> Ruleset:
+    """The ruleset with only the rules of the finding, the constraints that can concern what they oblige, and the
+    measures of both. What other rules oblige as well takes no conflict away."""
+    rules = [cones.ruleset.by_label[label] for label in finding.rules]
+    obliged = {o.name for rule in rules for clause in rule.clauses() for o in clause.obligations}
     # Constraints can break by themselves where a NEVER and another leave nothing to do.
     alone = not finding.clauses
     constraints = cones.constraints if alone else cones.constraints_about({*obliged, *finding.obligations})
@@ -54,14 +53,17 @@ def _conflicts(ruleset: Ruleset, finding: Finding, context: Context) -> bool:
         decision = decide(ruleset.by_label[label], context, ruleset.reading, ruleset.measures)
         if decision is None or decision.clause != number:
             return False
-    return conflict(ruleset, context) is not None
+    return _has_conflict(ruleset, context)
 
 
 def _vacuous(ruleset: Ruleset, finding: Finding, context: Context) -> bool:
     rule = ruleset.by_label[finding.rules[0]]
-    return (
-        decide(rule, context, ruleset.reading, ruleset.measures) is not None and conflict(ruleset, context) is not None
-    )
+    return decide(rule, context, ruleset.reading, ruleset.measures) is not None and _has_conflict(ruleset, context)
+
+
+def _has_conflict(ruleset: Ruleset, context: Context) -> bool:
+    literals = due(ruleset, context).literals
+    return has_conflict(literals, forbidding(ruleset), Situation(context, ruleset.measures))
 
 
 def _readings_part(ruleset: Ruleset, finding: Finding, context: Context) -> bool:

@@ -12,14 +12,23 @@ from typing import Protocol
 
 import pysolvers
 
-from sleec_runtime.errors import SleecError
+from sleec_verify.budget import Budget, Undecided, current, spend
+
+__all__ = ["CONFLICT_BUDGET", "MiniSat", "Recorder", "Solver", "Undecided"]
 
 CONFLICT_BUDGET = 500_000
 """Conflicts after which a question is given up. Questions about rules that people write need a few dozen."""
 
+SLICE = 100_000
+"""Propagated literals after which a solver at work first looks at the clock, if there is a timeout. It is twice as many
+each time, as a solver loses its course at each look."""
 
-class Undecided(SleecError):
-    """A question that was given up. A check turns this into the verdict `Unknown`; it never counts as fine."""
+PER_SECOND = 1_000_000
+"""Propagated literals that no machine takes much longer for than a second."""
+
+PER_CONFLICT, PER_LITERAL, PER_CLAUSE, PER_QUESTION = 8, 0.1, 1.5, 30
+"""Steps of a budget for a conflict, for a propagated literal, for a clause that is built and added, and for a
+question."""
 
 
 class Solver(Protocol):
@@ -74,7 +83,9 @@ class MiniSat:
 
     def __init__(self, clauses: Iterable[Sequence[int]] = (), budget: int | None = None) -> None:
         self._solver = pysolvers.minisat22_new()
-        pysolvers.minisat22_cbudget(self._solver, CONFLICT_BUDGET if budget is None else budget)
+        self._conflicts_left = CONFLICT_BUDGET if budget is None else budget
+        self._done = {"conflicts": 0, "propagations": 0}
+        pysolvers.minisat22_cbudget(self._solver, self._conflicts_left)
         # Signals reach the main thread only, and only there may the solver set its handler.
         self._interruptible = int(current_thread() is main_thread())
         self._model: list[int] = []
@@ -82,18 +93,49 @@ class MiniSat:
 
     def add(self, clauses: Iterable[Sequence[int]]) -> None:
         add, solver = pysolvers.minisat22_add_cl, self._solver
+        added = 0
         for clause in clauses:
             add(solver, clause)
+            added += 1
+        spend(PER_CLAUSE * added)
 
     def solve(self, assumptions: Sequence[int] = ()) -> bool | None:
+        budget = current()
+        answer = self._solve(assumptions) if budget is None else self._solve_within(budget, assumptions)
+        if answer:
+            self._model = pysolvers.minisat22_model(self._solver) or []
+        return answer
+
+    def _solve(self, assumptions: Sequence[int]) -> bool | None:
         try:
             answer: bool | None = pysolvers.minisat22_solve_lim(self._solver, assumptions, self._interruptible, 0)
         except pysolvers.error:
             # The solver's own handler took the Ctrl-C.
             raise KeyboardInterrupt from None
-        if answer:
-            self._model = pysolvers.minisat22_model(self._solver) or []
         return answer
+
+    def _solve_within(self, budget: Budget, assumptions: Sequence[int]) -> bool | None:
+        """Solve, or raise OutOfBudget when the budget is spent."""
+        budget.spend(PER_QUESTION)
+        slice_ = SLICE
+        while True:
+            conflicts: float = self._conflicts_left
+            if budget.is_timed:
+                literals = min(slice_, budget.seconds() * PER_SECOND)
+            else:
+                conflicts = min(conflicts, budget.steps / PER_CONFLICT)
+                literals = budget.steps / PER_LITERAL
+            # One at least, as 0 is no limit.
+            pysolvers.minisat22_cbudget(self._solver, int(conflicts) + 1)
+            pysolvers.minisat22_pbudget(self._solver, int(literals) + 1)
+            answer = self._solve(assumptions)
+            before, self._done = self._done, pysolvers.minisat22_acc_stats(self._solver)
+            conflicts, literals = (self._done[what] - before[what] for what in ("conflicts", "propagations"))
+            budget.spend(PER_CONFLICT * conflicts + PER_LITERAL * literals)
+            self._conflicts_left -= conflicts
+            if answer is not None or self._conflicts_left <= 0:
+                return answer
+            slice_ *= 2
 
     def holds(self, literal: int) -> bool:
         variable = abs(literal)

@@ -53,7 +53,10 @@ class World:
         for obligation, literal in due.items():
             if not obligation.negated and opposite(obligation) in due:
                 self.question.require(-literal, -due[opposite(obligation)])
-        for clash in clashes(self.cones.constraints, due):
+        declared = clashes(self.cones.constraints, due)
+        for exclusion in declared.exclusions:
+            self._at_most_one([due[obligation] for obligation in exclusion.literals])
+        for clash in declared.listed:
             if all(obligation in due for obligation in clash.literals):
                 labels = [-self.literal(label) for label in clash.labels]
                 self.question.require(*(-due[obligation] for obligation in clash.literals), *labels)

@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Sequence
 
-from sleec_verify.checks.conflict import all_clashes
-from sleec_verify.clashes import Clash
+from sleec_verify.clashes import Clash, Exclusion
 from sleec_verify.cone import Cones, Name, names_in, names_of_rule
 from sleec_verify.question import Question
 
@@ -20,11 +19,11 @@ def conflict_free(cones: Cones) -> bool:
     """Whether no situation conflicts. The formulas are linear in the rules that oblige part of a clash and in the
     assumptions."""
     # All are asked, so that all are recorded.
-    answers = [_possible(cones, group) for group in _groups(cones, all_clashes(cones))]
+    answers = [_possible(cones, group) for group in _groups(cones)]
     return not any(answers)
 
 
-def _possible(cones: Cones, group: Sequence[Clash]) -> bool:
+def _possible(cones: Cones, group: Sequence[Clash | Exclusion]) -> bool:
     """Whether any of these clashes comes true in some situation."""
     at_odds = {literal for clash in group for literal in clash.literals}
     with Question(cones) as question:
@@ -32,19 +31,21 @@ def _possible(cones: Cones, group: Sequence[Clash]) -> bool:
         questions = []
         for clash in group:
             literals = [due[literal] for literal in sorted(clash.literals, key=str)]
-            if clash.labels:
+            if isinstance(clash, Exclusion):
+                literals = [question.encoder.at_least_two(literals)]
+            elif clash.labels:
                 literals.append(question.encoder.literal(clash.situation))
             questions.append(literals)
         answers = [question.ask(*literals) for literals in questions]
         return any(answers)
 
 
-def _rules(cones: Cones, group: Iterable[Clash]) -> list[int]:
+def _rules(cones: Cones, group: Iterable[Clash | Exclusion]) -> list[int]:
     """The rules that oblige part of these clashes, in the order of the text."""
     return sorted({p.rule for clash in group for literal in clash.literals for p in cones.by_obligation[literal]})
 
 
-def _groups(cones: Cones, found: Iterable[Clash]) -> list[list[Clash]]:
+def _groups(cones: Cones) -> list[list[Clash | Exclusion]]:
     """The clashes in groups that share neither rules nor names that the same assumptions speak of."""
     parent: dict[Hashable, Hashable] = {}
 
@@ -60,8 +61,8 @@ def _groups(cones: Cones, found: Iterable[Clash]) -> list[list[Clash]]:
         assumed.update(names)
         for other in names[1:]:
             parent[root(other)] = root(names[0])
-    by_root: dict[Hashable, list[Clash]] = {}
-    clashes = list(found)
+    by_root: dict[Hashable, list[Clash | Exclusion]] = {}
+    clashes: list[Clash | Exclusion] = [*cones.clashes.listed, *cones.clashes.exclusions]
     tied: set[int] = set()
     for clash in clashes:
         for rule in _rules(cones, [clash]):
@@ -70,7 +71,7 @@ def _groups(cones: Cones, found: Iterable[Clash]) -> list[list[Clash]]:
                 tied.add(rule)
                 for name in assumed.intersection(names_of_rule(cones.rules[rule])):
                     parent[root(name)] = root(rule)
-        for name in assumed.intersection(names_in(clash.situation)):
+        for name in assumed.intersection(names_in(clash.situation) if isinstance(clash, Clash) else ()):
             parent[root(name)] = root(clash)
     for clash in clashes:
         by_root.setdefault(root(clash), []).append(clash)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from time import perf_counter
 
 from sleec_runtime.model import Ruleset
+from sleec_verify.budget import Undecided, for_file, share
 from sleec_verify.checks.assumptions import ASSUMPTIONS
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.claims import CONCERN, PURPOSE
@@ -27,7 +29,7 @@ from sleec_verify.checks.windows import BARE_PROHIBITION, ZERO_WINDOW
 from sleec_verify.cone import Cones
 from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
 from sleec_verify.replay import replays
-from sleec_verify.solver import Recorder, Undecided
+from sleec_verify.solver import Recorder
 from sleec_verify.timed.scope import Untimed, speaks_of_traces
 
 __all__ = ["CHECKS", "Check", "Checking", "FindingKind", "checks_for", "run_checks"]
@@ -59,6 +61,28 @@ CHECKS: Mapping[str, Check] = {
         REALIZABILITY,
     )
 }
+
+_COSTLY = (
+    CONSTANT_CONDITION.name,
+    ASSUMPTIONS.name,
+    DEAD_RULE.name,
+    DEAD_HEDGE.name,
+    READING.name,
+    REDUNDANT_HEDGE.name,
+    REDUNDANT_RULE.name,
+    PURPOSE.name,
+    CONCERN.name,
+    VACUOUS_CONFLICT.name,
+    CONFLICT.name,
+    REALIZABILITY.name,
+)
+"""The checks that ask a solver, in the order in which they are made, after those that only read the text."""
+
+_ROUNDS = 3
+"""How often a check is made, at most, that has spent its share of the budget."""
+
+_AT_FIRST = 1 / 20
+"""The part of the budget that each check may spend at first."""
 
 Progress = Callable[[str, int, int], None]
 """Called before each check with its name, how many are done, and how many there are."""
@@ -96,18 +120,15 @@ def run_checks(
 
     A ruleset is checked in each of its domains, with the rules that apply everywhere; `domain` picks one. A finding
     says in which domains it holds. `untimed` is what a response without a window means, in rules that speak of time.
-    `realizable` adds that check, for an environment that acts up to so many times. Raises KeyError for an unknown one.
+    `realizable` adds that check, for an environment that acts up to so many times. Unless the work has a budget
+    (`sleec_verify.budget`), it is given that of one file; what is not decided within it is unknown. Raises KeyError for
+    an unknown check.
     """
     checking = Checking(ruleset, domain, untimed, realizable=1 if realizable is None else realizable)
     chosen = list(dict.fromkeys(checks_for(ruleset) if names is None else names))
     if realizable is not None:
         chosen.append(REALIZABILITY.name)
-    results = []
-    for done, name in enumerate(chosen):
-        if progress is not None:
-            progress(name, done, len(chosen))
-        results.append(checking.result(name))
-    return tuple(results)
+    return checking.results(chosen, progress)
 
 
 class Checking:
@@ -137,6 +158,46 @@ class Checking:
         domains = ruleset.domains if domain is None else (domain,)
         self.whole = known(ruleset)
         self.by_domain = {d: known(ruleset.in_domain(d)) for d in domains} or {"": self.whole}
+
+    def results(
+        self,
+        names: Sequence[str],
+        progress: Progress | None = None,
+        made: Callable[[CheckResult], None] | None = None,
+    ) -> tuple[CheckResult, ...]:
+        """The verdicts of these checks. Each is made with a small part of the budget at first. Where that is not
+        enough, it is made again after all others, with an equal share of what is left then.
+
+        `made` is called after each check that was made. Raises KeyError for an unknown one.
+        """
+        found: dict[str, CheckResult] = {}
+        had: dict[str, float] = {}
+        with for_file(len(self.whole.ruleset.source.text)):
+            self._ask_what_is_possible()
+            waiting = sorted(names, key=lambda name: _COSTLY.index(name) if name in _COSTLY else -1)
+            for again in range(_ROUNDS):
+                short = []
+                for done, name in enumerate(waiting):
+                    if progress is not None:
+                        progress(name, done, len(waiting))
+                    with share(1 / (len(waiting) - done) if again else _AT_FIRST) as budget:
+                        if budget.left() <= had.get(name, -1):
+                            continue
+                        had[name] = budget.left()
+                        found[name] = self.result(name)
+                    if made is not None:
+                        made(found[name])
+                    if isinstance(found[name].verdict, Unknown) and budget.ran_out:
+                        short.append(name)
+                waiting = short
+        return tuple(found[name] for name in names)
+
+    def _ask_what_is_possible(self) -> None:
+        """Ask it first, and once: every question about situations rests on it."""
+        for cones in (self.whole, *self.by_domain.values()):
+            if cones.assumptions:
+                with share(1 / 2), suppress(Undecided):
+                    _ = cones.possible
 
     def result(self, name: str) -> CheckResult:
         """The verdict of one check. Raises KeyError for an unknown one."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from sleec_verify.budget import Undecided
 from sleec_verify.checks.base import Check, FindingKind, listed
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding
@@ -14,29 +15,39 @@ def _contradictory(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when no situation is possible: the assumptions. A model is a possible situation."""
     if not cones.assumptions or cones.possible:
         return
-    needed = list(range(len(cones.assumptions)))
-    for position in list(needed):
-        without = [kept for kept in needed if kept != position]
-        if not _possible(cones, without):
-            needed = without
+    needed, minimal = _at_odds(cones)
     spans = [cones.assumptions[position].span for position in needed]
     place = cones.ruleset.source.place
     lines = [str(place(span).line) for span in spans]
+    note = "no situation is left, so every rule is dead and nothing else that is said of this ruleset means anything"
     yield ASSUMPTIONS.finding(
         "the assumption can never be true"
         if len(spans) == 1
         else f"the assumptions of lines {listed(lines)} contradict one another",
         spans[0],
-        note="no situation is left, so every rule is dead and nothing else that is said of this ruleset means anything",
+        note=note if minimal else f"{note}; fewer of these assumptions may be enough",
         related=tuple((span, "this one too") for span in spans[1:]),
     )
 
 
-def _possible(cones: Cones, positions: list[int]) -> bool:
+def _at_odds(cones: Cones) -> tuple[list[int], bool]:
+    """Assumptions that contradict one another, and whether none of them can be left out: of those that one refutation
+    needs, leave out one after the other."""
     with Question(cones, assuming=False) as question:
-        for position in positions:
-            question.require_formula(cones.assumptions[position].formula)
-        return question.ask()
+        switches = {question.encoder.fresh(): position for position in range(len(cones.assumptions))}
+        for switch, position in switches.items():
+            question.require(-switch, question.encoder.literal(cones.assumptions[position].formula))
+        needed = list(switches)
+        try:
+            question.ask(*needed)
+            needed = question.core_among(needed)
+            for switch in list(needed):
+                without = [kept for kept in needed if kept != switch]
+                if len(without) < len(needed) and not question.ask(*without):
+                    needed = question.core_among(without)
+        except Undecided:
+            return [switches[switch] for switch in needed], False
+    return [switches[switch] for switch in needed], True
 
 
 ASSUMPTIONS = Check(

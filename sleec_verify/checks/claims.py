@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from sleec_verify.checks.base import Check, FindingKind, listed
+from sleec_verify.checks.each import each
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding, Witness
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 def _concerns(cones: Cones) -> Iterator[Finding]:
     """A finding for each concern that comes about in some trace that keeps all."""
     from sleec_runtime.model_time import claims
-    from sleec_verify.checks.timed.each import each, traces
+    from sleec_verify.checks.timed.matter import traces
     from sleec_verify.timed.questions import coming_about
 
     known = traces(cones)
@@ -42,7 +43,7 @@ def _concerns(cones: Cones) -> Iterator[Finding]:
 def _purposes(cones: Cones) -> Iterator[Finding]:
     """A finding for each purpose that comes about in no trace that keeps all."""
     from sleec_runtime.model_time import claims
-    from sleec_verify.checks.timed.each import each, in_words, rules_in, traces
+    from sleec_verify.checks.timed.matter import in_words, rules_in, traces
     from sleec_verify.timed.questions import coming_about
 
     known = traces(cones)

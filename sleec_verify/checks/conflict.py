@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from itertools import chain
+from math import prod
 
 from sleec_runtime.model import Exclusive, Formula, Not, Obligation, Rule, Span
+from sleec_verify.budget import spend
 from sleec_verify.checks.base import Check, FindingKind, clause_at, clause_name, guard_at, listed
-from sleec_verify.clashes import Clash, clashes, opposite
+from sleec_verify.checks.each import each
+from sleec_verify.clashes import Clash, Clashes, Exclusion, opposite
 from sleec_verify.cone import Cones, Place
 from sleec_verify.equation import conjunction
 from sleec_verify.finding import ClauseRef, Finding, Witness
@@ -18,6 +21,12 @@ MOST, MOST_PER_RULE = 1_000, 3
 """How many causes are listed: so many, and so many more for each rule. Contradicting clauses multiply, and a ruleset
 with more has one problem, not millions."""
 
+MANY_WAYS = 16
+"""Ways to oblige the literals of a clash with which it is asked first whether any of them is possible."""
+
+PER_ATTEMPT = 8
+"""Steps of a budget for one attempt to complete a cause."""
+
 Cause = tuple[Place, ...]
 """A minimal set of clauses that clash, in the order of the text."""
 
@@ -26,37 +35,64 @@ class Enough(Exception):
     """As many causes are found as are listed, and there may be more."""
 
 
-def all_clashes(cones: Cones) -> list[Clash]:
-    """Every minimal set of literals that cannot be due together and that the rules can oblige."""
-    obliged = cones.by_obligation
-    direct = [
-        Clash(frozenset((literal, opposite(literal))))
-        for literal in obliged
-        if not literal.negated and opposite(literal) in obliged
-    ]
-    return direct + clashes(cones.constraints, obliged)
-
-
 def _conflicts(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when a set of clauses is no cause: the guards of the clauses, and the situation in which
     their literals clash. A model is a conflicting context."""
     causes: dict[Cause, list[tuple[Clash, Witness]]] = {}
-    found = all_clashes(cones)
-    parts = _Parts(found)
     most = MOST + MOST_PER_RULE * len(cones.rules)
+
+    def look(at: tuple[Cause, Clash]) -> tuple[Finding, ...]:
+        cause, clash = at
+        situation = _situation(cones, cause, clash)
+        if situation is not None and _possible(cones, cause, situation):
+            witness = smallest_situation(cones, situation)
+            assert witness is not None, "the cause is possible"
+            causes.setdefault(cause, []).append((clash, witness))
+            if len(causes) >= most:
+                raise Enough(f"the first {most} causes are listed; there may be more")
+        return ()
+
     try:
-        for clash in found:
-            for cause in _covers(cones, clash):
-                situation = _situation(cones, cause, clash, parts)
-                if situation is None or not _possible(cones, cause, situation):
-                    continue
-                witness = smallest_situation(cones, situation)
-                assert witness is not None, "the cause is possible"
-                causes.setdefault(cause, []).append((clash, witness))
-                if len(causes) >= most:
-                    raise Enough(f"the first {most} causes are listed; there may be more")
+        yield from each(_candidates(cones), look)
     finally:
         yield from (_finding(cones, cause, shown) for cause, shown in sorted(causes.items()))
+
+
+def _candidates(cones: Cones) -> Iterator[tuple[str, tuple[Cause, Clash]]]:
+    """The clashes, each with every set of clauses that may be its cause, and the rules of these."""
+    found = cones.clashes
+    pairs = (pair for exclusion in found.exclusions for pair in _due_together(cones, exclusion))
+    for clash in chain(found.listed, pairs):
+        ways = prod(len(cones.by_obligation[literal]) for literal in clash.literals)
+        if ways > MANY_WAYS and not _all_due(cones, clash):
+            continue
+        for cause in _covers(cones, clash):
+            rules = dict.fromkeys(cones.rules[place.rule].label for place in cause)
+            yield listed(rules) if rules else "the constraints", (cause, clash)
+
+
+def _all_due(cones: Cones, clash: Clash) -> bool:
+    """Whether all literals of a clash are due in some situation."""
+    rules = {place.rule for literal in clash.literals for place in cones.by_obligation[literal]}
+    with Question(cones) as question:
+        return question.ask(*question.due(sorted(rules), clash.literals).values())
+
+
+def _due_together(cones: Cones, exclusion: Exclusion) -> Iterator[Clash]:
+    """The pairs of an exclusion that may be due in some situation: all pairs of a literal that is due with another one.
+    One formula, satisfiable exactly when there is a further such literal. A model shows one."""
+    rules = {place.rule for literal in exclusion.literals for place in cones.by_obligation[literal]}
+    with Question(cones) as question:
+        encoder = question.encoder
+        due = question.due(sorted(rules), set(exclusion.literals))
+        counting = {literal: encoder.fresh() for literal in due}
+        several = encoder.at_least_two([encoder.both(due[literal], counting[literal]) for literal in due])
+        while question.ask(several):
+            one = next(
+                literal for literal in counting if question.true(due[literal]) and question.true(counting[literal])
+            )
+            question.exclude(counting.pop(one))
+            yield from (exclusion.clash(one, other) for other in counting)
 
 
 def _covers(cones: Cones, clash: Clash) -> Iterator[Cause]:
@@ -65,6 +101,7 @@ def _covers(cones: Cones, clash: Clash) -> Iterator[Cause]:
     seen: set[Cause] = set()
 
     def extend(chosen: tuple[Place, ...], covered: frozenset[Obligation]) -> Iterator[tuple[Place, ...]]:
+        spend(PER_ATTEMPT)
         missing = next((literal for literal in literals if literal not in covered), None)
         if missing is None:
             yield chosen
@@ -89,28 +126,13 @@ def _obliged(cones: Cones, places: Iterable[Place]) -> set[Obligation]:
     return set(chain.from_iterable(clause_at(cones, place).obligations for place in places))
 
 
-class _Parts:
-    """The clashes by their literals, to find those that a part of a cause gives already."""
-
-    def __init__(self, found: list[Clash]) -> None:
-        self._by_literal: dict[Obligation | None, list[Clash]] = {}
-        for clash in found:
-            for literal in clash.literals or (None,):
-                self._by_literal.setdefault(literal, []).append(clash)
-
-    def within(self, literals: set[Obligation]) -> Iterator[Clash]:
-        """Every clash that these literals hold."""
-        for literal in (None, *literals):
-            yield from (clash for clash in self._by_literal.get(literal, ()) if clash.literals <= literals)
-
-
-def _situation(cones: Cones, cause: Cause, clash: Clash, parts: _Parts) -> Formula | None:
+def _situation(cones: Cones, cause: Cause, clash: Clash) -> Formula | None:
     """Where the clauses decide together and clash, and no part of them clashes already. None if a part always does."""
     conjuncts = [guard_at(cones, place) for place in cause]
     if clash.labels:
         conjuncts.append(clash.situation)
     for place in cause:
-        for smaller in parts.within(_obliged(cones, (other for other in cause if other != place))):
+        for smaller in cones.clashes.among(_obliged(cones, (other for other in cause if other != place))):
             if not smaller.labels:
                 return None
             if smaller != clash:
@@ -126,17 +148,19 @@ def _possible(cones: Cones, cause: Cause, situation: Formula) -> bool:
         return question.ask()
 
 
-def conflict_in(cones: Cones, active: Iterable[Place], here: Iterable[Clash], witness: Witness) -> Iterator[Finding]:
-    """The conflicts of one context: `active` are the clauses that decide there, `here` the declared clashes that its
-    situation allows to come true."""
+def conflict_in(
+    cones: Cones, active: Iterable[Place], declared: Clashes, true: Collection[Formula], witness: Witness
+) -> Iterator[Finding]:
+    """The conflicts of one context: `active` are the clauses that decide there, `declared` the clashes of constraints,
+    `true` the labels of these that its situation makes true."""
     by_literal: dict[Obligation, Place] = {}
     for place in active:
         for literal in clause_at(cones, place).obligations:
             by_literal.setdefault(literal, place)
     direct = [Clash(frozenset((o, opposite(o)))) for o in by_literal if not o.negated and opposite(o) in by_literal]
     causes: dict[Cause, list[tuple[Clash, Witness]]] = {}
-    for clash in (*direct, *here):
-        if all(literal in by_literal for literal in clash.literals):
+    for clash in (*direct, *declared.among(by_literal)):
+        if clash.labels <= set(true):
             cause = tuple(sorted({by_literal[literal] for literal in clash.literals}))
             causes.setdefault(cause, []).append((clash, witness))
     for cause, shown in sorted(causes.items()):

@@ -22,6 +22,7 @@ from sleec_runtime.model import (
     measures_of,
 )
 from sleec_verify.checks.base import Check, FindingKind
+from sleec_verify.checks.each import each
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding
 from sleec_verify.question import Question
@@ -44,8 +45,9 @@ def _constant(cones: Cones) -> Iterator[Finding]:
     """For each part of a condition: unsatisfiable exactly when it is always false, and its negation when it is always
     true. A model is a situation in which it is not."""
     changing: set[Formula] = set()
-    for place in _places(cones.ruleset):
-        yield from _in_condition(cones, place, changing)
+    source = cones.ruleset.source
+    places = ((f"line {source.place(place.condition.span).line}", place) for place in _places(cones.ruleset))
+    yield from each(places, lambda place: _in_condition(cones, place, changing))
 
 
 def _in_condition(cones: Cones, place: _Place, changing: set[Formula]) -> Iterator[Finding]:
@@ -205,8 +207,12 @@ def _always(cones: Cones, parts: Sequence[Formula]) -> list[bool | None]:
     """What each formula always is, assumptions left aside; None if it may be either."""
     with Question(cones, assuming=False) as question:
         literals = [question.encoder.literal(part) for part in parts]
-        can_be = [(question.ask(literal), question.ask(-literal)) for literal in literals]
-    return [None if true and false else true for true, false in can_be]
+        possible: set[int] = set()
+        for literal in (sign * literal for literal in literals for sign in (1, -1)):
+            # One model shows what many parts can be.
+            if literal not in possible and question.ask(literal):
+                possible.update(one if question.true(one) else -one for one in literals)
+    return [None if {literal, -literal} <= possible else literal in possible for literal in literals]
 
 
 def _may_be_constant(formula: Formula) -> bool:

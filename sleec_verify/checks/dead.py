@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from sleec_runtime.model import Clause, Rule, in_text_order
 from sleec_verify.checks.base import Check, FindingKind, clause_name
+from sleec_verify.checks.each import each
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
 from sleec_verify.question import Question
@@ -13,7 +14,9 @@ from sleec_verify.question import Question
 
 def _dead_rules(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule is dead: some guard of the rule. A model is a situation that triggers it."""
-    for position, rule in enumerate(cones.rules):
+
+    def of(position: int) -> Iterator[Finding]:
+        rule = cones.rules[position]
         with Question(cones) as question:
             guards = question.guards(position)
             if not question.ask(question.encoder.any_of(guards)):
@@ -24,14 +27,17 @@ def _dead_rules(cones: Cones) -> Iterator[Finding]:
                     help="look at its guard and at the assumptions, or remove it",
                 )
 
+    yield from each(cones.labelled(), of)
+
 
 def _dead_hedges(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the hedge is dead: its guard. A model is a situation in which it decides."""
-    for position, rule in enumerate(cones.rules):
-        clauses = cones.clauses[position]
+
+    def of(position: int) -> Iterator[Finding]:
+        rule, clauses = cones.rules[position], cones.clauses[position]
         inside = _alternatives_with_hedges(clauses)
         if len(clauses) == 1 and not inside:
-            continue
+            return
         with Question(cones) as question:
             guards = question.guards(position)
             # All is grown before the first question.
@@ -57,6 +63,8 @@ def _dead_hedges(cones: Cones) -> Iterator[Finding]:
                         note="hedges inside otherwise and else are decided by what holds when the rule is triggered",
                         help="mend its condition, or remove it",
                     )
+
+    yield from each(cones.labelled(), of)
 
 
 def _response_name(rule: Rule, number: int) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from sleec_runtime.model import Clause, Formula, Not, Obligation, Reading, Rule
 from sleec_verify.checks.base import Check, FindingKind, clause_name, listed
+from sleec_verify.checks.each import each
 from sleec_verify.cone import Cones
 from sleec_verify.equation import conjunction, disjunction, implications
 from sleec_verify.finding import ClauseRef, Finding
@@ -23,11 +24,14 @@ OTHER: dict[Reading, Reading] = {"cascade": "priority", "priority": "cascade"}
 def _readings(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule means the same: some literal is due under one reading and not under the
     other. A model is a situation in which the readings part."""
-    for position, rule in enumerate(cones.rules):
+
+    def of(position: int) -> Iterator[Finding]:
         if len(cones.clauses[position]) > 2:
             situations = _parting(cones, position)
             if situations is not None:
-                yield _finding(cones, position, rule, situations)
+                yield _finding(cones, position, cones.rules[position], situations)
+
+    yield from each(cones.labelled(), of)
 
 
 def _parting(cones: Cones, position: int) -> Formula | None:

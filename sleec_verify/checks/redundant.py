@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from sleec_runtime.model import Clause, Obligation, Rule
 from sleec_verify.checks.base import Check, FindingKind, clause_name, listed, literals_of
+from sleec_verify.checks.each import each
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
 from sleec_verify.question import Question
@@ -36,10 +37,11 @@ def with_others(findings: Iterator[Finding]) -> Iterator[Finding]:
 def _redundant_rules(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule is redundant: it obliges a literal that no other rule obliges. A model is a
     situation in which the rule makes a difference."""
-    for position, rule in enumerate(cones.rules):
-        others = cones.rivals(position)
+
+    def of(position: int) -> Iterator[Finding]:
+        rule, others = cones.rules[position], cones.rivals(position)
         if _makes_a_difference(cones, position, others):
-            continue
+            return
         needed = _needed(cones, position, others)
         cover = [cones.rules[other].label for other in needed]
         yield REDUNDANT_RULE.finding(
@@ -50,6 +52,8 @@ def _redundant_rules(cones: Cones) -> Iterator[Finding]:
             if cover
             else "it obliges nothing in any situation",
         )
+
+    yield from each(cones.labelled(), of)
 
 
 def _makes_a_difference(cones: Cones, position: int, others: Sequence[int]) -> bool:
@@ -86,24 +90,20 @@ def _needed(cones: Cones, position: int, others: Sequence[int]) -> list[int]:
             pairs += [(c, encoder.both(switch, guard)) for c, guard in zip(cones.clauses[other], guards)]
         differs = _differs(question, mine, {}, encoder.due(pairs))
         question.ask(differs, *switches)
-        needed = _in_core(question, switches)
+        needed = question.core_among(switches)
         for switch in needed:
             without = [kept for kept in needed if kept != switch]
             if len(without) < len(needed) and not question.ask(differs, *without):
-                needed = _in_core(question, without)
+                needed = question.core_among(without)
     return [switches[switch] for switch in needed]
-
-
-def _in_core(question: Question, assumed: Iterable[int]) -> list[int]:
-    core = set(question.core())
-    return [literal for literal in assumed if literal in core]
 
 
 def _redundant_hedges(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the hedge is redundant: some literal is due with it and not without it, or without
     it and not with it, and no other rule obliges it. A model is a situation in which the hedge makes a difference."""
-    for position, rule in enumerate(cones.rules):
-        clauses = cones.clauses[position]
+
+    def of(position: int) -> Iterator[Finding]:
+        rule, clauses = cones.rules[position], cones.clauses[position]
         about = literals_of(clauses)
         others = cones.rivals(position)
         for number in _not_plainly_needed(cones, position, others):
@@ -120,6 +120,8 @@ def _redundant_hedges(cones: Cones) -> Iterator[Finding]:
                 clauses=(ClauseRef(rule.label, number),),
                 help=what_to_do(clauses[number]),
             )
+
+    yield from each(cones.labelled(), of)
 
 
 def what_to_do(hedge: Clause) -> str:

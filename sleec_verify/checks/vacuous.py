@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import ExitStack
 
-from sleec_runtime.model import Atom, Never, Obligation
+from sleec_runtime.model import Atom, Never
 from sleec_verify.checks.base import Check, FindingKind, listed, literals_of
-from sleec_verify.checks.conflict import all_clashes
-from sleec_verify.clashes import Clash
+from sleec_verify.checks.each import each
+from sleec_verify.clashes import Clashes
 from sleec_verify.cone import Cones, names_in, names_of_rule
 from sleec_verify.equation import conjunction
 from sleec_verify.finding import Finding
@@ -18,28 +19,43 @@ from sleec_verify.witness import smallest_situation
 def _vacuous(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule is vacuous: it is triggered, and nothing that is due clashes. A model is a
     situation in which the rule can be kept."""
-    by_literal: dict[Obligation | None, list[Clash]] = {}
-    for clash in all_clashes(cones):
-        by_literal.setdefault(min(clash.literals, key=str, default=None), []).append(clash)
-    groups: dict[str, tuple[list[int], list[Clash]]] = {}
-    for position, rule in enumerate(cones.rules):
-        if rule.trigger not in groups:
-            groups[rule.trigger] = _at_stake(cones, rule.trigger, by_literal)
-        group, at_stake = groups[rule.trigger]
-        others = _always_met(cones, position, group, at_stake) if at_stake else None
-        if others is None:
-            continue
-        labels = [cones.rules[other].label for other in others]
-        triggered = [Atom("trigger", rule.trigger), *([] if rule.guard is None else [rule.guard])]
-        yield VACUOUS_CONFLICT.finding(
-            f"{rule.label} can be triggered, but never without a conflict",
-            rule.label_span if rule.labelled else rule.span,
-            rules=(rule.label, *labels),
-            # Whatever the measures are there is a conflict, but each must be something.
-            witness=smallest_situation(cones, conjunction(triggered), _measures(cones, [position, *others])),
-            note=f"it always meets {listed(labels)}" if labels else None,
-            help="the findings of the conflict check say what is at odds; no situation is left in which to keep it",
-        )
+    if not cones.clashes:
+        return
+    with ExitStack() as stack:
+        kept: dict[str, _Kept | None] = {}
+
+        def of(position: int) -> Iterator[Finding]:
+            rule = cones.rules[position]
+            if rule.trigger not in kept:
+                stack.close()
+                kept.clear()
+                kept[rule.trigger] = _Kept.of(cones, rule.trigger, stack)
+            peace = kept[rule.trigger]
+            others = None if peace is None else peace.always_met(position)
+            if others is not None:
+                yield _finding(cones, position, others)
+
+        yield from each(_by_trigger(cones), of)
+
+
+def _by_trigger(cones: Cones) -> Iterator[tuple[str, int]]:
+    """The label of each rule, with its position; rules of one trigger stand together."""
+    return ((cones.rules[position].label, position) for same in cones.by_trigger.values() for position in same)
+
+
+def _finding(cones: Cones, position: int, others: Sequence[int]) -> Finding:
+    rule = cones.rules[position]
+    labels = [cones.rules[other].label for other in others]
+    triggered = [Atom("trigger", rule.trigger), *([] if rule.guard is None else [rule.guard])]
+    return VACUOUS_CONFLICT.finding(
+        f"{rule.label} can be triggered, but never without a conflict",
+        rule.label_span if rule.labelled else rule.span,
+        rules=(rule.label, *labels),
+        # Whatever the measures are there is a conflict, but each must be something.
+        witness=smallest_situation(cones, conjunction(triggered), _measures(cones, [position, *others])),
+        note=f"it always meets {listed(labels)}" if labels else None,
+        help="the findings of the conflict check say what is at odds; no situation is left in which to keep it",
+    )
 
 
 def _measures(cones: Cones, group: Sequence[int]) -> set[str]:
@@ -49,45 +65,61 @@ def _measures(cones: Cones, group: Sequence[int]) -> set[str]:
     return named & set(cones.ruleset.measures)
 
 
-def _at_stake(
-    cones: Cones, trigger: str, by_literal: dict[Obligation | None, list[Clash]]
-) -> tuple[list[int], list[Clash]]:
-    """The clashes that the rules active with `trigger` can come to, and those of the rules that oblige part of one."""
-    group = cones.together_with(trigger, keeping=True)
-    due = {literal for other in group for literal in literals_of(cones.clauses[other])}
-    # In an order, so that the same rules make the same clauses.
-    found = [c for literal in (None, *sorted(due, key=str)) for c in by_literal.get(literal, ()) if c.literals <= due]
-    part = {literal for clash in found for literal in clash.literals}
-    return [other for other in group if not part.isdisjoint(literals_of(cones.clauses[other]))], found
+class _Kept:
+    """The formula "nothing that is due clashes" over the rules that may be active with one trigger."""
 
-
-def _always_met(cones: Cones, position: int, group: Sequence[int], clashes: Sequence[Clash]) -> list[int] | None:
-    """A minimal set of other rules with which the rule conflicts wherever it is triggered, or None if it can be kept
-    somewhere, or is triggered nowhere."""
-    with Question(cones) as question:
-        encoder = question.encoder
+    def __init__(self, cones: Cones, trigger: str, group: Sequence[int], clashes: Clashes) -> None:
+        self._cones = cones
+        self._question = Question(cones)
+        encoder = self._question.encoder
         # A rule speaks only if it is let in, so that the solver's core names the rules that matter.
-        let_in = {other: encoder.fresh() for other in group if other != position}
-        literals = encoder.due(
-            (clause, encoder.both(guard, let_in[other]) if other != position else guard)
-            for other in {*group, position}
-            for clause, guard in zip(cones.clauses[other], question.guards(other))
-        )
-        for clash in clashes:
-            question.require(
-                *(-literals[o] for o in sorted(clash.literals, key=str)), -encoder.literal(clash.situation)
+        self._switches = {position: encoder.fresh() for position in group}
+        pairs = []
+        for position, switch in self._switches.items():
+            guards = self._question.guards(position)
+            pairs += [(c, encoder.both(guard, switch)) for c, guard in zip(cones.clauses[position], guards)]
+        due = encoder.due(pairs)
+        for exclusion in clashes.exclusions:
+            self._question.require(-encoder.at_least_two([due[literal] for literal in exclusion.literals]))
+        for clash in clashes.listed:
+            self._question.require(
+                *(-due[literal] for literal in sorted(clash.literals, key=str)), -encoder.literal(clash.situation)
             )
-        triggered = encoder.any_of(question.guards(position))
-        if question.ask(triggered, *let_in.values()):
+        self._triggered = {
+            position: encoder.any_of(self._question.guards(position)) for position in cones.by_trigger[trigger]
+        }
+
+    @classmethod
+    def of(cls, cones: Cones, trigger: str, stack: ExitStack) -> _Kept | None:
+        """None if the rules of this trigger, and those that may be active with them, come to no clash. `stack` closes
+        it."""
+        group = cones.together_with(trigger, keeping=True)
+        clashes = cones.clashes.among({literal for other in group for literal in literals_of(cones.clauses[other])})
+        if not clashes:
             return None
-        core = set(question.core())
-        needed = [other for other, literal in let_in.items() if literal in core]
-        for other in list(needed):
-            without = [kept for kept in needed if kept != other]
-            if not question.ask(triggered, *(let_in[kept] for kept in without)):
-                needed = without
-    with Question(cones) as question:
-        return needed if question.ask(question.encoder.any_of(question.guards(position))) else None
+        part = clashes.literals()
+        matter = [other for other in group if not part.isdisjoint(literals_of(cones.clauses[other]))]
+        found = cls(cones, trigger, matter, clashes)
+        stack.enter_context(found._question)
+        return found
+
+    def always_met(self, position: int) -> list[int] | None:
+        """A minimal set of other rules with which the rule at `position` conflicts wherever it is triggered, or None if
+        it can be kept somewhere, or is triggered nowhere."""
+        question = self._question
+        given = [self._triggered[position]]
+        given += [switch for other, switch in self._switches.items() if other == position]
+        others = {switch: other for other, switch in self._switches.items() if other != position}
+        if question.ask(*given, *others):
+            return None
+        needed = question.core_among(others)
+        for switch in needed:
+            without = [one for one in needed if one != switch]
+            if len(without) < len(needed) and not question.ask(*given, *without):
+                needed = question.core_among(without)
+        with Question(self._cones) as triggering:
+            triggered = triggering.encoder.any_of(triggering.guards(position))
+            return [others[switch] for switch in needed] if triggering.ask(triggered) else None
 
 
 VACUOUS_CONFLICT = Check(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from sleec_runtime.conflicts import find_conflict
+from sleec_runtime.conflicts import has_conflict
 from sleec_runtime.evaluation import Situation, decide, holds
 from sleec_runtime.model import Context, Exclusive, Formula, Never, Obligation
 from sleec_verify.compare.alternatives import here
@@ -50,7 +50,7 @@ def conflicts(world: World, which: Which, context: Context, said: Iterable[Decid
     literals = tuple(dict.fromkeys(o for one in said for o in one.obligations if o.timing is None))
     stated = world.sides[which].stated
     forbidding = [c for c in stated.constraints if isinstance(c, (Exclusive, Never))]
-    return find_conflict(literals, forbidding, Situation(context, stated.measures)) is not None
+    return has_conflict(literals, forbidding, Situation(context, stated.measures))
 
 
 def is_due(world: World, said: Iterable[Deciding], literal: Obligation) -> bool:

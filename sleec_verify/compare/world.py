@@ -262,7 +262,7 @@ class World:
             Clash(frozenset((one, opposite(one)))) for one in sorted(literals, key=str) if opposite(one) in literals
         ]
         declared = self.constraints_about(which, {literal.name for literal in literals})
-        return list(dict.fromkeys(direct)) + (clashes(declared, literals) if declared else [])
+        return list(dict.fromkeys(direct)) + (list(clashes(declared, literals)) if declared else [])
 
     def _due_exactly(self, rows: Iterable[int], which: Which, literal: Obligation) -> Formula:
         return disjunction([self.obliges(row, which, literal.__eq__) for row in rows])

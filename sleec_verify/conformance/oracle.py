@@ -69,8 +69,7 @@ class Oracle:
 
     def clashes_among(self, literals: Iterable[Obligation]) -> list[Clash]:
         """The clashes that can come of these literals, with those that a situation makes by itself."""
-        known = frozenset(literals)
-        return [clash for clash in self.clashes if clash.literals <= known]
+        return list(self.clashes.among(frozenset(literals)))
 
     def expected(self, context: Context) -> Expected:
         """Definition 1 in `context`; two propagations."""

@@ -24,7 +24,8 @@ from sleec_runtime.model import (
 from sleec_runtime.model import (
     Formula as Condition,
 )
-from sleec_verify.solver import MiniSat, Undecided
+from sleec_verify.budget import Undecided, spend
+from sleec_verify.solver import MiniSat
 from sleec_verify.timed.instant import Fixed, Formula, Instant
 from sleec_verify.timed.laws import law_at
 from sleec_verify.timed.needs import Decided, Need, Placed
@@ -42,6 +43,9 @@ MOST_CLAUSES = 20_000
 
 MOST_COMPARED = 300_000
 """Pairs of instants whose times may be compared in all, model by model: a few seconds."""
+
+_PER_CLAUSE = 4
+"""Steps of a budget to make one clause, besides those to give it to the solver."""
 
 MOST_AT_ONCE = 12
 """As many may be added at once, where one may do for several of them."""
@@ -392,6 +396,7 @@ class Unfolding:
         for instant in self.instants:
             instant.settle()
         clauses = self.formula.clauses
+        spend(_PER_CLAUSE * (len(clauses) - self._sent))
         self._solver.add(clauses[self._sent :])
         self._sent = len(clauses)
 

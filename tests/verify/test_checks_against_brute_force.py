@@ -138,6 +138,21 @@ def test_rulesets_with_measures(check):
     compare()
 
 
+@pytest.mark.parametrize("check", [check_conflicts, check_vacuous])
+def test_constraints_as_large_ones_are_asked_about(check):
+    """An EXCLUSIVE whose pairs are not listed, and clashes asked about as a whole before their causes."""
+
+    @settings(max_examples=120, deadline=None)
+    @given(BOOLEAN)
+    def compare(ruleset):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr("sleec_verify.clashes.MOST_LISTED", 1)
+            patch.setattr("sleec_verify.checks.conflict.MANY_WAYS", 1)
+            check(ruleset)
+
+    compare()
+
+
 _OPERANDS = ("a", "b", "c", "d", "NOT a", "NOT b", "a AND b", "b OR c", "NOT (c AND d)", "a OR d", "b AND NOT c")
 
 

@@ -8,7 +8,8 @@ from dataclasses import replace
 from sleec_runtime.model import Rule, Span
 from sleec_verify.checks.base import listed
 from sleec_verify.checks.conflict import CONFLICT as OF_SITUATIONS
-from sleec_verify.checks.timed.each import each, in_words, laws_in, rules_in, traces
+from sleec_verify.checks.each import each
+from sleec_verify.checks.timed.matter import in_words, laws_in, rules_in, traces
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding, Witness
 from sleec_verify.timed.conflicts import conflict

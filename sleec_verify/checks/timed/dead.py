@@ -11,7 +11,8 @@ from dataclasses import replace
 from sleec_runtime.model import Rule
 from sleec_verify.checks.base import clause_name
 from sleec_verify.checks.dead import DEAD_HEDGE as HEDGE_OF_SITUATIONS
-from sleec_verify.checks.timed.each import each, traces
+from sleec_verify.checks.each import each
+from sleec_verify.checks.timed.matter import traces
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
 from sleec_verify.timed.questions import reachable

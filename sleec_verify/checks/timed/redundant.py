@@ -8,10 +8,11 @@ from itertools import islice
 
 from sleec_runtime.model import Rule
 from sleec_verify.checks.base import clause_name, listed
+from sleec_verify.checks.each import each
 from sleec_verify.checks.redundant import REDUNDANT_HEDGE as HEDGE_OF_SITUATIONS
 from sleec_verify.checks.redundant import REDUNDANT_RULE as RULE_OF_SITUATIONS
 from sleec_verify.checks.redundant import what_to_do, with_others, without_hedge
-from sleec_verify.checks.timed.each import each, in_words, rules_in, traces
+from sleec_verify.checks.timed.matter import in_words, rules_in, traces
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
 from sleec_verify.timed.questions import breaking, exchanging

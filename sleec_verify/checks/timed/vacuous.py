@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from sleec_runtime.model import Rule
 from sleec_verify.checks.base import listed
-from sleec_verify.checks.timed.each import each, in_words, rules_in, traces
+from sleec_verify.checks.each import each
+from sleec_verify.checks.timed.matter import in_words, rules_in, traces
 from sleec_verify.checks.vacuous import VACUOUS_CONFLICT as OF_SITUATIONS
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding

@@ -1,44 +1,21 @@
-"""Asking one question for each of several things, so that what cannot be decided of one does not hide the others."""
+"""The rules and laws that an answer about traces rests on."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, TypeVar
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from sleec_runtime.model_time import RELATIONS
-from sleec_verify.finding import Finding
-from sleec_verify.solver import Undecided
 from sleec_verify.timed.program import Law, law_name
 from sleec_verify.timed.traces import Traces
 
 if TYPE_CHECKING:
     from sleec_verify.cone import Cones
 
-_Asked = TypeVar("_Asked")
-
 
 def traces(cones: Cones) -> Traces:
     assert isinstance(cones, Traces), "the checks of rules with time are given traces"
     return cones
-
-
-def each(asked: Iterable[tuple[str, _Asked]], question: Callable[[_Asked], Iterable[Finding]]) -> Iterator[Finding]:
-    """The findings for all that is `asked` about, each with the name it goes by.
-
-    Raises Undecided, when all are asked, for those that were not decided.
-    """
-    why: dict[str, list[str]] = {}
-    for name, one in asked:
-        try:
-            yield from question(one)
-        except Undecided as error:
-            why.setdefault(str(error), []).append(name)
-    if why:
-        raise Undecided("; ".join(f"{_named(names)}: {reason}" for reason, names in why.items()))
-
-
-def _named(names: list[str]) -> str:
-    return ", ".join(names[:5]) + (f" and {len(names) - 5:,} more" if len(names) > 5 else "")
 
 
 def in_words(cones: Traces, matter: Iterable[str]) -> list[str]:

@@ -1,0 +1,154 @@
+"""How much work may be spent on a file, a check or a question.
+
+Work is counted in steps: literals that the solver propagates, clauses, attempts of a loop. One step takes about a
+microsecond, and the same text always takes the same steps, so a budget of steps ends at the same place on every
+machine. A timeout is a time instead. The budget is a context variable, and whatever works calls `spend`:
+
+    with limited(seconds=60):
+        results = run_checks(ruleset)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from time import monotonic
+from typing import NoReturn
+
+from sleec_runtime.errors import SleecError
+
+FILE = 4_000_000
+"""Steps for one text of rules. Rules that people write take a thousandth of it."""
+
+PER_CHARACTER = 40
+"""Further steps for each character of the text: large rulesets may take long."""
+
+LEAST = 1_000
+"""Steps, and microseconds, below which nothing new is begun."""
+
+
+class Undecided(SleecError):
+    """A question that was given up. A check turns this into the verdict `Unknown`; it never counts as fine."""
+
+
+class OutOfBudget(Undecided):
+    """A question that was given up because its budget is spent."""
+
+
+class Budget:
+    """Work that may be done: a number of steps, or all that is possible until a deadline."""
+
+    def __init__(self, reason: str, steps: float = float("inf"), deadline: float = float("inf")) -> None:
+        """`reason` says what was not enough, where it is spent. `deadline` is a value of `time.monotonic`."""
+        self.reason = reason
+        self.steps = steps
+        """Steps that are left."""
+        self._deadline = deadline
+        self.is_timed = deadline < float("inf")
+        self.ran_out = False
+        """Whether it, or a part of it, was not enough for something."""
+        self.whole = self
+        """The budget that this is a part of."""
+
+    def spend(self, steps: float) -> None:
+        """Count steps. Raises OutOfBudget if there were fewer left, or the deadline has passed."""
+        self.steps -= steps
+        if self.steps < 0 or (self.is_timed and monotonic() > self._deadline):
+            self.give_up()
+
+    def give_up(self) -> NoReturn:
+        """Raises OutOfBudget."""
+        self.ran_out = True
+        raise OutOfBudget(self.reason)
+
+    def seconds(self) -> float:
+        """The time that is left."""
+        return max(self._deadline - monotonic(), 0)
+
+    def left(self) -> float:
+        """What is left: seconds if there is a deadline, else steps."""
+        return self.seconds() if self.is_timed else self.steps
+
+    def is_spent(self) -> bool:
+        """Whether too little is left to begin anything."""
+        return self.steps < LEAST or (self.is_timed and self.seconds() < LEAST / 1e6)
+
+    def part(self, part: float) -> Budget:
+        """A budget of this part of what is left."""
+        deadline = monotonic() + self.seconds() * part if self.is_timed else self._deadline
+        found = Budget(self.reason, max(self.steps, 0) * part, deadline)
+        found.whole = self.whole
+        return found
+
+
+_current: ContextVar[Budget | None] = ContextVar("budget", default=None)
+
+
+def current() -> Budget | None:
+    """The budget of the work at hand; None if it has none."""
+    return _current.get()
+
+
+def spend(steps: float) -> None:
+    """Count steps of the work at hand. Raises OutOfBudget if its budget is spent."""
+    budget = _current.get()
+    if budget is not None:
+        budget.spend(steps)
+
+
+@contextmanager
+def limited(seconds: float) -> Iterator[None]:
+    """Give the work inside so much time, in place of the budget of each file. What is not decided by then is unknown.
+
+    A file that is read is read to its end.
+    """
+    with _using(Budget(f"the timeout of {seconds:g} seconds has passed", deadline=monotonic() + seconds)):
+        yield
+
+
+@contextmanager
+def for_file(characters: int) -> Iterator[None]:
+    """Give the work inside the budget for a text of so many characters, unless it has a budget already."""
+    if _current.get() is not None:
+        yield
+        return
+    with _using(Budget(_FILE_SPENT, FILE + PER_CHARACTER * characters)):
+        yield
+
+
+_FILE_SPENT = "the budget for one file is spent; use --timeout SECONDS to give it more time"
+
+
+def begin() -> None:
+    """Raises OutOfBudget if so little is left of the budget at hand that nothing more should be begun."""
+    budget = _current.get()
+    if budget is not None and budget.is_spent():
+        budget.give_up()
+
+
+@contextmanager
+def share(part: float) -> Iterator[Budget]:
+    """Let the work inside spend at most this part of what is left of the budget at hand. What it leaves is kept."""
+    outer = _current.get()
+    if outer is None:
+        yield Budget("")
+        return
+    inner = outer.part(part)
+    given = inner.steps
+    try:
+        with _using(inner):
+            yield inner
+    finally:
+        outer.ran_out |= inner.ran_out
+        if not outer.is_timed:
+            outer.steps -= given - inner.steps
+
+
+@contextmanager
+def _using(budget: Budget) -> Iterator[None]:
+    token = _current.set(budget)
+    try:
+        yield
+    finally:
+        _current.reset(token)

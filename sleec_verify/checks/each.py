@@ -1,0 +1,48 @@
+"""Asking one question for each of several things, so that what is undecided of one does not hide the others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import TypeVar
+
+from sleec_verify.budget import Undecided, begin, share
+from sleec_verify.finding import Finding
+
+_Asked = TypeVar("_Asked")
+
+
+def each(asked: Iterable[tuple[str, _Asked]], question: Callable[[_Asked], Iterable[Finding]]) -> Iterator[Finding]:
+    """The findings for all that is `asked` about, each with the name it goes by.
+
+    One question spends at most half of the budget that is left, but for the last one, so that hard ones leave something
+    for the others. Raises Undecided, when all are asked, for those that were not decided.
+    """
+    why: dict[str, list[str]] = {}
+    for (name, one), is_last in _with_last(asked):
+        found: list[Finding] = []
+        try:
+            begin()
+            with share(1 if is_last else 1 / 2):
+                # One by one: what was found before a question is given up stays.
+                for finding in question(one):
+                    found.append(finding)
+        except Undecided as error:
+            why.setdefault(str(error), []).append(name)
+        yield from found
+    if why:
+        raise Undecided("; ".join(f"{_named(names)}: {reason}" for reason, names in why.items()))
+
+
+def _named(names: list[str]) -> str:
+    names = list(dict.fromkeys(names))
+    return ", ".join(names[:5]) + (f" and {len(names) - 5:,} more" if len(names) > 5 else "")
+
+
+def _with_last(asked: Iterable[_Asked]) -> Iterator[tuple[_Asked, bool]]:
+    """Each of these, and whether it is the last one."""
+    iterator = iter(asked)
+    for one in iterator:
+        for following in iterator:
+            yield one, False
+            one = following
+        yield one, True
