@@ -21,6 +21,7 @@ import sleec_runtime
 from sleec_runtime.errors import SleecError
 from sleec_verify import __version__
 from sleec_verify.finding import CheckResult, ClauseRef, Finding, Proved, Refuted, Unknown, Witness
+from sleec_verify.temporary import put_in_place
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset, Value
@@ -104,15 +105,7 @@ class Cache:
         folder = os.path.dirname(path)
         if not os.path.isdir(folder):
             self._make(folder)
-        temporary = f"{path}.{os.urandom(8).hex()}.tmp"
-        try:
-            with open(temporary, "xb") as file:
-                file.write(content)
-            os.replace(temporary, path)
-        except BaseException:
-            with suppress(OSError):
-                os.unlink(temporary)
-            raise
+        put_in_place(path, content)
         names = os.listdir(folder)
         if len(names) > _MOST:
             with suppress(FileNotFoundError):  # another process tidies up, too

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from sleec_runtime.errors import SleecError
 from sleec_verify.certificates import lrat
+from sleec_verify.temporary import with_temporary
 
 BUILT = Path(__file__).parents[2] / "proofs" / "checker" / "check-lrat"
 """Where `make -C proofs/checker` puts it, in a copy of the sources."""
@@ -59,19 +60,22 @@ def checker(path: str | None = None) -> Checker:
 
 
 def _by_program(program: str, formula: bytes, proof: bytes) -> str | None:
-    # It reads copies: what is in the certificate's folder may have changed since it was read.
-    with tempfile.TemporaryDirectory() as folder:
+    def run(folder: str) -> subprocess.CompletedProcess[str]:
+        os.mkdir(folder, 0o700)
         paths = Path(folder, "formula.cnf"), Path(folder, "proof.lrat")
         for path, data in zip(paths, (formula, proof)):
             path.write_bytes(data)
-        try:
-            done = subprocess.run(
-                [program, *paths], capture_output=True, text=True, errors="replace", check=False, timeout=MOST_SECONDS
-            )
-        except OSError as error:
-            raise SleecError(f"the checker {program} cannot be run: {error.strerror}") from None
-        except subprocess.TimeoutExpired:
-            return lrat.LATE.format(MOST_SECONDS)
+        return subprocess.run(
+            [program, *paths], capture_output=True, text=True, errors="replace", check=False, timeout=MOST_SECONDS
+        )
+
+    try:
+        # It reads copies: what is in the certificate's folder may have changed since it was read.
+        done = with_temporary(os.path.join(tempfile.gettempdir(), ""), run)
+    except OSError as error:
+        raise SleecError(f"the checker {program} cannot be run: {error.strerror}") from None
+    except subprocess.TimeoutExpired:
+        return lrat.LATE.format(MOST_SECONDS)
     if done.returncode == 0 and done.stdout == "VERIFIED\n":
         return None
     _, _, reason = done.stdout.strip().partition(": ")

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-import shutil
-import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from sleec_runtime.certificate import MANIFEST, SIGNATURE, read_manifest
 from sleec_runtime.errors import CertificateRefused, SleecError
+from sleec_verify.temporary import with_temporary
 
 
 class Occupied(SleecError):
@@ -56,22 +55,30 @@ def write_folder(
     target = Path(os.path.abspath(folder))
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        made = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name}-"))
-        try:
-            new = made / "new"
-            new.mkdir()
-            for name, data in files:
-                (new / name).write_bytes(data)
-            accept(str(new))
-            try:
-                if target.exists():
-                    target.rename(made / "old")
-                new.rename(target)
-            except BaseException:  # an interruption, too, must not cost what was there
-                if (made / "old").exists() and not target.exists():
-                    (made / "old").rename(target)
-                raise
-        finally:
-            shutil.rmtree(made, ignore_errors=True)
+        with_temporary(str(target), lambda path: _make(Path(path), target, files, accept))
     except OSError as error:
         raise SleecError(f"the certificate cannot be written to {folder}: {error.strerror}", "nothing was") from None
+
+
+def _make(made: Path, target: Path, files: Iterable[tuple[str, bytes]], accept: Callable[[str], object]) -> None:
+    """Write the files to a folder in `made`, and move it to `target`."""
+    new, old = made / "new", made / "old"
+    made.mkdir(0o700)
+    new.mkdir()
+    for name, data in files:
+        (new / name).write_bytes(data)
+    accept(str(new))
+    try:
+        try:
+            if target.exists():
+                target.rename(old)
+            new.rename(target)
+        finally:
+            _restore(old, target)
+    finally:  # a second Ctrl-C must not cost what was there either
+        _restore(old, target)
+
+
+def _restore(old: Path, target: Path) -> None:
+    if old.exists() and not target.exists():
+        old.rename(target)

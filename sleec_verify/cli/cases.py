@@ -88,10 +88,11 @@ def _create(output: str, text: str, force: bool) -> None:
 
         write_whole(output, text.encode())
         return
+    from sleec_verify.temporary import put_in_place
+
     try:
-        # "x" also where a file has come there since it was looked for.
-        with open(output, "x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        # New also where a file has come there since it was looked for.
+        put_in_place(output, text.encode(), new=True)
     except OSError as error:
         raise SleecError(f"{output} cannot be written: {error.strerror}") from None
 

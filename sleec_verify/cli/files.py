@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-import stat
 from collections.abc import Iterable
 
 import click
 
 from sleec_runtime.errors import SleecError
+from sleec_verify.temporary import put_in_place
 
 
 def write_whole(path: str, content: bytes) -> None:
@@ -24,33 +24,9 @@ def write_whole(path: str, content: bytes) -> None:
             with open(path, "wb") as stream:
                 stream.write(content)
         else:
-            _put(target, content)
+            put_in_place(target, content)
     except OSError as error:
         raise SleecError(f"{path} cannot be written: {error.strerror}", "nothing of it was changed") from None
-
-
-def _put(target: str, content: bytes) -> None:
-    from tempfile import NamedTemporaryFile
-
-    with NamedTemporaryFile("wb", dir=os.path.dirname(target), prefix=".", suffix=".tmp", delete=False) as file:
-        try:
-            file.write(content)
-            file.close()
-            os.chmod(file.name, _rights(target))
-            os.replace(file.name, target)
-        except BaseException:
-            os.unlink(file.name)
-            raise
-
-
-def _rights(target: str) -> int:
-    """The rights of the file at `target`, or those that a new one gets."""
-    try:
-        return stat.S_IMODE(os.stat(target).st_mode)
-    except FileNotFoundError:
-        mask = os.umask(0)
-        os.umask(mask)
-        return 0o666 & ~mask
 
 
 def require_writable(output: str, inputs: Iterable[str]) -> None:

@@ -199,11 +199,11 @@ def test_every_command_that_reads_files_has_the_option() -> None:
 OWN_FILES = {
     ("sleec_runtime/files.py", "open"),
     ("sleec_verify/cache.py", "open"),
-    ("sleec_verify/cli/cases.py", "open"),
     ("sleec_verify/cli/files.py", "open"),
     ("sleec_verify/cli/gate.py", "open"),
     ("sleec_verify/certificates/checker.py", "read_text"),
     ("sleec_verify/pytest_plugin.py", "read_text"),
+    ("sleec_verify/temporary.py", "open"),
 }
 """Where a file is opened that no user names for reading: results of the cache, what is written, copies of proofs."""
 
