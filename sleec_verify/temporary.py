@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import shutil
+import stat
 from collections.abc import Callable
 from contextlib import suppress
 from typing import TypeVar
@@ -40,7 +40,7 @@ def put_in_place(target: str, content: bytes, new: bool = False) -> None:
             _link(path, target)
             return
         if os.path.isfile(target):
-            shutil.copymode(target, path)
+            os.chmod(path, stat.S_IMODE(os.stat(target).st_mode))
         os.replace(path, target)
 
     with_temporary(target, use)

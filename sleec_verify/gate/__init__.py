@@ -98,9 +98,10 @@ def findings_now(places: Mapping[str, Place], targets: Sequence[Target], check: 
     """
     known = Known()
     for name, place in places.items():
-        ruleset = parse_source(place.read())
-        allowing, _ = suppressions_of(ruleset)
-        check_ruleset(Examined(name), ruleset, known, check, allowing)
+        with internal_errors_of(name):
+            ruleset = parse_source(place.read())
+            allowing, _ = suppressions_of(ruleset)
+            check_ruleset(Examined(name), ruleset, known, check, allowing)
     for target in targets:
         found = conform(target, locate, known)
         if found.error is not None:

@@ -312,6 +312,15 @@ def test_a_traceback_is_escaped(folder: Path, monkeypatch: pytest.MonkeyPatch) -
     assert_harmless(found.err)
 
 
+def test_a_progress_bar_shows_a_name_escaped(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sleec_verify.cli.progress.PATIENCE", 0)
+    monkeypatch.setenv("COLUMNS", "200")
+    (folder / "\x1b]0;x\x07.sleec").write_text(CONFLICT, encoding="utf-8")
+    found = ran("check", "\x1b]0;x\x07.sleec", "--no-cache", kind=Terminal)
+    assert r"\x1b]0;x\x07.sleec: " in found.err
+    assert "\x1b]0;x" not in found.err + found.out
+
+
 @pytest.mark.parametrize("command", ["fmt", "convert --to english", "fmt --diff"])
 def test_data_is_escaped_on_a_terminal_only(command: str, folder: Path) -> None:
     (folder / "good.sleec").write_text("// \x1b[2J\u202e\nWHEN  A THEN C\n", encoding="utf-8")

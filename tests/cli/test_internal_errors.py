@@ -172,6 +172,15 @@ def test_gate_judges_the_other_files(form: str, target: str, cli: Cli, fail_in: 
         assert "bad.sleec" in ran.out
 
 
+@pytest.mark.usefixtures("repository")
+def test_a_baseline_is_not_written_and_the_file_named(cli: Cli, tmp_path: Path, fail_in: Callable[[str], None]) -> None:
+    fail_in(CHECKING)
+    ran = cli("gate", "--write-baseline", "--baseline", "known.txt")
+    assert ran.code == 2
+    assert "internal error in bad.sleec: ZeroDivisionError" in ran.err
+    assert not (tmp_path / "known.txt").exists()
+
+
 ROBOT = """
 import sleec_runtime
 
