@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sleec_runtime.evaluation import due
 from sleec_runtime.language import parse, parse_source, print_ruleset
+from sleec_runtime.language.dsl.scanner import scan as scan_dsl
+from sleec_runtime.language.scanner import scan
 from sleec_runtime.language.source import source_of
 from sleec_runtime.model import Context
 from sleec_verify.checks import CHECKS, run_checks
@@ -21,7 +24,7 @@ from sleec_verify.timed.scope import speaks_of_traces
 from tests.fuzz.property import unless_refused
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Ruleset
+    from sleec_runtime.model import Ruleset, Syntax
 
 
 def read(data: bytes) -> Ruleset | None:
@@ -37,7 +40,7 @@ def read(data: bytes) -> Ruleset | None:
 
 
 def language(data: bytes, folder: Path) -> None:
-    """What is read prints, and is read again as the same; what is converted obliges the same."""
+    """What is read prints, with its comments, and is read again as the same; what is converted obliges the same."""
     ruleset = read(data)
     if ruleset is None:
         return
@@ -45,6 +48,7 @@ def language(data: bytes, folder: Path) -> None:
     again = parse(printed)
     assert again == ruleset
     assert print_ruleset(again) == printed
+    assert comments(printed, ruleset.syntax) == comments(ruleset.source.text, ruleset.syntax)
     suppressions(ruleset, CHECKS)
     for to in TARGETS:
         converted = unless_refused(convert, ruleset, to)
@@ -54,6 +58,13 @@ def language(data: bytes, folder: Path) -> None:
         part = unless_refused(of_domain, ruleset, domain)
         if part is not None:
             assert_oblige_the_same(part, convert(part, "english", "priority").ruleset)
+
+
+def comments(text: str, syntax: Syntax) -> Counter[str]:
+    """The comments of a text, whose blanks do not count."""
+    tokens = scan_dsl(text) if syntax == "dsl" else scan(text)
+    found = [one for each in tokens.comments.values() for one in (*each.above, each.behind or "")]
+    return Counter(words for one in (*found, *tokens.closing) if (words := " ".join(one.split())))
 
 
 def assert_oblige_the_same(one: Ruleset, other: Ruleset) -> None:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from sleec_runtime.language import keywords
 from sleec_runtime.language.dsl import scanner as dsl
-from tests.fuzz import certificates, changes, files, pending, python, questions, rules
+from tests.fuzz import certificates, changes, files, made, pending, python, questions, rules
 from tests.fuzz.property import cpu_limit
 
 ROOT = Path(__file__).parents[2]
@@ -123,6 +123,7 @@ TARGETS: Mapping[str, Target] = {
     "dsl": Target(rules.language, _dsl, _DSL_WORDS),
     "check": Target(rules.check, _english, _ENGLISH_WORDS, 1024),
     "entail": Target(questions.entailment, lambda: (*_english(), *_dsl()), (*_ENGLISH_WORDS, *_DSL_WORDS), 1024),
+    "made": Target(made.made, _english, _ENGLISH_WORDS, 1024),
     "diff": Target(changes.diff, changes.seeds, (*_ENGLISH_WORDS, changes.SEPARATOR.decode()), 1024),
     "configuration": Target(files.configuration, _configuration, _CONFIGURATION_WORDS),
     "cases": Target(files.cases, lambda: (*files.cases_seeds(), *_deep("case = ", "[")), _CASES_WORDS),
