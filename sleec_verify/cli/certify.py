@@ -54,6 +54,7 @@ if TYPE_CHECKING:
 @click.option("--force", is_flag=True, help="With -o: replace the certificate that is there.")
 @options.requirements("")
 @options.output_format("full", "json")
+@options.timeout
 @options.max_size
 @click.pass_context
 def command(

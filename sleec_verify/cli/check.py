@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
 import click
 
+from sleec_verify.budget import limited
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.cached import cache_of_environment
 from sleec_verify.cli.cached import results as kept_or_new
@@ -49,6 +51,7 @@ if TYPE_CHECKING:
 @options.requirements("With --certify: ")
 @options.no_cache
 @click.option("--watch", "watched", is_flag=True, help="Check again whenever a file changes, until Ctrl-C.")
+@options.timeout_of_each_run
 @options.max_size
 def command(
     paths: tuple[str, ...],
@@ -64,6 +67,7 @@ def command(
     require_tied: bool,
     no_cache: bool,
     watched: bool,
+    timeout: float | None,
 ) -> int:
     """Check rulesets: files, folders of *.sleec files, or - for standard input.
 
@@ -92,7 +96,8 @@ def command(
         found = rulesets(paths, reading, domain)
         if certificate is not None and len(found) > 1:
             raise click.UsageError("a certificate is of one ruleset: name one file")
-        outcomes = _outcomes(found, domain, untimed, realizable, cache, certificate, (require_proved, require_tied))
+        with nullcontext() if timeout is None else limited(timeout):
+            outcomes = _outcomes(found, domain, untimed, realizable, cache, certificate, (require_proved, require_tied))
         report(outcomes, form, output)
         return _exit_code(outcomes, fail_level)
 

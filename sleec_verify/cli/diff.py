@@ -69,6 +69,7 @@ _READINGS = click.Choice(("cascade", "priority"))
     "new; or never for what changes. An assertion that does not hold is always 1.",
 )
 @options.output_format("full", "concise", "json")
+@options.timeout
 @options.max_size
 def command(
     paths: tuple[str, ...],

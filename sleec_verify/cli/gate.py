@@ -65,6 +65,7 @@ STEP_SUMMARY = "GITHUB_STEP_SUMMARY"
 @options.output_format(*FORMATS)
 @options.output
 @options.no_cache
+@options.timeout
 @options.max_size
 def command(
     paths: tuple[str, ...],

@@ -63,6 +63,41 @@ def _limit(context: click.Context, parameter: click.Parameter, written: str) -> 
     context.find_root().with_resource(size_limit(size))
 
 
+class _Seconds(click.FloatRange):
+    """A time in seconds, up to about 30 years."""
+
+    name = "seconds"
+
+    def __init__(self) -> None:
+        super().__init__(min=0, min_open=True, max=10**9)
+
+    def convert(self, value: Any, parameter: click.Parameter | None, context: click.Context | None) -> float:
+        seconds = float(super().convert(value, parameter, context))
+        if seconds != seconds:  # not a number
+            self.fail(f"{value} is not a number of seconds", parameter, context)
+        return seconds
+
+
+def _within(context: click.Context, parameter: click.Parameter, seconds: float | None) -> None:
+    del parameter
+    if seconds is not None:
+        from sleec_verify.budget import limited
+
+        context.find_root().with_resource(limited(seconds))
+
+
+_TIMEOUT: dict[str, Any] = {
+    "metavar": "SECONDS",
+    "type": _Seconds(),
+    "help": "Stop deciding after this time. What is undecided by then is unknown. Without it, each file has a budget "
+    "of work, which ends at the same place on every machine.",
+}
+timeout = click.option("--timeout", callback=_within, expose_value=False, **_TIMEOUT)
+"""For the whole run of a command."""
+timeout_of_each_run = click.option("--timeout", **_TIMEOUT)
+"""For a command that runs more than once; it gets the seconds."""
+
+
 def requirements(where: str) -> Callable[[_Command], _Command]:
     """``--require-proved`` and ``--require-tied``, with a word on where they count."""
 

@@ -12,6 +12,7 @@ from itertools import chain
 from typing import TypeVar, Union
 
 from sleec_runtime.model import Formula, Never, Ruleset, formulas_of
+from sleec_verify.budget import Undecided, for_file
 from sleec_verify.calculations import calculations, named
 from sleec_verify.compare.conflicts import conflict_changes
 from sleec_verify.compare.names import name_changes
@@ -61,6 +62,11 @@ def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Unti
     those that are equal; for each of the others, questions about the rules of its trigger (NP-hard, as all
     satisfiability is, and small), and a count that is given up past the bounds of `sleec_verify.diagram`.
     """
+    with for_file(len(old.source.text) + len(new.source.text)):
+        return _difference(old, new, domain, untimed)
+
+
+def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed) -> Difference:
     whole = World(old, new, untimed)
     shared = Difference(
         old,
@@ -98,14 +104,17 @@ def _compared(world: World, domain: str | None) -> list[_Any]:
     clashes = [*world.vocabulary.clashes, *_conditions_that_are_measures(world)]
     if clashes:
         return [*clashes]
-    found: list[_Any] = [*situation_changes(world)]
-    if not world.cones.possible:
-        if all(world.situations_of(which).possible for which in world.sides):
+    found: list[_Any] = []
+    try:
+        found += situation_changes(world)
+        if world.cones.possible:
+            found += conflict_changes(world)
+            found += changes(world)
+        elif all(world.situations_of(which).possible for which in world.sides):
             why = "the assumptions of the two sides leave no situation that both allow"
             found.append(Undecidable("the obligations", why))
-    else:
-        found += conflict_changes(world)
-        found += changes(world)
+    except Undecided as error:
+        found.append(Undecidable("the rest of the comparison", error.message))
     if domain is None:
         return found
     return [one if isinstance(one, Undecidable) else one._replace(domains=(domain,)) for one in found]
