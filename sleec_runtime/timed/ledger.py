@@ -32,7 +32,7 @@ class Act(NamedTuple):
 class Ledger:
     """The agenda, the states of the tasks on it, and the clock that wakes for it: `tick` is called then.
 
-    All of it is changed within `change`, and by the methods from `end` to `after`.
+    All of it is changed within `change`, by the methods from `undo_by` to `after`.
     """
 
     def __init__(self, clock: CheckedClock, tick: Callable[[], object]) -> None:
@@ -189,6 +189,11 @@ class Ledger:
             raise
         return True
 
+    def wake_for_acts(self) -> None:
+        """Has the clock wake for what is left to be done."""
+        if self.acts:
+            self.clock.wake(self.clock.now(), self._tick)
+
     def _put_back(self, act: Act) -> None:
         if act not in self.acts:
             self.acts.appendleft(act)
@@ -197,7 +202,8 @@ class Ledger:
         """Has the clock wake for what comes next, if that is not what it wakes for already."""
         entry = None if self.closed or self._forked else self.agenda.next_entry()
         at = None if entry is None else entry.at
-        if at == self._woken_at:
+        # An alarm whose time has come may have been lost: what it called was interrupted before it did anything.
+        if at == self._woken_at and (at is None or at > self.clock.now()):
             return
         # The new alarm first: one too many does no harm.
         cancel, self._cancel = self._cancel, None if at is None else self.clock.wake(at, self._tick)

@@ -42,6 +42,13 @@ class Starts:
     def tick(self) -> None:
         """Starts and ends all that is due by now. Raises Reentrant within a change."""
         self._ledger.refuse_reentry()
+        try:
+            self._serve()
+        except BaseException:
+            self._ledger.wake_for_acts()
+            raise
+
+    def _serve(self) -> None:
         interrupt = None
         while True:
             try:

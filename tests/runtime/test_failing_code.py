@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pytest
 
@@ -258,6 +258,62 @@ def test_a_missing_thread_is_reported(monkeypatch):
     clock.close()
 
 
+class Alarms:
+    """Alarms that go off when the test says so; without threads, none can be set."""
+
+    def __init__(self) -> None:
+        self.calls: list[Callable[[], object]] = []
+        self.threads = True
+
+    def wake(self, at: float, call: Callable[[], object]) -> Callable[[], None]:
+        if not self.threads:
+            raise RuntimeError("can't start new thread")
+        self.calls.append(call)
+        return lambda: None
+
+
+def test_an_alarm_that_comes_after_the_job_does_nothing():
+    alarms = Alarms()
+    one = executor.Executor(alarms.wake, limit=1)
+    told: list[object] = []
+    began, go_on = threading.Event(), threading.Event()
+
+    def job() -> None:
+        began.set()
+        go_on.wait(PATIENCE)
+
+    one.execute(job, told.append)
+    assert began.wait(PATIENCE)
+    alarms.calls[-1]()
+    assert len(alarms.calls) == 2, "the job may run until its limit"
+    go_on.set()
+    while one._threads:
+        time.sleep(0.001)
+    for call in tuple(alarms.calls):
+        call()
+    assert told == []
+    assert len(alarms.calls) == 2
+
+
+def test_a_job_waits_while_no_thread_can_watch_it():
+    alarms = Alarms()
+    alarms.threads = False
+    one = executor.Executor(alarms.wake, limit=1)
+    done: list[str] = []
+    ended = threading.Event()
+
+    def second() -> None:
+        done.append("second")
+        ended.set()
+
+    with pytest.raises(RuntimeError):
+        one.execute(lambda: done.append("first"), print)
+    alarms.threads = True
+    one.execute(second, print)
+    assert ended.wait(PATIENCE)
+    assert done == ["first", "second"]
+
+
 @pytest.mark.parametrize("error", [*NOT_EXCEPTIONS, OSError])
 def test_a_call_by_the_clock_may_raise_anything(error, caplog):
     clock = MonotonicClock()
@@ -382,6 +438,19 @@ def test_an_interrupted_trigger_asks_for_nothing_that_was_not_called_for():
     assert sleec.pending() == ()
     clock.advance(10)
     assert sleec.failures == ()
+
+
+def test_an_interrupted_asynchronous_trigger_asks_for_nothing_that_was_not_called_for():
+    clock = VirtualClock()
+    sleec = Sleec(parse(CHAIN), clock=clock, chains=True)
+    sleec.implement({"X": raising(SystemExit), "Y": slow, "Z": obligation("Z", completes=False)(slow), "W": slow})
+
+    async def main() -> None:
+        with pytest.raises(SystemExit):
+            await sleec.trigger_async("A")
+
+    asyncio.run(main())
+    assert sleec.pending() == ()
 
 
 def test_what_fails_unattended_has_its_alternative_whatever_it_raised():

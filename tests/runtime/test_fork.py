@@ -6,16 +6,19 @@ import json
 import os
 import select
 import signal
+import subprocess
 import sys
 import threading
 import traceback
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from sleec_runtime import MonotonicClock, PolledClock, Sleec, VirtualClock, errors, obligation
+from sleec_runtime import MonotonicClock, PolledClock, Sleec, VirtualClock, errors, forks, obligation
+from sleec_runtime.critical import CriticalSection
 from sleec_runtime.language import parse
 
 ISSUE = """
@@ -152,6 +155,51 @@ def test_another_instance_goes_on_from_what_the_first_had():
     robot.sleec.close()
 
 
+# The same, without a fork ------------------------------------------------------------------------------------
+
+
+def test_a_section_that_another_thread_has_is_renewed_and_its_change_undone():
+    undone: list[str] = []
+    section = CriticalSection(lambda: undone.append("undone"))
+    entered, leave = threading.Event(), threading.Event()
+
+    def change() -> None:
+        entered.set()
+        leave.wait(PATIENCE)
+
+    section.after_fork()
+    section.run(section.after_fork)
+    assert undone == []
+    thread = threading.Thread(target=section.run, args=(change,))
+    thread.start()
+    assert entered.wait(PATIENCE)
+    section.after_fork()
+    assert undone == ["undone"]
+    assert section.run(lambda: 5) == 5
+    leave.set()
+    thread.join()
+    assert section.run(lambda: 5) == 5
+
+
+def test_what_is_renewed_is_what_still_exists():
+    renewed: list[str] = []
+
+    class Renewable:
+        def after_fork(self) -> None:
+            renewed.append("renewed")
+
+    one, other = Renewable(), Renewable()
+    forks.renew_after_fork(one)
+    forks.renew_after_fork(other)
+    del other
+    robot = Robot(clock=VirtualClock())
+    robot.sleec.trigger("T2")
+    forks._renew()
+    assert renewed == ["renewed"]
+    with pytest.raises(errors.Forked, match="load the rules anew in this process"):
+        robot.sleec.trigger("T1")
+
+
 # Locks that another thread holds at the fork ---------------------------------------------------------------
 
 
@@ -265,6 +313,19 @@ def test_a_lock_of_the_clock_that_another_thread_holds(lock):
 
 
 def test_many_forks_while_threads_trigger_and_the_clock_runs():
+    """In a process of its own, where no coverage is measured: that takes a lock that is not renewed in the child."""
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", "from tests.runtime.test_fork import fork_often; fork_often()"],
+        cwd=Path(__file__).parents[2],
+        env={name: value for name, value in os.environ.items() if not name.startswith("COV")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def fork_often() -> None:
     robot = Robot(clock=VirtualClock())
     finished = threading.Event()
 

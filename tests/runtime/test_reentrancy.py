@@ -8,6 +8,7 @@ import os
 import signal
 import sys
 import time
+from collections import deque
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
@@ -20,6 +21,7 @@ import sleec_runtime
 from sleec_runtime import Monitor, Sleec, VirtualClock, errors, obligation
 from sleec_runtime.critical import CriticalSection
 from sleec_runtime.language import parse
+from sleec_runtime.timed.ledger import Act
 
 RUNTIME = str(Path(sleec_runtime.__file__).parent) + os.sep
 
@@ -52,8 +54,8 @@ class Ticking:
 class Robot:
     """The rules of the issue at work: `log` has what was executed."""
 
-    def __init__(self, ruleset=ISSUE) -> None:
-        self.clock = Ticking()
+    def __init__(self, ruleset=ISSUE, clock: Ticking | None = None) -> None:
+        self.clock = clock or Ticking()
         self.log: list[str] = []
         self.told: list[str] = []
         self.sleec = Sleec(ruleset, clock=self.clock, on_error=self.report)
@@ -148,9 +150,9 @@ ACTS: dict[str, Callable[[Robot], object]] = {
 }
 
 
-def prepared(ruleset=ISSUE) -> Robot:
+def prepared(ruleset=ISSUE, clock: Ticking | None = None) -> Robot:
     """Something is about to open and to close, and something can be completed."""
-    robot = Robot(ruleset)
+    robot = Robot(ruleset, clock)
     robot.sleec.trigger("T1")
     robot.sleec.trigger("T2")
     robot.clock.time = 2
@@ -335,6 +337,114 @@ def test_an_error_between_any_two_steps_of_a_tick_loses_no_obligation():
     assert number > 100
 
 
+class Waking(Ticking):
+    """A clock that calls when the test says so."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.alarms: dict[object, tuple[int, Callable[[], object]]] = {}
+
+    def wake(self, at, call):
+        key = object()
+        self.alarms[key] = at, call
+        return lambda: self.alarms.pop(key, None)
+
+    def call(self) -> None:
+        """Makes the calls that are due."""
+        while due := [key for key, (at, _) in self.alarms.items() if at <= self.time]:
+            self.alarms.pop(due[0])[1]()
+
+
+def test_an_error_between_any_two_steps_of_a_tick_leaves_the_rest_to_the_clock():
+    """The clock is to wake again for what is not done, at the latest after the next call."""
+    for number in lines():
+        clock = Waking()
+        robot = prepared(clock=clock)
+        ((_, tick),) = clock.alarms.values()
+        clock.alarms.clear()
+        if not raises_at(number, tick):
+            break
+        robot.sleec.pending()
+        clock.call()
+        assert {"A", "C"} <= {*robot.log, *robot.told}, number
+    assert number > 100
+
+
+def test_what_is_decided_and_not_done_is_done_when_the_clock_wakes_next():
+    left = 0
+    for number in lines():
+        clock = Waking()
+        robot = Robot(clock=clock)
+        robot.sleec.trigger("T1")
+        clock.time = 2
+        if not raises_at(number, robot.sleec.tick):
+            break
+        assert robot.sleec._times is not None
+        if robot.sleec._times._ledger.acts:
+            left += 1
+            clock.call()
+            assert "A" in robot.log + robot.told, number
+    assert left > 1
+
+
+def test_a_clock_that_cannot_wake_leaves_all_as_it_was_and_reports_once():
+    clock = Waking()
+    told: list[str] = []
+    rules = parse("RULE a WHEN T1 THEN B WITHIN 2 seconds\nRULE b WHEN T1 THEN C WITHIN 9 seconds")
+    sleec = Sleec(rules, clock=clock, on_error=lambda failure: told.append(failure.rule))
+    sleec.implement({name: obligation(name, completes=False)(lambda: None) for name in "BC"})
+    wake = clock.wake
+
+    def broken(at: object, call: object) -> object:
+        clock.wake = wake  # type: ignore[method-assign]
+        raise OSError("no timer")
+
+    clock.wake = broken  # type: ignore[method-assign]
+    with pytest.raises(OSError, match="no timer"):
+        sleec.trigger("T1")
+    assert sleec.pending() == ()
+    sleec.trigger("T1")
+    clock.time = 3
+    clock.wake = broken  # type: ignore[method-assign]
+    with pytest.raises(OSError, match="no timer"):
+        sleec.tick()
+    assert (sleec.failures, told) == ((), [])
+    assert [one.obligation for one in sleec.pending()] == ["B", "C"]
+    sleec.tick()
+    assert told == [failure.rule for failure in sleec.failures] == ["a"]
+
+
+class Calling(Ticking):
+    """A clock that calls the instance back the `at`-th time that it is asked, which clocks must not."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.call: Callable[[], object] = print
+        self.at = 0
+
+    def now(self) -> int:
+        self.at -= 1
+        if self.at == 0:
+            self.call()
+        return super().now()
+
+
+@pytest.mark.parametrize("at", [1, 2, 3])
+def test_a_refused_call_within_a_decision_of_the_clock_gives_up_no_obligation(at):
+    clock = Calling()
+    robot = Robot(clock=clock)
+    robot.sleec.trigger("T1")
+    clock.time = 2
+    clock.call = robot.sleec.pending
+    clock.at = at
+    with pytest.raises(errors.Reentrant):
+        robot.sleec.tick()
+    assert robot.log == []
+    robot.sleec.tick()
+    assert robot.log == ["A"]
+    assert robot.told == []
+
+
 @pytest.mark.parametrize("act", ["update", "bind", "implement", "replace", "pending"])
 def test_an_error_between_any_two_steps_of_a_change_leaves_all_of_it_or_nothing(act: str):
     right = []
@@ -354,6 +464,28 @@ def behaviour(robot: Robot) -> object:
     bound = "a" in {rule.label for rule in robot.sleec.ruleset.rules} and robot.sleec._instance.has_method("a")
     robot.sleec.trigger("T2")
     return bound, robot.log, dict(robot.sleec.conditions), robot.sleec.ruleset.source.text, robot.asked()
+
+
+# The ledger itself ----------------------------------------------------------------------------------------
+
+
+def test_an_act_that_another_thread_does_is_not_done_twice():
+    robot = Robot()
+    assert robot.sleec._times is not None
+    ledger = robot.sleec._times._ledger
+
+    class Contested(deque):  # type: ignore[type-arg]
+        """Between looking at the first and taking it, another thread takes it."""
+
+        def remove(self, act: object) -> None:
+            self.clear()
+            super().remove(act)
+
+    done: list[str] = []
+    ledger.acts = Contested([Act(lambda: done.append("done"), lambda: True)])
+    assert ledger.do_next()
+    assert not ledger.do_next()
+    assert done == []
 
 
 # The section itself ---------------------------------------------------------------------------------------
