@@ -18,10 +18,10 @@ from typing import NoReturn
 
 from sleec_runtime.errors import SleecError
 
-FILE = 4_000_000
+FILE = 3_500_000
 """Steps for one text of rules. Rules that people write take a thousandth of it."""
 
-PER_CHARACTER = 40
+PER_CHARACTER = 150
 """Further steps for each character of the text: large rulesets may take long."""
 
 LEAST = 1_000
@@ -45,7 +45,7 @@ class Budget:
         self.steps = steps
         """Steps that are left."""
         self._deadline = deadline
-        self.is_timed = deadline < float("inf")
+        self.is_timed = deadline != float("inf")
         self.ran_out = False
         """Whether it, or a part of it, was not enough for something."""
         self.whole = self
@@ -127,22 +127,28 @@ def begin() -> None:
         budget.give_up()
 
 
-@contextmanager
-def share(part: float) -> Iterator[Budget]:
-    """Let the work inside spend at most this part of what is left of the budget at hand. What it leaves is kept."""
-    outer = _current.get()
-    if outer is None:
-        yield Budget("")
-        return
-    inner = outer.part(part)
-    given = inner.steps
-    try:
-        with _using(inner):
-            yield inner
-    finally:
-        outer.ran_out |= inner.ran_out
-        if not outer.is_timed:
-            outer.steps -= given - inner.steps
+class share:  # noqa: N801
+    """Lets the work inside spend at most this part of what is left of the budget at hand. What it leaves is kept."""
+
+    __slots__ = ("_given", "_inner", "_outer", "_part", "_token")
+
+    def __init__(self, part: float) -> None:
+        self._part = part
+
+    def __enter__(self) -> Budget:
+        self._outer = outer = _current.get()
+        self._inner = inner = Budget("") if outer is None else outer.part(self._part)
+        self._given = inner.steps
+        self._token = None if outer is None else _current.set(inner)
+        return inner
+
+    def __exit__(self, *_: object) -> None:
+        outer = self._outer
+        if outer is not None and self._token is not None:
+            _current.reset(self._token)
+            outer.ran_out |= self._inner.ran_out
+            if not outer.is_timed:
+                outer.steps -= self._given - self._inner.steps
 
 
 @contextmanager

@@ -5,7 +5,7 @@ A solver says yes, no, or None where it gave up: unknown is an answer, never an 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from threading import current_thread, main_thread
 from types import TracebackType
 from typing import Protocol
@@ -34,7 +34,7 @@ question."""
 class Solver(Protocol):
     """What the verifier needs of a solver. Literals are non-zero integers, a negative one is a negation."""
 
-    def add(self, clauses: Iterable[Sequence[int]]) -> None: ...
+    def add(self, clauses: Collection[Sequence[int]]) -> None: ...
 
     def solve(self, assumptions: Sequence[int] = ()) -> bool | None:
         """Whether the clauses and assumptions have a model; None if that was not decided."""
@@ -81,23 +81,21 @@ class MiniSat:
     import than eight rules take to check, and as long to call as a small question takes to answer.
     """
 
-    def __init__(self, clauses: Iterable[Sequence[int]] = (), budget: int | None = None) -> None:
+    def __init__(self, clauses: Collection[Sequence[int]] = (), budget: int | None = None) -> None:
         self._solver = pysolvers.minisat22_new()
-        self._conflicts_left = CONFLICT_BUDGET if budget is None else budget
-        self._done = {"conflicts": 0, "propagations": 0}
-        pysolvers.minisat22_cbudget(self._solver, self._conflicts_left)
+        self._most_conflicts = CONFLICT_BUDGET if budget is None else budget
+        pysolvers.minisat22_cbudget(self._solver, self._most_conflicts)
+        self._conflicts = self._literals = 0
         # Signals reach the main thread only, and only there may the solver set its handler.
         self._interruptible = int(current_thread() is main_thread())
         self._model: list[int] = []
         self.add(clauses)
 
-    def add(self, clauses: Iterable[Sequence[int]]) -> None:
+    def add(self, clauses: Collection[Sequence[int]]) -> None:
         add, solver = pysolvers.minisat22_add_cl, self._solver
-        added = 0
         for clause in clauses:
             add(solver, clause)
-            added += 1
-        spend(PER_CLAUSE * added)
+        spend(PER_CLAUSE * len(clauses))
 
     def solve(self, assumptions: Sequence[int] = ()) -> bool | None:
         budget = current()
@@ -116,24 +114,25 @@ class MiniSat:
 
     def _solve_within(self, budget: Budget, assumptions: Sequence[int]) -> bool | None:
         """Solve, or raise OutOfBudget when the budget is spent."""
+        solver, slice_ = self._solver, SLICE
         budget.spend(PER_QUESTION)
-        slice_ = SLICE
         while True:
-            conflicts: float = self._conflicts_left
+            conflicts, literals = self._most_conflicts - self._conflicts, slice_
             if budget.is_timed:
-                literals = min(slice_, budget.seconds() * PER_SECOND)
+                literals = min(slice_, int(budget.seconds() * PER_SECOND))
             else:
-                conflicts = min(conflicts, budget.steps / PER_CONFLICT)
-                literals = budget.steps / PER_LITERAL
+                conflicts = min(conflicts, int(budget.steps / PER_CONFLICT))
+                literals = int(budget.steps / PER_LITERAL)
             # One at least, as 0 is no limit.
-            pysolvers.minisat22_cbudget(self._solver, int(conflicts) + 1)
-            pysolvers.minisat22_pbudget(self._solver, int(literals) + 1)
+            pysolvers.minisat22_cbudget(solver, conflicts + 1)
+            pysolvers.minisat22_pbudget(solver, literals + 1)
             answer = self._solve(assumptions)
-            before, self._done = self._done, pysolvers.minisat22_acc_stats(self._solver)
-            conflicts, literals = (self._done[what] - before[what] for what in ("conflicts", "propagations"))
-            budget.spend(PER_CONFLICT * conflicts + PER_LITERAL * literals)
-            self._conflicts_left -= conflicts
-            if answer is not None or self._conflicts_left <= 0:
+            done = pysolvers.minisat22_acc_stats(solver)
+            conflicts, literals = done["conflicts"], done["propagations"]
+            cost = PER_CONFLICT * (conflicts - self._conflicts) + PER_LITERAL * (literals - self._literals)
+            self._conflicts, self._literals = conflicts, literals
+            budget.spend(cost)
+            if answer is not None or conflicts >= self._most_conflicts:
                 return answer
             slice_ *= 2
 

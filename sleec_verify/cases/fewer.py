@@ -38,8 +38,8 @@ def _in(world: World, goals: Sequence[Goal], copies: int) -> list[list[Goal]] | 
         return None
     with MiniSat(budget=_BUDGET) as solver:
         for copy in range(copies):
-            solver.add([_moved(literal, copy * top) for literal in clause] for clause in clauses)
-        solver.add([_moved(goal.literal, copy * top) for copy in range(copies)] for goal in goals)
+            solver.add([[_moved(literal, copy * top) for literal in clause] for clause in clauses])
+        solver.add([[_moved(goal.literal, copy * top) for copy in range(copies)] for goal in goals])
         if not solver.solve():
             return None
         sets = [[g for g in goals if solver.holds(_moved(g.literal, copy * top))] for copy in range(copies)]

@@ -81,7 +81,7 @@ _COSTLY = (
 _ROUNDS = 3
 """How often a check is made, at most, that has spent its share of the budget."""
 
-_AT_FIRST = 1 / 20
+_AT_FIRST = 1 / 3
 """The part of the budget that each check may spend at first."""
 
 Progress = Callable[[str, int, int], None]

@@ -142,7 +142,7 @@ class _Goals:
         self.asked.append(goal)
         fresh = [node for node in self._circuit.below((goal,)) if node not in self._written]
         self._written.update(fresh)
-        self._solver.add(self._circuit.clauses(fresh))
+        self._solver.add(list(self._circuit.clauses(fresh)))
         self._solver.add([[goal]])
 
     def model(self, variables: Sequence[int], settled: Mapping[int, int] = NOTHING) -> Move | None:

@@ -134,10 +134,10 @@ def test_a_check_that_needs_more_than_its_first_share_is_made_again(monkeypatch)
         before = at_hand.steps
         run_checks(ruleset, ["conflict"])
         needed = before - at_hand.steps
-    monkeypatch.setattr(budget, "FILE", 3 * needed)
+    monkeypatch.setattr(budget, "FILE", 2 * needed)
     monkeypatch.setattr(budget, "PER_CHARACTER", 0)
-    results = {one.name: one for one in run_checks(ruleset, [*CHECKS][:12])}
-    assert isinstance(results["conflict"].verdict, (Proved, Refuted))
+    (result,) = run_checks(ruleset, ["conflict"])
+    assert isinstance(result.verdict, (Proved, Refuted))
 
 
 def test_assumptions_that_are_not_decided_leave_what_rests_on_none_of_them(monkeypatch):
