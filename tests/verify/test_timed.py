@@ -61,7 +61,7 @@ def test_all_is_decided(response):
     # What is done happens there, so a name that is both is nothing to note.
     assert "trigger-obligation" not in found
     # And some are for windows, or for SLEEC-TK's dialect, only.
-    not_asked = {"trigger-obligation", "bare-prohibition", "stray-event", "zero-window", "realizability"}
+    not_asked = {"trigger-obligation", "bare-prohibition", "stray-event", "zero-window", "realizability", "confusable"}
     assert set(CHECKS) - set(found) <= not_asked
     assert unknown(found) == []
     assert [f.rules for f in found["dead-rule"].findings] == [("R4",)]
