@@ -184,12 +184,12 @@ class Running:
 
 def whole_ruleset(subject: Subject) -> Ruleset:
     """The rules of a subject with all their domains, as far as it tells of them."""
-    held = getattr(subject, "held", None)
-    if held is None:
+    hold = getattr(subject, "hold", None)
+    if hold is None:
         return subject.ruleset
-    with held() as snapshot:
-        whole: Ruleset = snapshot.program.whole
-    return whole
+    found: list[Ruleset] = []
+    hold(lambda snapshot: found.append(snapshot.program.whole))
+    return found[0]
 
 
 def _described(made: object) -> str:
