@@ -72,7 +72,7 @@ def test_what_took_minutes_is_unknown_by_default(name):
         given = at_hand.steps
         results = {one.name: one for one in run_checks(ruleset)}
         assert at_hand.steps > -0.05 * given, "little more is spent than there is"
-    assert given < 6_000_000, "steps of a microsecond"
+    assert given < 10_000_000, "ten seconds, in steps of a microsecond"
     assert reasons(results.values())
     for check in ("unused-name", "empty-hedge", "duplicate-rule"):
         assert not isinstance(results[check].verdict, Unknown)
