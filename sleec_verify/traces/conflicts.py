@@ -19,6 +19,7 @@ from sleec_verify.traces.histories import Histories, Moment
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.templates import Defeat, Template, template_of
+from sleec_verify.traces.witness import needed_relations, needed_values
 
 MOST_COPIES = 8
 """Slots for responses that need several. Published rulesets need one."""
@@ -42,12 +43,14 @@ class Pair(NamedTuple):
 
 
 class Conflict(NamedTuple):
-    """The rules, each with the clauses that decide; a lawful history up to now, and the inputs and measures of now."""
+    """The rules, each with the clauses that decide; a lawful history up to now; the inputs of now, with the conditions
+    and measures that matter; and the keys of the relations that matter."""
 
     pairs: tuple[Pair, ...]
     history: tuple[Moment, ...]
     now: Moment
     facts: tuple[Fact, ...]
+    relations: tuple[str, ...]
 
     @property
     def rules(self) -> tuple[str, ...]:
@@ -150,7 +153,7 @@ class ConflictSearch:
         core = self._without_slots(continuations, rules, facts)
         slots = {int(str(f[1])) for f in core if f[0] == "slot"}
         pairs = self._pairs(continuations, rules, given, slots)
-        return self._confirmed(rules, core, given, pairs)
+        return self._confirmed(rules, core, given, pairs, continuations)
 
     def _minimal(self, continuations: Continuations, rules: list[str]) -> list[str]:
         """A minimal set of rules that no response complies with; the last answer is that for these rules there is none.
@@ -201,7 +204,12 @@ class ConflictSearch:
         return [trigger, s.formula.any_of(s.guards[label])]
 
     def _confirmed(
-        self, rules: list[str], core: list[Fact], given: set[str], pairs: tuple[Pair, ...]
+        self,
+        rules: list[str],
+        core: list[Fact],
+        given: set[str],
+        pairs: tuple[Pair, ...],
+        continuations: Continuations,
     ) -> Conflict | None:
         """The conflict with a lawful history, if there is one."""
         s = self._situations
@@ -221,8 +229,18 @@ class ConflictSearch:
                 self._needs_all = True
                 return None
         moments, time = histories.history()
-        now = Moment(time, frozenset(given), self._values())
-        return Conflict(pairs, tuple(moments), now, tuple(core))
+        left_out = [fact for fact in continuations.facts if fact not in core and fact[0] != "state"]
+        relations = needed_relations(continuations, rules, left_out)
+        pending = {Pair(s.slots[n].rule.label, s.slots[n].pending.number) for n in slots}
+        deciding = [
+            pair
+            for pair in pairs
+            if self._index.ruleset.by_label[pair.rule].trigger in given or pair not in pending
+            if pair.clause != LATER and s.holds(s.guards[pair.rule][pair.clause])
+        ]
+        values = needed_values(s, continuations, rules, left_out, deciding, self._values())
+        now = Moment(time, frozenset(given), values)
+        return Conflict(pairs, tuple(moments), now, tuple(core), relations)
 
     def _about_past(self, core: list[Fact], slots: set[int]) -> list[Fact]:
         """The facts of a core about the past, with all that is known of some slots."""

@@ -122,8 +122,11 @@ class Continuations:
         """What gave the last answer: these, or those without the events that induction excludes."""
         return self if self._inductive is None else self._inductive
 
-    def complies(self, rules: Collection[str], but: Collection[Fact] = (), *more: int) -> bool:
-        """Whether some response and continuation complies with `rules`. Facts of `but` are left open.
+    def complies(
+        self, rules: Collection[str], but: Collection[Fact] = (), *more: int, relations: Collection[str] | None = None
+    ) -> bool:
+        """Whether some response and continuation complies with `rules`. Facts of `but` are left open; `relations` are
+        those that count, by their keys: all, unless given.
 
         Raises Undecided."""
         self._inductive = None
@@ -134,9 +137,18 @@ class Continuations:
             if impossible:
                 self._relied = tuple(rules)
                 self._inductive = Continuations(self.situations, self._given, impossible)
-                return self._inductive.complies(rules, but)
+                return self._inductive.complies(rules, but, relations=relations)
         literals = [literal for fact, literal in self.facts.items() if fact not in but]
-        return self.model.ask(*literals, *more, counting=[*rules, *self.relations])
+        return self.model.ask(
+            *literals, *more, counting=[*rules, *(self.relations if relations is None else relations)]
+        )
+
+    def relations_in_core(self) -> list[str]:
+        """The keys of the relations that the last answer, which was no, rests on."""
+        if self._inductive is not None:
+            # That events are impossible rests on all relations.
+            return self.relations
+        return [key for key in self.model.matter() if key not in self.situations.selected]
 
     def core(self) -> list[Fact]:
         """The facts that the last answer, which was no, rests on."""

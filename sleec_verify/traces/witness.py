@@ -1,0 +1,82 @@
+"""What a conflict needs of its situation: relations, conditions and measures without which it is none."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+
+from sleec_runtime.model import Value, names_of
+from sleec_verify.cnf import Key
+from sleec_verify.solver import MiniSat
+from sleec_verify.traces.continuations import Continuations
+from sleec_verify.traces.instant import Formula, Instant
+from sleec_verify.traces.relations import formulas_of_relation
+from sleec_verify.traces.situations import Fact, Situations
+
+
+def needed_relations(continuations: Continuations, rules: Collection[str], but: Collection[Fact]) -> tuple[str, ...]:
+    """The keys of a minimal set of relations with which no response complies with `rules`."""
+    stuck = not continuations.complies(rules, but)
+    assert stuck, "asked of a conflict"
+    kept = continuations.relations_in_core()
+    for key in list(kept):
+        less = [other for other in kept if other != key]
+        if not continuations.complies(rules, but, relations=less):
+            kept = less
+    return tuple(kept)
+
+
+def needed_values(
+    situations: Situations,
+    continuations: Continuations,
+    rules: Collection[str],
+    but: Collection[Fact],
+    deciding: Iterable[tuple[str, int]],
+    values: Mapping[str, Value],
+) -> Mapping[str, Value]:
+    """The `values` of a minimal set of conditions and measures with which no response complies with `rules`, and the
+    clauses `deciding` decide. All that is not given may as well be false."""
+    index = situations.index
+    facts = [fact for fact in continuations.facts if fact[0] == "state"]
+    formula = Formula()
+    instant = Instant(formula, index.ruleset.measures, formula.true)
+    guards = [
+        instant.guards(index.ruleset.by_label[label], index.ruleset.reading)[number] for label, number in deciding
+    ]
+    formula.clauses.append([-guard for guard in guards])
+    named = {fact: names_of_key(instant, fact[1]) for fact in facts}  # type: ignore[arg-type]
+    literals = {
+        fact: (instant.variables[fact[1]] if fact[-1] else -instant.variables[fact[1]])  # type: ignore[index]
+        for fact in facts
+        if fact[1] in instant.variables
+    }
+    instant.settle()
+    kept = {name for names in named.values() for name in names}
+    with MiniSat(formula.clauses) as solver:
+        for name in sorted(kept):
+            less = kept - {name}
+            left_out = [fact for fact in facts if not named[fact] <= less]
+            still = [literal for fact, literal in literals.items() if fact not in left_out]
+            if solver.solve(still) is False and not continuations.complies(rules, [*but, *left_out]):
+                kept = less
+    return {name: value for name, value in values.items() if name in _closed(situations, kept, values)}
+
+
+def names_of_key(instant: Instant, key: Key) -> frozenset[str]:
+    """The conditions and measures that a variable is about."""
+    found: set[str] = set()
+    for name in key[1:2] if key[0] in ("condition", "below") else key[1:]:
+        calculated = instant.measures.calculations.get(name)
+        found.update([name] if calculated is None else calculated.measures)
+    return frozenset(found)
+
+
+def _closed(situations: Situations, names: set[str], values: Mapping[str, Value]) -> set[str]:
+    """These names, with those that relations tie to them and that are not false."""
+    formulas = [set(names_of(f)) for relation in situations.index.relations for f in formulas_of_relation(relation)]
+    found = set(names)
+    grew = True
+    while grew:
+        tied = {n for named in formulas if named & found for n in named if values.get(n, False) is not False}
+        grew = not tied <= found
+        found |= tied
+    return found
