@@ -242,9 +242,12 @@ class Cones:
         return any(kind == "trigger" for constraint in self.constraints for kind, _ in _situations_in(constraint))
 
     @cached_property
-    def _constraints_of_situations(self) -> list[Exclusive | Never]:
-        """The constraints that speak of no obligation."""
-        return [constraint for constraint in self.constraints if not any(obligations_in(constraint))]
+    def constraints_on_situations(self) -> list[Exclusive | Never]:
+        """The constraints that rule out a situation whatever is due, each alone or several together. Raises
+        `Undecided` where the constraints are too entangled."""
+        return list(
+            dict.fromkeys(origin for clash in self.clashes.listed if not clash.literals for origin in clash.origins)
+        )
 
     @cached_property
     def always(self) -> frozenset[str]:
@@ -299,9 +302,9 @@ class Cones:
         return Cutting((one.formula for one in self.assumptions), forbidden, self.ruleset.measures.values())
 
     def _names_of_constraints(self, rules: Iterable[int]) -> Iterator[Name]:
-        """What the constraints about the obligations of some rules say of situations, with those about none."""
+        """What the constraints that may conflict with the obligations of some rules say of situations."""
         due = {o.name for position in rules for clause in self.clauses[position] for o in clause.obligations}
-        for constraint in (*self.constraints_about(due), *self._constraints_of_situations):
+        for constraint in (*self.constraints_about(due), *self.constraints_on_situations):
             yield from _situations_in(constraint)
 
     def rivals(self, position: int) -> list[int]:

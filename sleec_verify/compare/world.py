@@ -29,7 +29,7 @@ from sleec_verify.compare.align import Pair, align, depends_on_reading
 from sleec_verify.compare.alternatives import plainly
 from sleec_verify.compare.sides import Side, common, mentions, side
 from sleec_verify.compare.times import implies
-from sleec_verify.cone import Cones, Name, names_in, names_of_rule, obligations_in
+from sleec_verify.cone import Cones, Name, names_in, names_of_rule
 from sleec_verify.cutting import Cutting
 from sleec_verify.equation import Implication, conjunction, disjunction, implications
 from sleec_verify.timed.scope import Untimed
@@ -132,15 +132,11 @@ class World:
     def _constraints(self) -> dict[Which, Cones]:
         return {which: Cones(Ruleset(tuple(self.sides[which].constraints))) for which in SIDES}
 
-    @cached_property
-    def _situations_forbidden(self) -> dict[Which, list[Exclusive | Never]]:
-        """The constraints that speak of no obligation: they come true whatever is done."""
-        return {which: [c for c in self.sides[which].constraints if not any(obligations_in(c))] for which in SIDES}
-
     def constraints_about(self, which: Which, names: Iterable[str]) -> list[Exclusive | Never]:
-        if not self.sides[which].constraints:
-            return []
-        return self._constraints[which].constraints_about(names) + self._situations_forbidden[which]
+        """The constraints that may conflict with these obligations, and those that rule out a situation by
+        themselves. Raises `Undecided` where the constraints are too entangled."""
+        cones = self._constraints[which]
+        return list(dict.fromkeys((*cones.constraints_about(names), *cones.constraints_on_situations)))
 
     # The cone ----------------------------------------------------------------------------------------------
 

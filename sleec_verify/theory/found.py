@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from sleec_runtime.model import Rule
 from sleec_verify.checks.dead import DEAD_RULE
-from sleec_verify.cone import Cones, obligations_in
+from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding
 from sleec_verify.theory.numbered import Numbered
 
@@ -57,8 +57,7 @@ def _redundant_hedge(finding: Finding, domain: str, cones: Cones, numbered: Numb
 def _vacuous_conflict(finding: Finding, domain: str, cones: Cones, numbered: Numbered) -> str:
     rules = (cones.ruleset.by_label[label] for label in finding.rules)
     due = {obligation.name for rule in rules for clause in rule.clauses() for obligation in clause.obligations}
-    about = {id(constraint) for constraint in cones.constraints_about(due)}
-    about.update(id(constraint) for constraint in cones.constraints if not any(obligations_in(constraint)))
+    about = {id(constraint) for constraint in (*cones.constraints_about(due), *cones.constraints_on_situations)}
     kept = (place for place, constraint in enumerate(cones.ruleset.constraints) if id(constraint) in about)
     number, *meeting = map(numbered.rule, finding.rules)
     return f"vacuous-conflict {number} {_listed(meeting)} {_listed(kept)}"

@@ -41,6 +41,62 @@ def tied(draw, rulesets):
     return _with_rules(replace(ruleset, statements=(*ruleset.statements, *never, *assumed)), rules)
 
 
+@st.composite
+def forbidding(draw, rulesets):
+    """Rulesets with constraints over triggers, conditions and obligations, negated or not, which alone may leave
+    nothing to do in some situations."""
+    ruleset = draw(rulesets)
+    free = Atom("obligation", "free")
+    situations = [Atom("trigger", "t1"), Atom("trigger", "t2"), Atom("condition", "c1")]
+
+    def nevers(obligation):
+        where = st.lists(_literals(situations), max_size=2, unique=True)
+        return st.tuples(obligation, where).map(lambda parts: Never(_all_of([parts[0], *parts[1]])))
+
+    pair = [draw(nevers(st.just(free))), draw(nevers(st.just(Not(free))))]
+    others = draw(st.lists(nevers(_literals([free, Atom("obligation", "o1"), Atom("obligation", "o2")])), max_size=2))
+    return replace(ruleset, statements=(*ruleset.statements, *pair, *others))
+
+
+def _literals(atoms):
+    return st.sampled_from([*atoms, *map(Not, atoms)])
+
+
+def _all_of(parts):
+    return And(tuple(parts)) if len(parts) > 1 else parts[0]
+
+
+@st.composite
+def forbidding_otherwise(draw, rulesets):
+    """A ruleset and the same with the constraints of another."""
+    old, donor = draw(rulesets), draw(rulesets)
+    constraints = [constraint for constraint in (*old.constraints, *donor.constraints) if draw(st.booleans())]
+    return old, replace(old, statements=(*old.rules, *constraints))
+
+
+@st.composite
+def reordered(draw, ruleset):
+    """The ruleset with its constraints in another order, and their operands, too."""
+    constraints = [_reordered_constraint(draw, constraint) for constraint in draw(st.permutations(ruleset.constraints))]
+    others = [s for s in ruleset.statements if not isinstance(s, (Assume, Exclusive, Never))]
+    return replace(ruleset, statements=(*constraints, *others))
+
+
+def _reordered_constraint(draw, constraint):
+    if isinstance(constraint, Exclusive):
+        return replace(constraint, names=tuple(draw(st.permutations(constraint.names))))
+    return replace(constraint, formula=_reordered_formula(draw, constraint.formula))
+
+
+def _reordered_formula(draw, formula):
+    if isinstance(formula, Not):
+        return Not(_reordered_formula(draw, formula.operand))
+    if isinstance(formula, (And, Or)):
+        operands = [_reordered_formula(draw, operand) for operand in draw(st.permutations(formula.operands))]
+        return replace(formula, operands=tuple(operands))
+    return formula
+
+
 def _with_rules(ruleset: Ruleset, rules) -> Ruleset:
     return replace(ruleset, statements=(*(s for s in ruleset.statements if not isinstance(s, Rule)), *rules))
 

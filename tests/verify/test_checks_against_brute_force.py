@@ -14,12 +14,13 @@ from sleec_verify.checks import run_checks
 from sleec_verify.checks.redundant import without_hedge
 from sleec_verify.finding import Proved, Refuted
 from tests import brute
-from tests.verify.edits import tied
+from tests.verify.edits import forbidding, tied
 from tests.verify.small import small_rulesets
 
 BOOLEAN = small_rulesets()
 MEASURED = small_rulesets(measures=True, rules=2)
 TIED = tied(small_rulesets(rules=3, hedges=1, nested=False, assumptions=False))
+FORBIDDING = forbidding(small_rulesets(rules=3, hedges=1, nested=False, constraints=False, assumptions=False))
 
 
 def findings(ruleset, check):
@@ -126,6 +127,23 @@ def test_rulesets_whose_triggers_are_tied_to_one_another(check):
         check(ruleset)
 
     compare()
+
+
+@pytest.mark.parametrize("check", [check_conflicts, check_vacuous])
+def test_constraints_that_leave_nothing_to_do(check):
+    @settings(max_examples=100, deadline=None)
+    @given(FORBIDDING)
+    def compare(ruleset):
+        check(ruleset)
+
+    compare()
+
+
+def test_a_rule_that_meets_a_trigger_without_which_the_constraints_cannot_be_kept():
+    constraints = "NEVER NOT night AND NOT open\nNEVER open\n"
+    ruleset = parse(constraints + "RULE guest\nWHEN guest THEN tea\nRULE night\nWHEN night THEN NOT tea\n")
+    check_vacuous(ruleset)
+    assert [finding.rules for finding in findings(ruleset, "vacuous-conflict")] == [("guest", "night")]
 
 
 @pytest.mark.parametrize("check", ALL)

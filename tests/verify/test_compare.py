@@ -255,6 +255,19 @@ def test_a_constraint_that_speaks_of_another_trigger() -> None:
     assert conflict.witness.triggers == ("t", "u")
 
 
+def test_the_order_of_literals_makes_no_difference_where_constraints_alone_cannot_be_kept() -> None:
+    old = "NEVER NightBegins AND NOT OpenDoor\nNEVER OpenDoor\nRULE a\nWHEN GuestComes THEN OpenDoor\n"
+    found = edit(old, "NightBegins AND NOT OpenDoor", "NOT OpenDoor AND NightBegins")
+    assert (found.relation, found.undecided) == ("equivalent", ())
+
+
+def test_constraints_that_together_leave_nothing_to_do_are_a_new_conflict() -> None:
+    old = "RULE a\nWHEN GuestComes THEN tea\nRULE b\nWHEN NightBegins THEN CloseBlinds\n"
+    (conflict,) = differ(old, "NEVER NightBegins AND NOT OpenDoor\nNEVER OpenDoor\n" + old).conflicts
+    assert (conflict.literals, conflict.rules, len(conflict.origins)) == ((), (), 2)
+    assert conflict.witness.triggers == ("NightBegins",)
+
+
 # Situations -----------------------------------------------------------------------------------------------
 
 

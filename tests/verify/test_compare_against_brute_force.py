@@ -8,16 +8,18 @@ from typing import Any
 
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from sleec_runtime.model import Assume, Never, Rule, Ruleset
 from sleec_verify.compare import compare, relation
 from tests import brute
-from tests.verify.edits import edited, tied
+from tests.verify.edits import edited, forbidding, forbidding_otherwise, reordered, tied
 from tests.verify.small import small_rulesets
 
 PLAIN = edited(small_rulesets(constraints=False, assumptions=False))
 CONSTRAINED = edited(small_rulesets(rules=3))
 TIED = edited(tied(small_rulesets(rules=3, hedges=1, nested=False, assumptions=False)))
+FORBIDDING = forbidding(small_rulesets(rules=3, hedges=1, nested=False, constraints=False))
 MEASURED = edited(small_rulesets(measures=True, rules=2, hedges=1, nested=False))
 
 
@@ -193,6 +195,21 @@ def test_triggers_that_assumptions_tie(pair) -> None:
     agree(*pair)
 
 
+@settings(max_examples=100)
+@given(forbidding_otherwise(FORBIDDING))
+def test_constraints_that_leave_nothing_to_do(pair) -> None:
+    agree(*pair)
+
+
+@settings(max_examples=100)
+@given(st.data(), FORBIDDING)
+def test_the_order_of_constraints_and_of_their_literals(data, old) -> None:
+    new = data.draw(reordered(old))
+    agree(old, new)
+    found = compare(old, new)
+    assert (found.relation, found.undecided) in (("equivalent", ()), ("unknown", compare(old, old).undecided))
+
+
 @settings(max_examples=25)
 @given(MEASURED)
 def test_measures(pair) -> None:
@@ -210,6 +227,13 @@ def test_many(pair) -> None:
 @settings(max_examples=2000)
 @given(TIED)
 def test_many_ties(pair) -> None:
+    agree(*pair)
+
+
+@pytest.mark.long
+@settings(max_examples=2000)
+@given(forbidding_otherwise(FORBIDDING))
+def test_many_constraints_that_leave_nothing_to_do(pair) -> None:
     agree(*pair)
 
 
