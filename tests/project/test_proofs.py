@@ -13,7 +13,7 @@ import pytest
 PROOFS = Path(__file__).parents[2] / "proofs"
 FILES = sorted(
     path
-    for folder in ("theory", "checker", "oracle")
+    for folder in ("theory", "traces", "checker", "oracle")
     for path in (PROOFS / folder).glob("*.v")
     if path.name not in ("Assumptions.v", "Extract.v")
 )
@@ -41,7 +41,7 @@ def table() -> list[tuple[str, str]]:
 
 def asked() -> set[tuple[str, str]]:
     """(file, name) for every theorem whose assumptions `make proofs` asks for."""
-    texts = (code(PROOFS / folder / "Assumptions.v") for folder in ("theory", "checker", "oracle"))
+    texts = (code(PROOFS / folder / "Assumptions.v") for folder in ("theory", "traces", "checker", "oracle"))
     found = (pair for text in texts for pair in re.findall(r"^Print Assumptions (\w+)\.(\w+)\.$", text, re.MULTILINE))
     return {(f"{module}.v", name) for module, name in found}
 
@@ -79,4 +79,4 @@ def test_nothing_is_only_claimed(path: Path) -> None:
 
 def test_every_file_is_built() -> None:
     project = (PROOFS / "_CoqProject").read_text("utf-8")
-    assert set(re.findall(r"^(?:theory|checker|oracle)/(\w+\.v)$", project, re.MULTILINE)) == set(BY_NAME)
+    assert set(re.findall(r"^(?:theory|traces|checker|oracle)/(\w+\.v)$", project, re.MULTILINE)) == set(BY_NAME)
