@@ -15,6 +15,7 @@ from sleec_runtime.model import Formula, Never, Ruleset, formulas_of
 from sleec_verify.budget import Undecided, for_file
 from sleec_verify.calculations import calculations, named
 from sleec_verify.compare.conflicts import conflict_changes
+from sleec_verify.compare.kinds import with_kinds_of
 from sleec_verify.compare.names import name_changes
 from sleec_verify.compare.obligations import changes
 from sleec_verify.compare.result import (
@@ -67,6 +68,7 @@ def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Unti
 
 
 def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed) -> Difference:
+    old, new = with_kinds_of(old, new), with_kinds_of(new, old)
     whole = World(old, new, untimed)
     shared = Difference(
         old,
