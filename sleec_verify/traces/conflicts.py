@@ -9,12 +9,12 @@ there is none, the facts that no history gives are excluded.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from typing import NamedTuple
 
 from sleec_runtime.model import Rule, Value
-from sleec_verify.solver import Undecided
+from sleec_verify.budget import OutOfBudget, Undecided
 from sleec_verify.traces.continuations import Continuations
+from sleec_verify.traces.cores import minimal_rules, weakest, without_slots
 from sleec_verify.traces.histories import Histories, Moment
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.situations import Fact, Situations
@@ -117,7 +117,7 @@ class ConflictSearch:
     def _leave_open(self, error: Undecided) -> None:
         """Go on without the situations of the same rules, inputs and slots as the one that was not decided."""
         self._undecided.append(error)
-        if len(self._undecided) > MOST_UNDECIDED:
+        if isinstance(error, OutOfBudget) or len(self._undecided) > MOST_UNDECIDED:
             raise error
         self._situations.exclude([f for f in self._situations.facts() if f[0] in ("rule", "input", "slot") and f[-1]])
 
@@ -135,38 +135,56 @@ class ConflictSearch:
                 raise Undecided(f"no answer after {len(self._templates)} continuations")
             self._add(template)
             return None
-        rules = self._minimal(continuations, rules)
+        return self._stuck(continuations, rules, facts)
+
+    def _stuck(self, continuations: Continuations, rules: list[str], facts: list[Fact]) -> Conflict | None:
+        """The conflict in a situation in which no response complies with `rules`, if it is one; else it is excluded."""
+        s = self._situations
+        rules = minimal_rules(continuations, rules)
+        if not rules:
+            s.exclude(continuations.core())
+            return None
         core = continuations.core()
         given = {str(fact[1]) for fact in facts if fact[0] == "input" and fact[-1]}
         foreign = {e for e in given if not any(rule.label in rules for rule in self._index.by_trigger[e])}
-        if foreign or not rules:
-            # With an input of other rules this is no situation of these rules, and of no more it is minimal.
-            for event in foreign if rules else ("",):
-                s.exclude([*core, *([("input", event, True)] if event else [])])
+        if foreign:
+            # With an input of other rules this is no situation of these rules, and of no more rules it is minimal.
+            fewer: list[Fact] = [("input", f[1], False) if f[0] == "input" and f[1] in foreign else f for f in facts]
+            without = Continuations(s, fewer)
+            if without.complies([]) and not without.complies(rules):
+                fewer_rules = minimal_rules(without, rules)
+                if not any(fact[0] == "input" and fact[1] in foreign for fact in without.core()):
+                    return self._stuck(without, fewer_rules, fewer)
+            core = weakest(continuations, core, s)
+            for event in foreign:
+                s.exclude({*core, ("input", event, True)})
             return None
         if not any(self._decides(label, given) for label in rules):
-            # A situation of these rules has one that decides now.
-            needed = [s.formula.every(self._speaking(label)) for label in rules]
-            s.add([*(-s.literal(fact) for fact in core), *needed])
-            return None
+            return self._doomed(weakest(continuations, core, s), rules)
         facts, continuations, given = self._with_fewer_inputs(rules, facts, continuations, given)
-        core = self._without_slots(continuations, rules, facts)
+        core = without_slots(continuations, rules, facts)
         slots = {int(str(f[1])) for f in core if f[0] == "slot"}
         pairs = self._pairs(continuations, rules, given, slots)
         return self._confirmed(rules, core, given, pairs, continuations)
 
-    def _minimal(self, continuations: Continuations, rules: list[str]) -> list[str]:
-        """A minimal set of rules that no response complies with; the last answer is that for these rules there is none.
-        Afterwards, the last answer is that for the minimal set."""
-        kept = [label for label in rules if ("rule", label, True) in continuations.core()]
-        for label in list(kept):
-            less = [other for other in kept if other != label]
-            if not continuations.complies(less):
-                core = continuations.core()
-                kept = [other for other in less if ("rule", other, True) in core]
-        stuck = not continuations.complies(kept)
-        assert stuck, "a core is inconsistent by itself"
-        return kept
+    def _doomed(self, core: list[Fact], rules: list[str]) -> Conflict | None:
+        """The conflict of rules that what is pending has put an end to, although none of them decides now."""
+        s = self._situations
+        slots = [s.slots[int(str(f[1]))] for f in core if f[0] == "slot"]
+        again = [
+            s.formula.every([s.inputs[one.rule.trigger], s.guards[one.rule.label][one.pending.number]]) for one in slots
+        ]
+        others = [-given for event, given in s.inputs.items() if all(event != one.rule.trigger for one in slots)]
+        if again and s.find(*(s.literal(fact) for fact in core), s.formula.any_of(again), *others):
+            # A situation of these rules: the same is pending, and one of them is triggered again.
+            facts = s.facts()
+            continuations = Continuations(s, facts)
+            stuck = not continuations.complies(rules)
+            assert stuck, "the facts suffice"
+            return self._stuck(continuations, rules, facts)
+        needed = [s.formula.every(self._speaking(label)) for label in rules]
+        s.add([*(-s.literal(fact) for fact in core), *needed])
+        return None
 
     def _with_fewer_inputs(
         self, rules: list[str], facts: list[Fact], continuations: Continuations, given: set[str]
@@ -177,22 +195,9 @@ class ConflictSearch:
             if any(self._decides(label, fewer) for label in rules):
                 less: list[Fact] = [("input", event, False) if f[:2] == ("input", event) else f for f in facts]
                 smaller = Continuations(self._situations, less)
-                if not smaller.complies(rules) and self._minimal(smaller, rules) == rules:
+                if not smaller.complies(rules) and minimal_rules(smaller, rules) == rules:
                     facts, continuations, given = less, smaller, fewer
         return facts, continuations, given
-
-    def _without_slots(self, continuations: Continuations, rules: list[str], facts: list[Fact]) -> list[Fact]:
-        """A core with as few slots as can be."""
-        core = continuations.core()
-        left_out: list[Fact] = []
-        for number in sorted({int(str(f[1])) for f in core if f[0] == "slot"}, reverse=True):
-            node = self._situations.slots[number].node
-            about = [f for f in facts if (f[0] in ("slot", "came") and f[1] == number) or f[:2] == ("age", node)]
-            if not continuations.complies(rules, [*left_out, *about]):
-                left_out += about
-        stuck = not continuations.complies(rules, left_out)
-        assert stuck, "the facts that are left suffice"
-        return continuations.core()
 
     def _decides(self, label: str, given: set[str]) -> bool:
         rule = self._index.ruleset.by_label[label]
@@ -219,12 +224,12 @@ class ConflictSearch:
             # A history may leave more pending of these rules; then the situation has to say so.
             own = {n for n, slot in enumerate(s.slots) if slot.rule.label in rules and s.holds(slot.active)}
             if not histories.exist(strict=False):
-                s.exclude(self._less(histories, strict=False))
+                s.exclude(weakest(histories, histories.refuted(), s))
                 return None
             histories = Histories(s, self._about_past(core, slots | own), rules)
             if not histories.exist():
                 others = [slot for n, slot in enumerate(s.slots) if slot.rule.label in rules and n not in own]
-                needed = [*self._less(histories, strict=True), *(("rule", label, True) for label in rules)]
+                needed = [*weakest(histories, histories.refuted(), s), *(("rule", label, True) for label in rules)]
                 s.add([*(-s.literal(fact) for fact in needed), *(slot.active for slot in others)])
                 self._needs_all = True
                 return None
@@ -250,20 +255,8 @@ class ConflictSearch:
         return [
             f
             for f in s.facts()
-            if f in core or (f[0] in ("slot", "came") and f[1] in slots) or (f[0] == "age" and f[1] in nodes)
+            if f in core or (f[0] in ("slot", "came") and f[1] in slots) or (f[0] == "gap" and nodes & {*f[1:3]})
         ]
-
-    @staticmethod
-    def _less(histories: Histories, strict: bool) -> list[Fact]:
-        """A minimal set of facts that no history gives."""
-        needed = histories.refuted()
-        for fact in list(needed):
-            less = [f for f in histories.facts if f not in needed or f == fact]
-            with suppress(Undecided):
-                if not histories.exist(but=less, strict=strict):
-                    refuted = histories.refuted()
-                    needed = [f for f in needed if f in refuted]
-        return needed
 
     def _values(self) -> Mapping[str, Value]:
         instant, holds = self._situations.instant, self._situations.holds

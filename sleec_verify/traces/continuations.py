@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 
 from sleec_runtime.model import Clause, Obligation
 from sleec_runtime.model_time import Lasting
@@ -25,16 +25,13 @@ class Continuations:
 
     `complies` answers for any set of rules; each fact is an assumption, so that a core names those that matter."""
 
-    def __init__(self, situations: Situations, facts: Iterable[Fact], impossible: frozenset[str] = frozenset()) -> None:
-        """`impossible` events do not occur from now on."""
+    def __init__(self, situations: Situations, facts: Iterable[Fact]) -> None:
         self.situations = situations
-        self._given = tuple(facts)
-        self._is_inductive = bool(impossible)
-        self._inductive: Continuations | None = None
-        self._relied: tuple[str, ...] = ()
-        self.model = model = _Contested(situations.index, impossible=impossible)
+        self.model = model = _Contested(situations.index)
         self.facts: dict[Fact, int] = {}
-        facts = self._given
+        facts = tuple(facts)
+        self._counting: Sequence[str] = ()
+        self._induction: dict[frozenset[str], int] = {}
         self.nodes = {situations.now: model.node()}
         self.now = self.nodes[situations.now]
         slots = {int(str(fact[1])) for fact in facts if fact[0] == "slot" and fact[-1]}
@@ -105,22 +102,21 @@ class Continuations:
             literal = active[int(str(name))]
         elif kind == "came":
             literal = came[int(str(name)), rest[0]]  # type: ignore[index]
-        elif kind == "age":
-            literal = self.model.times.at_most(self.nodes[int(str(name))], self.now, int(str(rest[0])))
+        elif kind == "gap":
+            literal = self._gap(fact)
         elif kind == "occurred":
             literal = occurred[str(name)]
         else:
             literal = self._active[str(name)]
         return literal if value else -literal
 
+    def _gap(self, fact: Fact) -> int:
+        _, a, b, most, _ = fact
+        return self.model.times.at_most(self.nodes[a], self.nodes[b], most)  # type: ignore[index, arg-type]
+
     @property
     def relations(self) -> list[str]:
         return [relation_key(relation) for relation in self.situations.index.relations]
-
-    @property
-    def answering(self) -> Continuations:
-        """What gave the last answer: these, or those without the events that induction excludes."""
-        return self if self._inductive is None else self._inductive
 
     def complies(
         self, rules: Collection[str], but: Collection[Fact] = (), *more: int, relations: Collection[str] | None = None
@@ -129,32 +125,45 @@ class Continuations:
         those that count, by their keys: all, unless given.
 
         Raises Undecided."""
-        self._inductive = None
-        index = self.situations.index
-        if index.is_cyclic and not self._is_inductive:
-            # Where a response leads back to its trigger, instants could be added for ever.
-            impossible = impossible_events(index, rules)
-            if impossible:
-                self._relied = tuple(rules)
-                self._inductive = Continuations(self.situations, self._given, impossible)
-                return self._inductive.complies(rules, but, relations=relations)
         literals = [literal for fact, literal in self.facts.items() if fact not in but]
-        return self.model.ask(
-            *literals, *more, counting=[*rules, *(self.relations if relations is None else relations)]
-        )
+        return self._ask([*rules, *(self.relations if relations is None else relations)], [*literals, *more])
+
+    def _ask(self, counting: Sequence[str], literals: Sequence[int]) -> bool:
+        self._counting = counting
+        induction = [self._inductive(frozenset(counting))] if self.situations.index.is_cyclic else []
+        return self.model.ask(*literals, *induction, counting=counting)
+
+    def _inductive(self, counting: frozenset[str]) -> int:
+        """A literal that implies that no events occur that the rules and relations `counting` never let occur."""
+        literal = self._induction.get(counting)
+        if literal is None:
+            literal = self._induction[counting] = self.model.formula.fresh()
+            for event in impossible_events(self.situations.index, counting):
+                self.model.exclude(literal, event)
+        return literal
+
+    def _matter(self) -> Sequence[str]:
+        """The rules and relations that the last answer, which was no, rests on."""
+        # That an event is impossible rests on all of them.
+        return self.model.matter() if self.model.core.isdisjoint(self._induction.values()) else self._counting
 
     def relations_in_core(self) -> list[str]:
         """The keys of the relations that the last answer, which was no, rests on."""
-        if self._inductive is not None:
-            # That events are impossible rests on all relations.
-            return self.relations
-        return [key for key in self.model.matter() if key not in self.situations.selected]
+        return [key for key in self._matter() if key not in self.situations.selected]
 
     def core(self) -> list[Fact]:
         """The facts that the last answer, which was no, rests on."""
-        if self._inductive is not None:
-            # That events are impossible rests on all rules.
-            found = [fact for fact in self._inductive.core() if fact[0] != "rule"]
-            return [*found, *(("rule", label, True) for label in self._relied)]
         found = [fact for fact, literal in self.facts.items() if literal in self.model.core]
-        return [*found, *(("rule", key, True) for key in self.model.matter() if key in self.situations.selected)]
+        return [*found, *(("rule", key, True) for key in self._matter() if key in self.situations.selected)]
+
+    def refutes(self, facts: Collection[Fact]) -> bool:
+        """Whether no response complies with the rules of some facts where the others hold. They may have other bounds
+        on times than the facts given. Raises Undecided."""
+        literals = [self._gap(fact) if fact[0] == "gap" else self.facts.get(fact) for fact in facts]
+        rules = [str(fact[1]) for fact in facts if fact[0] == "rule"]
+        return not self._ask([*rules, *self.relations], [literal for literal in literals if literal is not None])
+
+    def gap(self, a: int, b: int) -> int:
+        """The time from a node to another one, in seconds, in the last answer, which was yes."""
+        times, _ = self.model.schedule()
+        return times[self.nodes[b]] - times[self.nodes[a]]

@@ -36,9 +36,10 @@ class Histories(TraceModel):
         self._of = frozenset(rules)
         self._slots: dict[int, Slot] = {}
         self.now = self.before = self.node()
+        self._mode: list[int] = []
         self.facts: dict[Fact, int] = {}
-        nodes: dict[int, int] = {}
-        wanted = [fact for fact in facts if fact[0] in ("slot", "came", "age", "occurred", "lasts")]
+        self._nodes = nodes = {situations.now: self.now}
+        wanted = [fact for fact in facts if fact[0] in ("slot", "came", "gap", "occurred", "lasts")]
         for fact in wanted:
             if fact[0] == "slot" and fact[-1]:
                 slot = situations.slots[int(str(fact[1]))]
@@ -46,11 +47,12 @@ class Histories(TraceModel):
             elif fact[0] == "lasts" and fact[-1]:
                 nodes.setdefault(situations.lasting[str(fact[1])][2], self.node())
         for fact in wanted:
-            literal = self._literal(fact, nodes)
+            literal = self._literal(fact)
             if literal is not None:
                 self.facts[fact] = literal
 
-    def _literal(self, fact: Fact, nodes: dict[int, int]) -> int | None:
+    def _literal(self, fact: Fact) -> int | None:
+        nodes = self._nodes
         kind, name, *rest = fact
         value = bool(rest[-1])
         if kind == "slot":
@@ -63,14 +65,17 @@ class Histories(TraceModel):
             leaf = rest[0]
             assert isinstance(leaf, Occurs)
             return self._came(nodes[slot.node], leaf) if value else self._never(nodes[slot.node], leaf)
-        if kind == "age":
-            if int(str(name)) not in nodes:
-                return None
-            literal = self.times.at_most(nodes[int(str(name))], self.now, int(str(rest[0])))
-            return literal if value else -literal
+        if kind == "gap":
+            a, b, most, _ = fact[1:]
+            there = a in nodes and b in nodes
+            return self.times.at_most(nodes[a], nodes[b], most) if there else None  # type: ignore[index, arg-type]
         if kind == "occurred":
             event = str(name)
-            return self.exists(lambda at: self.instants[at].event(event)) if value else self._never_at_all(event)
+            if value:
+                return self.exists(lambda at: self.instants[at].event(event))
+            never = self.formula.fresh()
+            self.exclude(never, event)
+            return never
         law, _, node = self._situations.lasting[str(name)]
         return self._lasts(law, nodes[node]) if value else None
 
@@ -97,11 +102,6 @@ class Histories(TraceModel):
 
     def _never(self, at: int, leaf: Occurs) -> int:
         return self.occurs(at, leaf._replace(negated=True))
-
-    def _never_at_all(self, event: str) -> int:
-        never = self.formula.fresh()
-        self.everywhere(lambda at: self.add([-never, -self.instants[at].event(event)]))
-        return never
 
     def _lasts(self, law: Lasting, node: int) -> int:
         """A literal that implies that a relation begins at the time of a node and is not over before now."""
@@ -162,14 +162,25 @@ class Histories(TraceModel):
 
     # Questions ------------------------------------------------------------------------------------------------
 
-    def exist(self, *, but: Collection[Fact] = (), strict: bool = True) -> bool:
-        """Whether there is such a history; facts of `but` are left open. Raises Undecided."""
-        literals = [literal for fact, literal in self.facts.items() if fact not in but]
-        return self.ask(*literals, *([self.strict] if strict else []))
+    def exist(self, *, strict: bool = True) -> bool:
+        """Whether there is such a history. What is asked next has the same mode. Raises Undecided."""
+        self._mode = [self.strict] if strict else []
+        return self.ask(*self.facts.values(), *self._mode)
 
     def refuted(self) -> list[Fact]:
         """The facts that the last answer, which was no, rests on."""
         return [fact for fact, literal in self.facts.items() if literal in self.core]
+
+    def refutes(self, facts: Collection[Fact]) -> bool:
+        """Whether no history leads to situations with these facts. They may have other bounds on times than the facts
+        given. Raises Undecided."""
+        literals = [self._literal(fact) if fact[0] == "gap" else self.facts.get(fact) for fact in facts]
+        return not self.ask(*(literal for literal in literals if literal is not None), *self._mode)
+
+    def gap(self, a: int, b: int) -> int:
+        """The time from a node to another one, in seconds, in the last answer, which was yes."""
+        times, _ = self.schedule()
+        return times[self._nodes[b]] - times[self._nodes[a]]
 
     def history(self) -> tuple[list[Moment], int]:
         """The instants of the history of the last answer, which was yes, and the time of now; the first is at 0."""

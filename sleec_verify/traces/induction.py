@@ -1,32 +1,40 @@
 """Events that occur in no trace, because each occurrence requires a later one.
 
-A trace has finitely many instants. Where every instant at which an event of some set occurs requires an event of the
-set at a later one, or is impossible, the last such instant has none after it: no event of the set ever occurs. That is
-induction over the instants from the last one back, with one question for each event.
+A trace has finitely many instants. Where each occurrence of an event of some set requires a later occurrence of one of
+the set, or is impossible, the last one has none after it: no event of the set ever occurs. That is induction over the
+instants from the last one back, with one question for each event.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection
 
+from sleec_verify.budget import OutOfBudget, Undecided
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.model import TraceModel
 
 
 def impossible_events(index: Index, counting: Collection[str]) -> frozenset[str]:
-    """The largest set of events of which each occurrence requires a later one, by the rules `counting` and all
-    relations. At most quadratic in the number of events, each step a question about one instant."""
-    rules = {trigger: [rule for rule in rules if rule.label in counting] for trigger, rules in index.by_trigger.items()}
-    left = {*index.by_trigger, *index.obliging, *index.relations_of_event}
-    while True:
-        possible = set()
-        for event in sorted(left):
-            model = TraceModel(index, rules)
-            only = model.instant(model.formula.true)
-            if model.is_possible(model.instants[only].event(event), last_of=left):
-                possible.add(event)
+    """The largest set of events of which each occurrence requires a later one, by the rules and relations `counting`,
+    as far as that is decided. At most quadratic in the number of events."""
+    left = {*index.by_trigger, *index.relations_of_event}
+    while left:
+        possible = {event for event in left if _can_be_last(index, counting, event, left)}
         if not possible:
-            return frozenset(left)
+            break
         left -= possible
-        if not left:
-            return frozenset()
+    return frozenset(left)
+
+
+def _can_be_last(index: Index, counting: Collection[str], event: str, group: Collection[str]) -> bool:
+    """Whether an event can occur at an instant after which none of a group occurs."""
+    model = TraceModel(index)
+    last = model.instant(model.formula.true)
+    for other in group:
+        model.exclude(model.formula.true, other, after=last)
+    try:
+        return model.ask(model.instants[last].event(event), counting=counting)
+    except OutOfBudget:
+        raise
+    except Undecided:
+        return True

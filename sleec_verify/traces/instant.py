@@ -47,7 +47,7 @@ class Formula:
 class Instant(Encoder):
     """An encoder whose triggers and obligations are one kind of thing: the events of this instant.
 
-    `used` says whether the trace has this instant. `impossible` are events that cannot occur here.
+    `used` says whether the trace has this instant.
     """
 
     def __init__(
@@ -55,13 +55,11 @@ class Instant(Encoder):
         formula: Formula,
         measures: Mapping[str, Measure],
         used: int,
-        impossible: frozenset[str] = frozenset(),
     ) -> None:
         self._formula = formula
         super().__init__(measures, clauses=formula.clauses)
         self._true = formula.true
         self.used = used
-        self._impossible = impossible
         self.expanded: set[str] = set()
         self._regions = 0
 
@@ -80,8 +78,6 @@ class Instant(Encoder):
             variable = super().variable(key)
             if key[0] == "event":
                 self.clauses.append([-variable, self.used])
-                if key[1] in self._impossible:
-                    self.clauses.append([-variable])
         return variable
 
     def events(self) -> dict[str, int]:

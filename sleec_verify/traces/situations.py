@@ -26,8 +26,8 @@ from sleec_verify.traces.relations import formulas_of_relation, relation_key
 
 Fact = tuple[object, ...]
 """A literal of a situation by its meaning, and True or False: ``("rule", label)``, ``("input", event)``,
-``("state", key)``, ``("slot", n)``, ``("came", n, leaf)``, ``("age", node, seconds)`` (the age is at most so many
-seconds), ``("occurred", event)`` or ``("lasts", key)``."""
+``("state", key)``, ``("slot", n)``, ``("came", n, leaf)``, ``("gap", a, b, seconds)`` (node b is at most so many
+seconds after node a), ``("occurred", event)`` or ``("lasts", key)``."""
 
 
 class Pending(NamedTuple):
@@ -210,13 +210,19 @@ class Situations:
             literal = self.slots[int(str(name))].active
         elif kind == "came":
             literal = self.slots[int(str(name))].came[rest[0]]  # type: ignore[index]
-        elif kind == "age":
-            literal = self.times.at_most(int(str(name)), self.now, int(str(rest[0])))
+        elif kind == "gap":
+            literal = self.times.at_most(name, rest[0], rest[1])  # type: ignore[arg-type]
         elif kind == "occurred":
             literal = self.occurred[str(name)]
         else:
             literal = self.lasting[str(name)][1]
         return literal if value else -literal
+
+    def nodes_of(self, fact: Fact) -> set[int]:
+        """The times that only a fact speaks about."""
+        if fact[0] == "slot":
+            return {self.slots[int(str(fact[1]))].node}
+        return {self.lasting[str(fact[1])][2]} if fact[0] == "lasts" else set()
 
     def exclude(self, facts: Iterator[Fact] | list[Fact] | set[Fact]) -> None:
         """No further situation has all these facts."""
@@ -243,7 +249,7 @@ class Situations:
 
     def _age(self, node: int, times: dict[int, int]) -> list[Fact]:
         age = times[self.now] - times[node]
-        return [("age", node, age, True), ("age", node, age - 1, False)]
+        return [("gap", node, self.now, age, True), ("gap", self.now, node, -age, True)]
 
     def _used(self) -> list[int]:
         nodes = [slot.node for slot in self.slots if self.holds(slot.active)]

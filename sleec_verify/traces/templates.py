@@ -45,7 +45,6 @@ class Template:
 def template_of(found: Continuations, from_now: bool) -> Template:
     """The template of the continuation that `found.complies` has just found. `from_now`: its later instants are
     reckoned from now only."""
-    found = found.answering
     model = found.model
     times, waits = model.schedule()
     node_of = {node: number for number, node in found.nodes.items()}

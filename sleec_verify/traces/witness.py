@@ -45,7 +45,7 @@ def needed_values(
     formula.clauses.append([-guard for guard in guards])
     named = {fact: names_of_key(instant, fact[1]) for fact in facts}  # type: ignore[arg-type]
     literals = {
-        fact: (instant.variables[fact[1]] if fact[-1] else -instant.variables[fact[1]])  # type: ignore[index]
+        fact: (instant.variables[fact[1]] if fact[-1] else -instant.variables[fact[1]])
         for fact in facts
         if fact[1] in instant.variables
     }

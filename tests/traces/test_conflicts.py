@@ -88,6 +88,32 @@ def test_without_need_of_one_there_is_no_history() -> None:
     assert (conflict.history, sorted(conflict.now.events)) == ((), ["A", "B"])
 
 
+@pytest.mark.parametrize("unit", ["seconds", "minutes", "days"])
+@pytest.mark.parametrize("length", [1, 5])
+def test_a_chain_of_responses_without_end_is_refuted_by_induction(length: int, unit: str) -> None:
+    """Each A requires a later C and each C a later A: B, which would end it, is forbidden for long enough."""
+    text = dsl(
+        f"A then B within {2 * length} {unit} otherwise C within {length} {unit}",
+        f"C then A within {2 * length} {unit} otherwise B within {length} {unit}",
+        f"A then not B within {6 * length} {unit}",
+    )
+    assert rules_of(text) == {frozenset({"R2", "R3"}), frozenset({"R1", "R2", "R3"})}
+
+
+@pytest.mark.parametrize("unit", ["seconds", "minutes", "hours", "days"])
+def test_a_conflict_does_not_hide_behind_inputs_of_other_rules(unit: str) -> None:
+    """Each second of a window gives situations of its own, with any inputs; all of them are excluded at once."""
+    text = dsl(
+        f"A then X within [3,11] {unit}",
+        "B then Y unless (not {b0}) then X",
+        f"B then not X within [7,9] {unit}",
+        "C then not Y",
+        f"D then X within 5 {unit}",
+        f"F then not X within 8 {unit}",
+    )
+    assert rules_of(text) >= {frozenset({"R2", "R3"}), frozenset({"R5", "R6"})}
+
+
 def assert_agrees(text: str, smallest: set[frozenset[str]], every: set[frozenset[str]]) -> bool:
     """The engine finds each smallest set and none that is not one; returns whether it decided everything."""
     found, reason = conflicts_of(text)

@@ -1,0 +1,267 @@
+"""Lazy unrolling: a formula over the instants of a trace, which grows as far as its rules require (bounded model
+checking; A. Biere and others, "Symbolic model checking without BDDs", TACAS 1999).
+
+That something holds at an instant that does not exist yet is an assumption (a *need*). So
+
+- if no model exists even with these assumptions, there is no trace, however long;
+- a model that uses none of them is a trace, with exactly the instants that it has.
+
+In between, an instant is added for each assumption that a model uses. Where no response leads back to its own trigger
+this terminates; elsewhere the search gives up after `MOST_CYCLIC` instants.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+
+from sleec_runtime.model import Formula as Condition
+from sleec_runtime.model import Value
+from sleec_verify.solver import MiniSat, Undecided
+from sleec_verify.traces.difference import Differences
+from sleec_verify.traces.index import Index
+from sleec_verify.traces.instant import Formula, Instant
+
+MOST = 30
+"""Instants that are added before the search gives up. Published rulesets need three."""
+
+MOST_CYCLIC = 8
+"""The same where a response can lead back to its trigger."""
+
+MOST_CLAUSES = 20_000
+"""Clauses beyond which no instant is added."""
+
+MOST_COMPARED = 300_000
+"""Pairs of instants whose times may be compared in all, summed over models: a few seconds."""
+
+
+@dataclass
+class Need:
+    """`witness` holds at some instant: one of the model, or (`rest`) one that is not there yet. `event` is what occurs
+    there, if only that and the time matter."""
+
+    witness: Callable[[int], int]
+    rest: int
+    event: str | None = None
+
+
+class Unrolling(ABC):
+    """Instants and times with what holds there.
+
+    A node is a time; the nodes in `instants` have events and measures too.
+    """
+
+    def __init__(self, index: Index) -> None:
+        self.index = index
+        self.formula = Formula()
+        self.add = self.formula.clauses.append
+        self.times = Differences(self.formula.fresh, self.add, self.formula.true)
+        self.nodes = 0
+        self.instants: dict[int, Instant] = {}
+        self.after: int | None = None
+        """The node that all instants added from now on come after."""
+        self.before: int | None = None
+        """The node that all instants come before: the trace is a history, and what can still be met after it is."""
+        self._most = MOST_CYCLIC if index.is_cyclic else MOST
+        self._grown = 0
+        self._refused = 0
+        self._compared = 0
+        self._conditions: dict[tuple[int, Condition], int] = {}
+        self._needs: list[Need] = []
+        self._everywhere: list[Callable[[int], None]] = []
+        self._in_force: dict[str, int] = {}
+        self._solver = MiniSat()
+        self._sent = 0
+        self._core: set[int] = set()
+
+    def node(self) -> int:
+        """A new time, without an instant."""
+        self.nodes += 1
+        return self.nodes - 1
+
+    def instant(self, used: int | None = None, at: int | None = None) -> int:
+        """A new instant, which the trace has if `used`, at a new node or the node `at`; returns the node."""
+        node = self.node() if at is None else at
+        used = self.formula.fresh() if used is None else used
+        for other, instant in self.instants.items():
+            # Two instants have different times.
+            at_most, less = self.times.at_most(other, node, 0), self.times.at_most(other, node, -1)
+            self.add([-used, -instant.used, -at_most, less])
+        self.instants[node] = Instant(self.formula, self.index.ruleset.measures, used)
+        if self.after is not None:
+            self.add([-used, self.times.before(self.after, node)])
+        if self.before is not None:
+            self.add([-used, self.times.before(node, self.before)])
+        # The relations may add needs, which are offered this instant as they are made.
+        needs = list(self._needs)
+        for make in list(self._everywhere):
+            make(node)
+        for need in needs:
+            self._offer(need, node)
+        return node
+
+    def everywhere(self, make: Callable[[int], None]) -> None:
+        """Call `make` for every instant, those to come included."""
+        self._everywhere.append(make)
+        for node in list(self.instants):
+            make(node)
+
+    def exclude(self, literal: int, event: str, after: int | None = None) -> None:
+        """If `literal`, the event occurs at no instant (after the node `after`)."""
+
+        def exclude(at: int) -> None:
+            later = [] if after is None else [-self.times.before(after, at)]
+            self.add([-literal, *later, -self.instants[at].event(event)])
+
+        self.everywhere(exclude)
+
+    def exists(self, witness: Callable[[int], int], event: str | None = None) -> int:
+        """A literal that implies that `witness` (from an instant to a literal) holds at some instant."""
+        literal = self.formula.fresh()
+        need = Need(witness, literal, event)
+        self._needs.append(need)
+        for node in list(self.instants):
+            self._offer(need, node)
+        return literal
+
+    def _offer(self, need: Need, node: int) -> None:
+        here = need.witness(node)
+        if here != -self.formula.true:
+            rest = self.formula.fresh()
+            self.add([-need.rest, here, rest])
+            need.rest = rest
+
+    def condition(self, at: int, condition: Condition | None) -> int:
+        """The literal of a condition at an instant; the same literal whenever it is asked for."""
+        if condition is None:
+            return self.formula.true
+        literal = self._conditions.get((at, condition))
+        if literal is None:
+            literal = self._conditions[at, condition] = self.instants[at].literal(condition)
+        return literal
+
+    def in_force(self, key: str) -> int:
+        """The literal "this rule or relation counts"; cores name what matters by it."""
+        literal = self._in_force.get(key)
+        if literal is None:
+            literal = self._in_force[key] = self.formula.fresh()
+        return literal
+
+    # Questions ------------------------------------------------------------------------------------------------
+
+    def ask(self, *required: int, counting: Collection[str] | None = None) -> bool:
+        """Whether there is a trace in which all these literals are true. `counting` are the labels of the rules and the
+        keys of the relations that count: all, unless given.
+
+        Raises Undecided where the solver gives up, or the trace needs more instants than are tried.
+        """
+        while True:
+            if self._solve(required, counting, closed=True):
+                return True
+            if not any(-need.rest in self._core for need in self._needs):
+                return False
+            if not self._solve(required, counting, closed=False):
+                return False
+            self._grow()
+
+    def _grow(self) -> None:
+        """Add an instant for each event that the model leaves to instants to come: one may serve several needs."""
+        trusted = {need.event or number: need for number, need in enumerate(self._needs) if self.true(need.rest)}
+        for need in trusted.values():
+            if self._grown >= self._most or len(self.formula.clauses) - self._refused > MOST_CLAUSES:
+                raise self._given_up()
+            self._grown += 1
+            self._needs.remove(need)
+            rest = need.rest
+            # What the new instant is for is met there, or was met at one of the others.
+            self.add([-rest, need.witness(self.instant())])
+
+    def _given_up(self) -> Undecided:
+        return Undecided(f"no answer with {len(self.instants)} instants")
+
+    def _solve(self, required: Sequence[int], counting: Collection[str] | None, closed: bool) -> bool:
+        """Solve with the rules of all events that occur in the model, and with times that can be; `closed`: without
+        instants to come."""
+        recorder = self.index.recorder
+        while True:
+            self._send()
+            keys = self._in_force if counting is None else [key for key in counting if key in self._in_force]
+            here = [-need.rest for need in self._needs] if closed else []
+            assumed = [*required, *(self._in_force[key] for key in keys), *here]
+            answer = self._solver.solve(assumed)
+            if answer is None:
+                raise Undecided("the solver gave up after its budget of conflicts")
+            if not answer:
+                self._core = set(self._solver.core())
+                if recorder is not None:
+                    recorder.refuted(self.formula.clauses, list(self._core))
+                return False
+            if not self._expand() and not self._refine():
+                if recorder is not None:
+                    recorder.satisfied(self.formula.clauses, assumed, self._solver.holds)
+                return True
+
+    def _send(self) -> None:
+        for instant in self.instants.values():
+            instant.settle()
+        self._solver.add(self.formula.clauses[self._sent :])
+        self._sent = len(self.formula.clauses)
+
+    @abstractmethod
+    def _expand(self) -> bool:
+        """Encode what the events of the model bring about; whether there is anything new."""
+
+    def _refine(self) -> bool:
+        """Exclude what a model says of measures and times and cannot be; False if all of it can."""
+        refused = []
+        for instant in self.instants.values():
+            if self.true(instant.used):
+                lemma = instant.measures.refused(self.true, self.index.recorder is not None)
+                if lemma is not None:
+                    refused.append(lemma)
+        refused += self.times.refused(self.true, self.used())
+        self._compared += self.times.pairs
+        if self._compared > MOST_COMPARED:
+            raise self._given_up()
+        self.formula.clauses += refused
+        self._refused += len(refused)
+        return bool(refused)
+
+    # The last answer ------------------------------------------------------------------------------------------
+
+    @property
+    def core(self) -> set[int]:
+        """The assumptions that the last answer, which was no, rests on."""
+        return self._core
+
+    def matter(self) -> list[str]:
+        """The rules and relations that the last answer, which was no, rests on."""
+        return [key for key, literal in self._in_force.items() if literal in self._core]
+
+    def true(self, literal: int) -> bool:
+        """Whether a literal is true in the trace of the last `ask`."""
+        return self._solver.holds(literal)
+
+    def used(self) -> list[int]:
+        """The nodes of the trace of the last `ask`: its instants, and the times without one."""
+        return [n for n in range(self.nodes) if n not in self.instants or self.true(self.instants[n].used)]
+
+    def values(self, at: int) -> dict[str, Value]:
+        """The conditions and measures that the formula mentions, at an instant of the trace of the last `ask`."""
+        instant = self.instants[at]
+        found: dict[str, Value] = {
+            key[1]: self.true(variable) for key, variable in instant.variables.items() if key[0] == "condition"
+        }
+        decoded = instant.measures.decode(self.true)
+        assert not isinstance(decoded, list), "ask accepts a model only once its order has room"
+        found.update(decoded)
+        return found
+
+    def events(self, at: int) -> frozenset[str]:
+        """The events of an instant of the trace of the last `ask`."""
+        return frozenset(name for name, literal in self.instants[at].events().items() if self.true(literal))
+
+    def schedule(self) -> tuple[dict[int, int], dict[int, tuple[int, int]]]:
+        """The earliest times of the trace of the last `ask`, and what each node waits for."""
+        return self.times.schedule(self.true, self.used())
