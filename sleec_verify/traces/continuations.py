@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable
 
 from sleec_runtime.model import Clause, Obligation
 from sleec_runtime.model_time import Lasting
 from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
-from sleec_verify.traces.induction import impossible_events
-from sleec_verify.traces.model import TraceModel
+from sleec_verify.traces.induction import InductiveModel
 from sleec_verify.traces.relations import relation_key
 from sleec_verify.traces.situations import Fact, Situations, Slot, state_formulas
 
 
-class _Contested(TraceModel):
+class _Contested(InductiveModel):
     """Traces in which what can always be met is left out."""
 
     def obligations(self, clause: Clause) -> tuple[Obligation, ...]:
@@ -30,8 +29,6 @@ class Continuations:
         self.model = model = _Contested(situations.index)
         self.facts: dict[Fact, int] = {}
         facts = tuple(facts)
-        self._counting: Sequence[str] = ()
-        self._induction: dict[frozenset[str], int] = {}
         self.nodes = {situations.now: model.node()}
         self.now = self.nodes[situations.now]
         slots = {int(str(fact[1])) for fact in facts if fact[0] == "slot" and fact[-1]}
@@ -126,42 +123,25 @@ class Continuations:
 
         Raises Undecided."""
         literals = [literal for fact, literal in self.facts.items() if fact not in but]
-        return self._ask([*rules, *(self.relations if relations is None else relations)], [*literals, *more])
-
-    def _ask(self, counting: Sequence[str], literals: Sequence[int]) -> bool:
-        self._counting = counting
-        induction = [self._inductive(frozenset(counting))] if self.situations.index.is_cyclic else []
-        return self.model.ask(*literals, *induction, counting=counting)
-
-    def _inductive(self, counting: frozenset[str]) -> int:
-        """A literal that implies that no events occur that the rules and relations `counting` never let occur."""
-        literal = self._induction.get(counting)
-        if literal is None:
-            literal = self._induction[counting] = self.model.formula.fresh()
-            for event in impossible_events(self.situations.index, counting):
-                self.model.exclude(literal, event)
-        return literal
-
-    def _matter(self) -> Sequence[str]:
-        """The rules and relations that the last answer, which was no, rests on."""
-        # That an event is impossible rests on all of them.
-        return self.model.matter() if self.model.core.isdisjoint(self._induction.values()) else self._counting
+        counting = [*rules, *(self.relations if relations is None else relations)]
+        return self.model.ask(*literals, *more, counting=counting)
 
     def relations_in_core(self) -> list[str]:
         """The keys of the relations that the last answer, which was no, rests on."""
-        return [key for key in self._matter() if key not in self.situations.selected]
+        return [key for key in self.model.matter() if key not in self.situations.selected]
 
     def core(self) -> list[Fact]:
         """The facts that the last answer, which was no, rests on."""
         found = [fact for fact, literal in self.facts.items() if literal in self.model.core]
-        return [*found, *(("rule", key, True) for key in self._matter() if key in self.situations.selected)]
+        return [*found, *(("rule", key, True) for key in self.model.matter() if key in self.situations.selected)]
 
     def refutes(self, facts: Collection[Fact]) -> bool:
         """Whether no response complies with the rules of some facts where the others hold. They may have other bounds
         on times than the facts given. Raises Undecided."""
         literals = [self._gap(fact) if fact[0] == "gap" else self.facts.get(fact) for fact in facts]
         rules = [str(fact[1]) for fact in facts if fact[0] == "rule"]
-        return not self._ask([*rules, *self.relations], [literal for literal in literals if literal is not None])
+        known = [literal for literal in literals if literal is not None]
+        return not self.model.ask(*known, counting=[*rules, *self.relations])
 
     def gap(self, a: int, b: int) -> int:
         """The time from a node to another one, in seconds, in the last answer, which was yes."""

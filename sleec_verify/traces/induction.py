@@ -14,6 +14,35 @@ from sleec_verify.traces.index import Index
 from sleec_verify.traces.model import TraceModel
 
 
+class InductiveModel(TraceModel):
+    """Whole traces, in which no events occur that the rules and relations that count never let occur."""
+
+    def __init__(self, index: Index) -> None:
+        super().__init__(index)
+        self._induction: dict[frozenset[str], int] = {}
+        self._counting: frozenset[str] = frozenset()
+
+    def ask(self, *required: int, counting: Collection[str] | None = None) -> bool:
+        if not self.index.is_cyclic:
+            return super().ask(*required, counting=counting)
+        labels = (rule.label for rule in self.index.ruleset.rules)
+        self._counting = frozenset([*labels, *self.index.relation_by_key] if counting is None else counting)
+        return super().ask(*required, self._inductive(self._counting), counting=counting)
+
+    def _inductive(self, counting: frozenset[str]) -> int:
+        """A literal that implies that no events occur that the rules and relations `counting` never let occur."""
+        literal = self._induction.get(counting)
+        if literal is None:
+            literal = self._induction[counting] = self.formula.fresh()
+            for event in sorted(impossible_events(self.index, counting)):
+                self.exclude(literal, event)
+        return literal
+
+    def matter(self) -> list[str]:
+        # That an event is impossible rests on all of them.
+        return super().matter() if self.core.isdisjoint(self._induction.values()) else sorted(self._counting)
+
+
 def impossible_events(index: Index, counting: Collection[str]) -> frozenset[str]:
     """The largest set of events of which each occurrence requires a later one, by the rules and relations `counting`,
     as far as that is decided. At most quadratic in the number of events."""

@@ -5,7 +5,7 @@ The rules of an event are encoded for an instant once the solver lets the event 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 from sleec_runtime.model import Clause, Obligation, Rule
@@ -29,7 +29,8 @@ class Decided(NamedTuple):
 class TraceModel(Unrolling):
     """The traces of a ruleset, or what follows or precedes the instant `now`."""
 
-    def __init__(self, index: Index) -> None:
+    def __init__(self, index: Index, rules: Mapping[str, Sequence[Rule]] | None = None) -> None:
+        """`rules` replace those of the ruleset, by their triggers."""
         super().__init__(index)
         self.decided: list[Decided] = []
         self.occurred: Callable[[str], int] = lambda event: -self.formula.true
@@ -38,6 +39,7 @@ class TraceModel(Unrolling):
         """For the key of a `when … until`, or `when … for`, literals that say together that it binds at an instant
         because it began before the first one."""
         self.reading = index.ruleset.reading
+        self._rules = index.by_trigger if rules is None else rules
         for relation in index.relations:
             self._everywhere.append(relation_at(self, relation))
 
@@ -112,7 +114,7 @@ class TraceModel(Unrolling):
             for name, literal in instant.events().items():
                 if name not in instant.expanded and self.true(literal):
                     instant.expanded.add(name)
-                    for rule in self.index.by_trigger.get(name, ()):
+                    for rule in self._rules.get(name, ()):
                         found = True
                         self._encode(node, rule)
         return found
