@@ -1,8 +1,14 @@
 (** What the theorems about traces rest on; [make -C proofs check] reads the answers. *)
 
-From Traces Require Trace Continuation RelationsSoFar.
+From Traces Require Trace Continuation RelationsSoFar Dominance Situation.
 
 Print Assumptions Trace.broken_nothing.
 Print Assumptions Continuation.demand_open_spec.
 Print Assumptions RelationsSoFar.law_open_exact.
 Print Assumptions RelationsSoFar.broken_so_far_exact.
+Print Assumptions Dominance.earliest_deadline.
+Print Assumptions Dominance.latest_prohibition.
+Print Assumptions Dominance.one_slot_exact.
+Print Assumptions Dominance.slots_exact.
+Print Assumptions Dominance.flags_suffice.
+Print Assumptions Situation.can_comply_fewer.
