@@ -6,7 +6,7 @@ the layer that Algorithm 1 gives, and no other.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -144,12 +144,11 @@ class Done:
         """For every rule of the trigger: the active clause, what it obliges, and the conditions that decided."""
         from sleec_runtime.explain import outcome_in_words
 
-        conditions = self._snapshot.conditions
         program = self._snapshot.program
         lines = [f"{' and '.join(self.triggers)}, in the context of change {self.change}:"]
         for rule, outcome in outcomes_of(self._snapshot, self.triggers):
             assert not isinstance(outcome, Undetermined), "refused before it ran"
-            lines.append(outcome_in_words(rule, outcome, conditions))
+            lines.append(outcome_in_words(rule, outcome, self.context))
         if len(lines) == 1:
             where = "" if program.domain is None else f" in the domain {program.domain}"
             lines.append(f"no rule has this trigger{where}")
@@ -170,13 +169,15 @@ def cell_of(snapshot: Snapshot, trigger: str) -> Cell:
     return snapshot.cell(number)
 
 
-def outcomes_of(snapshot: Snapshot, triggers: Sequence[str]) -> list[tuple[Rule, Outcome]]:
-    """What every rule of `triggers` says, in the order of the rules. Raises UnknownTrigger."""
+def outcomes_of(snapshot: Snapshot, triggers: Sequence[str], others: Iterable[str] = ()) -> list[tuple[Rule, Outcome]]:
+    """What every rule of `triggers` says, in the order of the rules, where `others` occur as well. Raises
+    UnknownTrigger."""
     program = snapshot.program
+    occurring = frozenset(triggers).union(others)
     pairs = [
-        pair
+        (rule, outcome if rule.label not in program.tied else snapshot.outcome(rule, occurring))
         for trigger in dict.fromkeys(triggers)
-        for pair in zip(program.cells[program.number_of[trigger]], cell_of(snapshot, trigger).outcomes)
+        for rule, outcome in zip(program.cells[program.number_of[trigger]], cell_of(snapshot, trigger).outcomes)
     ]
     return sorted(pairs, key=lambda pair: program.order[pair[0].label]) if len(triggers) > 1 else pairs
 

@@ -2,28 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from sleec_runtime.conflicts import Conflict
 from sleec_runtime.evaluation import Decision, Step
 from sleec_runtime.language.formula_printer import print_formula, print_number
 from sleec_runtime.messages import listed
-from sleec_runtime.model import Comparison, Exclusive, Formula, Obligation, Rule, Value, leaves, measures_of
+from sleec_runtime.model import (
+    Atom,
+    Comparison,
+    Context,
+    Exclusive,
+    Formula,
+    Obligation,
+    Rule,
+    Value,
+    leaves,
+    measures_of,
+)
 
 
-def outcome_in_words(rule: Rule, outcome: Decision | None, conditions: Mapping[str, Value]) -> str:
+def outcome_in_words(rule: Rule, outcome: Decision | None, context: Context) -> str:
     """A few lines on what one rule says and why."""
     if outcome is None:
         return f"{rule.label}: nothing, because its guard is false"
-    return decision_in_words(outcome, conditions)
+    return decision_in_words(outcome, context)
 
 
-def decision_in_words(decision: Decision, conditions: Mapping[str, Value]) -> str:
+def decision_in_words(decision: Decision, context: Context) -> str:
     """The active clause, what it obliges, and the conditions that decided, with the values that they were read from."""
     clause = "the default" if decision.layer is None else f"hedge {decision.layer}"
     what = ", ".join(map(str, decision.obligations)) or "nothing"
     lines = [f"{decision.rule.label}: {clause} obliges {what}"]
-    lines += [f"  {_step(step, conditions)}" for step in decision.steps]
+    lines += [f"  {_step(step, context)}" for step in decision.steps]
     return "\n".join(lines)
 
 
@@ -45,16 +56,20 @@ def _with_rules(literal: Obligation, decisions: tuple[Decision, ...]) -> str:
     return f"{literal} ({listed(labels)})" if labels else str(literal)
 
 
-def _step(step: Step, conditions: Mapping[str, Value]) -> str:
+def _step(step: Step, context: Context) -> str:
     where = "guard" if step.clause is None else f"clause {step.clause}"
-    values = ", ".join(dict.fromkeys(_values(step.condition, conditions)))
+    values = ", ".join(dict.fromkeys(_values(step.condition, context)))
     text = f"{where}: {print_formula(step.condition)} is {'true' if step.held else 'false'}"
     return f"{text} ({values})" if values else text
 
 
-def _values(formula: Formula, conditions: Mapping[str, Value]) -> Iterator[str]:
+def _values(formula: Formula, context: Context) -> Iterator[str]:
+    conditions = context.conditions
     for leaf in leaves(formula):
-        if isinstance(leaf, Comparison):
+        if isinstance(leaf, Atom) and leaf.kind == "trigger":
+            if leaf is not formula:
+                yield f"{leaf.name} {'occurs' if leaf.name in context.triggers else 'does not occur'}"
+        elif isinstance(leaf, Comparison):
             yield from (f"{name} = {_value(conditions.get(name))}" for name in measures_of(leaf))
         elif leaf is not formula:
             yield f"{leaf.name} = {_value(conditions.get(leaf.name))}"

@@ -399,21 +399,16 @@ class Ruleset:
 
     @cached_property
     def triggers(self) -> frozenset[str]:
-        """T: the triggers that are declared, as events too, that rules have, or that assumptions speak of."""
+        """T: the triggers that are declared, as events too, that rules have, or that hedges or constraints speak of."""
         declared = self.declared["trigger"] | self.declared["event"]
-        return declared | {rule.trigger for rule in self.rules} | self._named_in_constraints("trigger")
+        of_rules = {rule.trigger for rule in self.rules} | self._named_in_rules("trigger")
+        return declared | of_rules | self._named_in_constraints("trigger")
 
     @cached_property
     def conditions(self) -> frozenset[str]:
         """The Boolean part of C; the measures are in `measures`."""
-        used = {
-            leaf.name
-            for rule in self.rules
-            for formula in formulas_of(rule)
-            for leaf in leaves(formula)
-            if isinstance(leaf, Atom)
-        }
-        return self.declared["condition"] | used | self._named_in_constraints("condition")
+        used = self._named_in_rules("condition") | self._named_in_constraints("condition")
+        return self.declared["condition"] | used
 
     @cached_property
     def obligations(self) -> frozenset[str]:
@@ -421,6 +416,15 @@ class Ruleset:
         used = {o.name for rule in self.rules for clause in rule.clauses() for o in literals(clause)}
         exclusive = {name for c in self.constraints if isinstance(c, Exclusive) for name in c.names}
         return self.declared["obligation"] | used | exclusive | self._named_in_constraints("obligation")
+
+    def _named_in_rules(self, kind: Kind) -> frozenset[str]:
+        return frozenset(
+            leaf.name
+            for rule in self.rules
+            for formula in formulas_of(rule)
+            for leaf in leaves(formula)
+            if isinstance(leaf, Atom) and leaf.kind == kind
+        )
 
     def _named_in_constraints(self, kind: Kind) -> frozenset[str]:
         return frozenset(

@@ -163,7 +163,7 @@ class Monitor:
             for literal in decision.obligations:
                 if literal.name in chained and literal.name not in happened and not literal.negated:
                     happened.add(literal.name)
-                    decisions += _decided((literal.name,), snapshot, fulfilled)
+                    decisions += _decided((literal.name,), snapshot, fulfilled, triggers)
         due = Due(tuple(decisions))
         in_order = tuple(o.name for decision in due.decisions for o in decision.obligations if not o.negated)
         executed = _without(seen.executed, seen.failed)
@@ -184,11 +184,15 @@ class Monitor:
 
 
 def _decided(
-    triggers: tuple[str, ...], snapshot: Snapshot, fulfilled: Sequence[tuple[str, Obligation]]
+    triggers: tuple[str, ...],
+    snapshot: Snapshot,
+    fulfilled: Sequence[tuple[str, Obligation]],
+    others: tuple[str, ...] = (),
 ) -> Iterator[Decision]:
-    """What the rules of `triggers` say, in their order: what counts at once, without what is `fulfilled`."""
+    """What the rules of `triggers` say where `others` occur as well, in their order: what counts at once, without what
+    is `fulfilled`."""
     program = snapshot.program
-    context = snapshot.context(triggers)
+    context = snapshot.context((*triggers, *others))
     rules = sorted(
         (rule for trigger in triggers for rule in program.cells[program.number_of[trigger]]),
         key=lambda rule: program.order[rule.label],

@@ -18,8 +18,9 @@ class Program:
 
     `whole` is the ruleset with all domains: what it names can be reported and triggered in any of them. `cells` has,
     for each trigger, its rules in their order; `places` says where a snapshot has the cell of a trigger. `mentions`
-    leads from a condition or measure to the rules that mention it, as places in `cells`. `situational` are the
-    conditions and measures that `NEVER` constraints mention.
+    leads from a condition or measure to the rules that mention it, as places in `cells`. `tied` are the labels of the
+    rules whose guards or hedges name triggers. `situational` are the conditions and measures that `NEVER` constraints
+    mention.
     """
 
     def __init__(self, whole: Ruleset, domain: str | None = None, strict: bool = False) -> None:
@@ -50,6 +51,11 @@ class Program:
                 for name in {name for formula in formulas_of(rule) for name in names_of(formula)}:
                     mentions[name].append((cell, position))
         self.mentions: Mapping[str, list[tuple[int, int]]] = dict(mentions)
+        self.tied = frozenset(
+            self.cells[cell][position].label
+            for trigger in self.number_of.keys() & mentions.keys()
+            for cell, position in mentions[trigger]
+        )
 
         constraints = forbidding(ruleset)
         nevers = [c for c in constraints if isinstance(c, Never)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from sleec_runtime.chunks import Chunks
@@ -78,9 +78,11 @@ class Snapshot:
         """The context in which only `known` is reported. O(size of the rules). Raises as `Program.checked` does."""
         initial: Chunks[Value | None] = Chunks.of([None] * len(program.numbers))
         values = initial.replaced(program.checked(known))
-        situation = _situation(program, values)
         reading = program.ruleset.reading
-        cells = (Cell(tuple(walk(rule, situation, reading) for rule in rules)) for rules in program.cells)
+        cells = []
+        for trigger, rules in zip(program.number_of, program.cells):
+            situation = _situation(program, values, (trigger,))
+            cells.append(Cell(tuple(walk(rule, situation, reading) for rule in rules)))
         return cls(program, values, Chunks.of(cells), object(), number)
 
     @property
@@ -94,9 +96,12 @@ class Snapshot:
     def cell(self, number: int) -> Cell:
         return self._cells[number]
 
-    def outcome(self, rule: Rule) -> Outcome:
-        """What a rule of the program says here if its trigger occurs."""
-        cell, position = self.program.place_of[rule.label]
+    def outcome(self, rule: Rule, triggers: Collection[str] = ()) -> Outcome:
+        """What a rule of the program says here if its trigger occurs, alone or together with other `triggers`."""
+        program = self.program
+        if len(triggers) > 1 and rule.label in program.tied:
+            return walk(rule, _situation(program, self._values, triggers), program.ruleset.reading)
+        cell, position = program.place_of[rule.label]
         return self._cells[cell].outcomes[position]
 
     def changed(self, changes: Mapping[str, object]) -> tuple[Snapshot, tuple[Rule, ...]]:
@@ -111,14 +116,14 @@ class Snapshot:
         if not values:
             return self, ()
         after = self._values.replaced(values)
-        situation = _situation(program, after)
         names = [name for name in changes if program.numbers[name] in values]
         concerned = dict.fromkeys(place for name in names for place in program.mentions.get(name, ()))
         outcomes: dict[int, list[Outcome]] = {}
         for cell, position in concerned:
             if cell not in outcomes:
                 outcomes[cell] = list(self._cells[cell].outcomes)
-            outcomes[cell][position] = walk(program.cells[cell][position], situation, program.ruleset.reading)
+            rule = program.cells[cell][position]
+            outcomes[cell][position] = walk(rule, _situation(program, after, (rule.trigger,)), program.ruleset.reading)
         cells = self._cells.replaced({cell: Cell(tuple(of_cell)) for cell, of_cell in outcomes.items()})
         mark = self.mark if program.situational.isdisjoint(names) else object()
         rules = tuple(program.cells[cell][position] for cell, position in concerned)
@@ -131,8 +136,7 @@ class Snapshot:
         return Snapshot(self.program, self._values, cells, self.mark, self.number)
 
 
-def _situation(program: Program, values: Chunks[Value | None]) -> Situation:
-    """What rules are decided in. No triggers: a rule is asked what it says if its own occurs, and its conditions speak
-    of none."""
-    context = Context(frozenset(), Conditions(program.numbers, values))
+def _situation(program: Program, values: Chunks[Value | None], triggers: Iterable[str]) -> Situation:
+    """What rules are decided in if `triggers` occur."""
+    context = Context(frozenset(triggers), Conditions(program.numbers, values))
     return Situation(context, program.measures, None if program.strict else False)

@@ -205,7 +205,8 @@ def _plain(finding: Finding) -> dict[str, Any]:
     fields["clauses"] = [tuple(clause) for clause in finding.clauses]
     fields["related"] = [(tuple(span), word) for span, word in finding.related]
     if finding.witness is not None:
-        fields["witness"] = (finding.witness.triggers, _plain_values(finding.witness.conditions))
+        one = finding.witness
+        fields["witness"] = (one.triggers, _plain_values(one.conditions), one.absent)
     if finding.timeline is not None:
         moments = [
             {
@@ -226,8 +227,8 @@ def _finding(fields: dict[str, Any]) -> Finding:
     fields["clauses"] = tuple(ClauseRef(*clause) for clause in fields["clauses"])
     fields["related"] = tuple((Span(*span), word) for span, word in fields["related"])
     if fields["witness"] is not None:
-        triggers, values = fields["witness"]
-        fields["witness"] = Witness(triggers, _values(values))
+        triggers, values, absent = fields["witness"]
+        fields["witness"] = Witness(triggers, _values(values), absent)
     if fields["timeline"] is not None:
         fields["timeline"] = _timeline(*fields["timeline"])
     return Finding(**fields)

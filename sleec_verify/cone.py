@@ -1,9 +1,9 @@
 """The cone of influence: which rules and constraints can matter to a question.
 
 A rule whose trigger does not occur obliges nothing, and whether a trigger occurs is free unless an `ASSUME` speaks of
-it. So a question about a situation concerns the rules of its triggers, the assumptions that share names with them,
-and the rules of the triggers that these assumptions may force. Everything else can be left out without changing the
-answer, and questions about ten rules stay questions about ten rules in a ruleset of 100,000.
+it. So a question about a situation concerns the rules of its triggers, the assumptions that share names with them, and
+the rules of the triggers that these rules name or these assumptions may force. Everything else can be left out without
+changing the answer, and questions about ten rules stay questions about ten rules in a ruleset of 100,000.
 """
 
 from __future__ import annotations
@@ -234,8 +234,12 @@ class Cones:
         return [*self.demanding, *(self.assumptions[position] for position in sorted(positions))]
 
     @cached_property
-    def _triggers_assumed(self) -> bool:
-        return any(kind == "trigger" for kind, _ in self._assumptions_by_name)
+    def _triggers_tied(self) -> bool:
+        """Whether an assumption, a guard or a hedge speaks of a trigger."""
+        conditions = (formula for rule in self.rules for formula in formulas_of(rule))
+        return any(kind == "trigger" for kind, _ in self._assumptions_by_name) or any(
+            isinstance(leaf, Atom) and leaf.kind == "trigger" for formula in conditions for leaf in leaves(formula)
+        )
 
     @cached_property
     def _triggers_constrained(self) -> bool:
@@ -275,12 +279,13 @@ class Cones:
         return frozenset(always)
 
     def together_with(self, trigger: str, keeping: bool = False) -> list[int]:
-        """The rules that may be forced to be active when `trigger` occurs: its own, and those of the triggers that
-        assumptions tie to it or to the conditions of such rules, or force in any case. In the order of the text.
+        """The rules that may be forced to be active when `trigger` occurs: its own, and those of the triggers that such
+        rules name, that assumptions tie to it or to the conditions of such rules, or force in any case. In the order of
+        the text.
 
         With `keeping`, forced also by keeping the constraints about what these rules oblige.
         """
-        if not (self._triggers_assumed or (keeping and self._triggers_constrained)):
+        if not (self._triggers_tied or (keeping and self._triggers_constrained)):
             return self.by_trigger.get(trigger, [])
 
         def named(triggers: set[str]) -> Iterator[Name]:
@@ -313,6 +318,6 @@ class Cones:
         rule = self.rules[position]
         literals = {literal for clause in self.clauses[position] for literal in clause.obligations}
         found = {place.rule for literal in literals for place in self.by_obligation[literal]} - {position}
-        if not self._triggers_assumed:
+        if not self._triggers_tied:
             return sorted(other for other in found if self.rules[other].trigger == rule.trigger)
         return sorted(found.intersection(self.together_with(rule.trigger)))

@@ -59,10 +59,10 @@ class Cutting:
     ) -> tuple[set[str], set[Name]]:
         """The triggers that may have to occur where `triggers` do and the assumptions tie to what is named there, and
         all that is named: `naming` says what the rules of some triggers speak of, and the constraints on these."""
-        given = set(triggers)
-        may = self.occurring_with(given)
-        wanted = given | (may - self.anywhere) | self._always
+        wanted = set(triggers) | self._always
         while True:
+            may = self.occurring_with(wanted)
+            wanted |= may - self.anywhere
             names: set[Name] = {("trigger", trigger) for trigger in wanted}
             names.update(naming(wanted))
             reached = {name for kind, name in names if kind == "trigger"}

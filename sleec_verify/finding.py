@@ -25,7 +25,8 @@ class ClauseRef(NamedTuple):
 
 @dataclass(frozen=True)
 class Witness:
-    """A smallest situation that shows a finding: the triggers that occur and the conditions that matter.
+    """A smallest situation that shows a finding: the triggers that occur, the conditions that matter, and the triggers
+    that must be `absent`.
 
     A condition or measure that is not in `conditions` does not matter; taking it as false shows the finding too.
     Values are truth values, exact numbers, or values of a scale.
@@ -33,6 +34,7 @@ class Witness:
 
     triggers: tuple[str, ...]
     conditions: Mapping[str, Value]
+    absent: tuple[str, ...] = ()
 
     def context(self) -> Context:
         """The situation in which all that does not matter is false."""

@@ -51,9 +51,13 @@ def _triggers(ruleset: Ruleset) -> frozenset[str]:
     """What can occur: in rules with time every event, also those that only a relation, a concern or a purpose names."""
     if not ruleset.is_timed:
         return ruleset.triggers
+    from sleec_runtime.model import Atom, leaves
     from sleec_verify.timed.names import beside_rules
 
-    return ruleset.triggers | ruleset.obligations | beside_rules(ruleset)[0]
+    events, formulas, _ = beside_rules(ruleset)
+    named = (leaf for formula in formulas for leaf in leaves(formula))
+    of_claims = {leaf.name for leaf in named if isinstance(leaf, Atom) and leaf.kind == "trigger"}
+    return ruleset.triggers | ruleset.obligations | events | of_claims
 
 
 def _conditions(ruleset: Ruleset) -> frozenset[str]:
@@ -63,7 +67,7 @@ def _conditions(ruleset: Ruleset) -> frozenset[str]:
     from sleec_verify.timed.names import beside_rules
 
     named = (leaf for formula in beside_rules(ruleset)[1] for leaf in leaves(formula))
-    return ruleset.conditions | {leaf.name for leaf in named if isinstance(leaf, Atom)}
+    return ruleset.conditions | {leaf.name for leaf in named if isinstance(leaf, Atom) and leaf.kind == "condition"}
 
 
 def _trigger(ruleset: Ruleset, name: str) -> str:

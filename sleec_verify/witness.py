@@ -141,7 +141,7 @@ class _Rails:
     def _situation(self, solver: Solver, values: Mapping[str, Value]) -> tuple[Witness, int]:
         """The situation that the solver's model stands for, and how many names it mentions."""
         mentioned = [name for name, variable in sorted(self._mentioned.items()) if solver.holds(variable)]
-        triggers = []
+        triggers, absent = [], []
         conditions: dict[str, Value] = {}
         for kind, name in mentioned:
             rails = self._rails.get((kind, name))
@@ -151,7 +151,9 @@ class _Rails:
                 conditions[name] = solver.holds(rails[0])
             elif solver.holds(rails[0]):
                 triggers.append(name)
-        return Witness(tuple(triggers), conditions), len(mentioned)
+            else:
+                absent.append(name)
+        return Witness(tuple(triggers), conditions, tuple(absent)), len(mentioned)
 
 
 class _Counter:

@@ -198,6 +198,14 @@ class Cursor(TokenReader):
             self.fail(f"{word} is a truth value; expected {what}", Span(start, end), "choose another name")
         return word if word.isascii() else composed(word)
 
+    def name_at(self, token: int) -> str:
+        """The name or phrase that starts at `token`, unchecked. It stays to be read."""
+        last = token
+        while self.kinds[last] in PHRASE:
+            last += 1
+        name = " ".join(map(self.token_text, range(token, last)))
+        return name if name.isascii() else composed(name)
+
     def no_name(self, what: str, hint: str | None) -> NoReturn:
         """Gives up because `what` cannot start with the token at hand."""
         kind = self.kinds[self.at]

@@ -11,7 +11,7 @@ from typing import TypeVar
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.garbage import uncollected
-from sleec_runtime.language.keywords import CLAIMS, DECLARATIONS, RULE_STARTS, STATEMENTS
+from sleec_runtime.language.keywords import CLAIMS, DECLARATIONS, OPENINGS, RULE_STARTS, STATEMENTS
 from sleec_runtime.language.relations import RelationParser
 from sleec_runtime.language.resolve import Names, first_problems
 from sleec_runtime.language.scanner import scan
@@ -103,6 +103,9 @@ class EnglishParser(RelationParser):
         for token in [token for token, kind in enumerate(self.kinds) if kind in DECLARATIONS]:
             self.at = token
             declared[token] = (self._declaration(), self.at)
+        # A hedge may name the trigger of a rule further down.
+        openings = [token for token, kind in enumerate(self.kinds) if kind in OPENINGS]
+        self.names.triggers.update(self.name_at(token + 1) for token in openings)
         self.names.declare_constants(self.constants)
         self.names.check_scales()
         return declared

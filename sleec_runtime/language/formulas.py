@@ -34,6 +34,10 @@ OPERATORS: dict[str, Operator] = {
 }
 
 
+Leaf = Callable[[str, Span], Atom]
+"""What a bare name stands for."""
+
+
 class FormulaParser(Cursor):
     """Reads formulas. What a bare name becomes depends on the statement: it is `leaf` who says."""
 
@@ -41,7 +45,7 @@ class FormulaParser(Cursor):
         super().__init__(source, tokens, problems)
         self.names = names
         self._compare = Comparisons(names).comparison
-        self.leaf: Callable[[str, Span], Atom] = names.condition
+        self.leaf: Leaf = names.condition
 
     def formula(self) -> Formula:
         first = self.at

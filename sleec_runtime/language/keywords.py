@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 DECLARATIONS = frozenset({"MEASURE", "CONSTANT", "TRIGGER", "CONDITION", "OBLIGATION", "EVENT"})
-RULE_STARTS = frozenset({"RULE", "WHEN", "IF"})
+OPENINGS = frozenset({"WHEN", "IF"})
+RULE_STARTS = OPENINGS | {"RULE"}
 SETTINGS = frozenset({"DOMAIN", "READING"})
 CLAIMS = frozenset({"CONCERN", "PURPOSE"})
 STATEMENTS = DECLARATIONS | RULE_STARTS | SETTINGS | CLAIMS | {"EXCLUSIVE", "NEVER", "ASSUME", "RELATION"}

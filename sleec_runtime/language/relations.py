@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NoReturn
 
+from sleec_runtime.language.formulas import Leaf
 from sleec_runtime.language.keywords import OCCASION, RELATION_WORDS, STATEMENTS
 from sleec_runtime.language.rules import RuleParser
 from sleec_runtime.language.suggest import nearest
@@ -44,13 +45,14 @@ _AS_IN = "as in: RELATION OpenDoor EXCLUDES LockDoor"
 class RelationParser(RuleParser):
     """Reads concerns, purposes and relations. They are for the whole text, wherever they stand."""
 
-    def _occasion(self, what: str) -> tuple[str, Span, Formula | None]:
+    def _occasion(self, what: str, leaf: Leaf) -> tuple[str, Span, Formula | None]:
         """``Event [AND condition]``."""
         name, span = self._event_named(what)
         if self.kinds[self.at] != "AND":
             return name, span, None
         self.at += 1
-        return name, span, self._condition()
+        self.leaf = leaf
+        return name, span, self.formula()
 
     def _event_named(self, what: str) -> tuple[str, Span]:
         first = self.at
@@ -63,7 +65,7 @@ class RelationParser(RuleParser):
         return name, span
 
     def _condition(self) -> Formula:
-        self.leaf = self.names.condition
+        self.leaf = self.names.state
         return self.formula()
 
     # Concerns and purposes ------------------------------------------------------------------------------------
@@ -88,7 +90,7 @@ class RelationParser(RuleParser):
             )
         form: ClaimForm = "exists" if self.kinds[at_form] == "EXISTS" else "when"
         self.at += 1
-        event, event_span, condition = self._occasion("an event")
+        event, event_span, condition = self._occasion("an event", self.names.condition)
         responses: list[Clause] = []
         self.comma_before("THEN")
         word = "WHILE" if form == "exists" else "THEN"
@@ -223,7 +225,7 @@ class RelationParser(RuleParser):
         from sleec_runtime.model_time import Lasting
 
         self.at += 1
-        event, _, condition = self._occasion("an event")
+        event, _, condition = self._occasion("an event", self.names.state)
         if self.kinds[self.at] != "THEN":
             self.expected("THEN and a condition", "as in: RELATION WHEN DoorOpened THEN drafty UNTIL CloseDoor")
         self.at += 1
@@ -236,7 +238,7 @@ class RelationParser(RuleParser):
             duration = self.length()
         elif self.kinds[self.at] == "UNTIL":
             self.at += 1
-            end, _, end_condition = self._occasion("an event")
+            end, _, end_condition = self._occasion("an event", self.names.state)
         else:
             self.expected(
                 "UNTIL and an event, or FOR and a length of time",

@@ -48,6 +48,8 @@ class Names:
         self.measures: dict[str, Measure] = {}
         self.inferred: dict[str, Measure] = {}
         self.constants: dict[str, Constant] = {}
+        self.triggers: set[str] = set()
+        """The triggers of all rules, wherever these stand."""
         self.complete = True
         """False once a declaration could not be read: then a name that is not declared is no news."""
         self._source = source
@@ -227,10 +229,14 @@ class Names:
         return None
 
     def condition(self, name: str, span: Span) -> Atom:
-        used = self._used["condition"]
-        if name not in used:
-            used[name] = span
-        return Atom("condition", name, span)
+        """A leaf of a guard or a hedge: an event if the name is a trigger, which then occurs or not."""
+        if name in self.triggers or name in self._declared["trigger"]:
+            return self._atom("trigger", name, span)
+        return self._atom("condition", name, span)
+
+    def state(self, name: str, span: Span) -> Atom:
+        """A leaf of a relation, which speaks of conditions alone."""
+        return self._atom("condition", name, span)
 
     def assumed(self, name: str, span: Span) -> Atom:
         """A leaf of an ASSUME. It speaks of situations, so it is a trigger or a condition."""

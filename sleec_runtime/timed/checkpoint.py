@@ -89,12 +89,14 @@ def _context(snapshot: Snapshot) -> dict[str, Any]:
 
 
 def _decision(origin: Origin, context: int, now: Time) -> dict[str, Any]:
+    tied = origin.rule.label in origin.snapshot.program.tied
     return {
         "rule": origin.rule.label,
         "clause": origin.decision.clause,
         "triggered": number_to_plain(origin.moment - now),
         "context": context,
         "arguments": None,
+        **({"triggers": sorted(origin.triggers)} if tied else {}),
     }
 
 

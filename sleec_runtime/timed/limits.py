@@ -8,7 +8,18 @@ from collections.abc import Iterator
 
 from sleec_runtime.errors import NotEnforced, UnsupportedTimes
 from sleec_runtime.messages import listed
-from sleec_runtime.model import Clause, Obligation, Rule, Ruleset, Span, in_text_order
+from sleec_runtime.model import (
+    Atom,
+    Clause,
+    Obligation,
+    Rule,
+    Ruleset,
+    Span,
+    formulas_of,
+    in_text_order,
+    leaves,
+    literals,
+)
 from sleec_runtime.model_time import RELATIONS, relation_name
 
 
@@ -51,10 +62,14 @@ def _outside() -> int:
 def not_enforced(ruleset: Ruleset, chains: bool) -> Iterator[tuple[str, Span]]:
     """What each is called, and where it stands, in the order of the text."""
     triggers = {rule.trigger for rule in ruleset.rules} if has_times(ruleset) and not chains else set()
+    done = {o.name for rule in ruleset.rules for clause in rule.clauses() for o in literals(clause) if not o.negated}
     for statement in ruleset.statements:
         if isinstance(statement, RELATIONS):
             yield f"the relation {relation_name(statement)}", statement.span
         elif isinstance(statement, Rule):
+            for leaf in (leaf for formula in formulas_of(statement) for leaf in leaves(formula)):
+                if isinstance(leaf, Atom) and leaf.kind == "trigger" and leaf.name in done:
+                    yield f"conditions of {statement.label} on {leaf.name} where that is done as a response", leaf.span
             for clause in statement.clauses():
                 for obligation in _asked(clause):
                     yield from _limits(obligation)

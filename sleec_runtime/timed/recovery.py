@@ -150,25 +150,36 @@ class _Dispatch:
 
 
 def _dispatch(data: object, where: str, contexts: Sequence[Snapshot], then: Time, heir: Heir) -> _Dispatch:
-    decision = _record(data, where, "rule", "clause", "triggered", "context", "arguments")
+    tied = ("triggers",) if type(data) is dict and "triggers" in data else ()
+    decision = _record(data, where, "rule", "clause", "triggered", "context", "arguments", *tied)
     snapshot = _chosen(contexts, decision["context"], f"{where}.context")
     triggered = _number(decision["triggered"], f"{where}.triggered")
     if triggered > 0:
         _refuse(f"{where}.triggered", triggered, "a number up to 0")
     label = decision["rule"]
     rule = snapshot.program.ruleset.by_label.get(label) if type(label) is str else None
-    outcome = None if rule is None else snapshot.outcome(rule)
+    triggers = _triggers(decision.get("triggers", []), f"{where}.triggers", snapshot.program)
+    outcome = None
+    if rule is not None:
+        triggers |= {rule.trigger}
+        outcome = snapshot.outcome(rule, triggers)
     if not isinstance(outcome, Decision) or type(decision["clause"]) is not int:
         _refuse(where, decision, "a rule that speaks in its context")
     if outcome.clause != decision["clause"]:
         _refuse(f"{where}.clause", decision["clause"], f"{outcome.clause}, the clause that decides in its context")
     args, kwargs = _arguments(decision["arguments"], f"{where}.arguments")
-    origin = Origin(outcome, then + triggered, snapshot, heir.instance, args, kwargs)
+    origin = Origin(outcome, then + triggered, snapshot, heir.instance, args, kwargs, triggers)
     try:
         roots = tasks_of(outcome.obligations, origin.moment, origin)
     except SleecError as error:
         raise SnapshotRefused(f"the snapshot is malformed at {where}: {error.message}", error.hint) from None
     return _Dispatch(origin, roots, None if decision["arguments"] is None else units_of(origin, roots))
+
+
+def _triggers(data: object, where: str, program: Program) -> frozenset[str]:
+    if type(data) is not list or not all(type(name) is str and name in program.number_of for name in data):
+        _refuse(where, data, "a list of triggers")
+    return frozenset(data)
 
 
 def _arguments(data: object, where: str) -> tuple[tuple[Any, ...], Mapping[str, Any]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -58,8 +58,14 @@ class Moment:
     kwargs: Mapping[str, Any]
 
 
-def called_by(triggers: tuple[str, ...], moment: Moment, event: str | None = None, code: bool = True) -> Stage:
-    """What the rules of `triggers` ask for. O(rules of the triggers).
+def called_by(
+    triggers: tuple[str, ...],
+    moment: Moment,
+    event: str | None = None,
+    code: bool = True,
+    others: Iterable[str] = (),
+) -> Stage:
+    """What the rules of `triggers` ask for where `others` occur as well. O(rules of the triggers).
 
     Without `code`, nothing is looked up that would do it. Raises UnknownTrigger, UndeterminedDecision, WrongType and
     NotBound.
@@ -67,15 +73,16 @@ def called_by(triggers: tuple[str, ...], moment: Moment, event: str | None = Non
     snapshot = moment.snapshot
     for trigger in triggers:
         cell_of(snapshot, trigger)
-    outcomes = [outcome for _, outcome in outcomes_of(snapshot, triggers)]
+    outcomes = [outcome for _, outcome in outcomes_of(snapshot, triggers, others)]
     missing = [name for outcome in outcomes if isinstance(outcome, Undetermined) for name in outcome.missing]
     if missing:
         raise UndeterminedDecision(triggers, tuple(dict.fromkeys(missing)))
     decisions = tuple(outcome for outcome in outcomes if isinstance(outcome, Decision))
     tasks: list[Task] = []
     units: list[Unit] = []
+    occurring = frozenset(triggers).union(others)
     for decision in decisions:
-        origin = Origin(decision, moment.now, snapshot, moment.instance, moment.args, moment.kwargs)
+        origin = Origin(decision, moment.now, snapshot, moment.instance, moment.args, moment.kwargs, occurring)
         asked = tasks_of(decision.obligations, moment.now, origin)
         tasks += asked
         if code:
@@ -118,5 +125,5 @@ def with_chains(first: Stage, moment: Moment) -> list[Stage]:
             if name in triggers and name not in seen and name not in begun_only:
                 seen.add(name)
                 with_its_arguments = replace(moment, args=task.origin.args, kwargs=task.origin.kwargs)
-                stages.append(called_by((name,), with_its_arguments, event=name))
+                stages.append(called_by((name,), with_its_arguments, event=name, others=first.triggers))
     return stages

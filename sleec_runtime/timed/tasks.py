@@ -37,7 +37,7 @@ _OPEN: frozenset[State] = frozenset({"waiting", "under way", "in force"})
 @dataclass(frozen=True, eq=False)
 class Origin:
     """A rule that spoke at `moment`, and what all that it asks for is done with, until it is over: the context and
-    rules, the code, and the arguments, of that moment."""
+    rules, the code, the arguments, and the `triggers` that occurred, of that moment."""
 
     decision: Decision
     moment: Time
@@ -45,6 +45,7 @@ class Origin:
     instance: Instance
     args: tuple[Any, ...] = ()
     kwargs: Mapping[str, Any] = field(default_factory=dict)
+    triggers: frozenset[str] = frozenset()
 
     @property
     def rule(self) -> Rule:
@@ -177,7 +178,7 @@ def _task(obligation: Obligation, due: Time, origin: Origin, path: Path) -> Task
 def _active(clause: Clause, origin: Origin) -> tuple[Obligation, ...]:
     """What a chain of its own obliges, such as one behind `otherwise`: as a rule with nothing but that chain."""
     program = origin.snapshot.program
-    situation = Situation(origin.snapshot.context(), program.measures, None if program.strict else False)
+    situation = Situation(origin.snapshot.context(origin.triggers), program.measures, None if program.strict else False)
     outcome = walk(Rule("", "", None, clause, ()), situation, program.ruleset.reading)
     if isinstance(outcome, Undetermined):
         raise UndeterminedDecision((origin.rule.trigger,), outcome.missing)

@@ -56,9 +56,10 @@ class Replay:
     def _witness(self, claim: Mapping[str, Any]) -> Witness:
         triggers = tuple(sorted(set(claim["triggers"])))
         values = {name: self._value(name, value) for name, value in sorted(claim["conditions"].items())}
-        if not self._ruleset.triggers.issuperset(triggers):
+        absent = tuple(sorted(set(claim.get("absent", ()))))
+        if not self._ruleset.triggers.issuperset((*triggers, *absent)):
             raise ValueError("a trigger that the rules do not have")
-        return Witness(triggers, values)
+        return Witness(triggers, values, absent)
 
     def _value(self, name: str, value: object) -> Value:
         measure = self._ruleset.measures.get(name)

@@ -11,7 +11,7 @@ from sleec_verify.clashes import Constraint
 from sleec_verify.conformance.failure import Nonconformance, difference, situation_text
 from sleec_verify.conformance.oracle import Expected, Oracle
 from sleec_verify.conformance.possible import Assumptions
-from sleec_verify.conformance.regions import LIMIT, Given, contexts, givens, size
+from sleec_verify.conformance.regions import LIMIT, Given, context_of, contexts, givens, size
 from sleec_verify.conformance.subject import Bench, Running
 
 SAMPLED = 500
@@ -64,7 +64,7 @@ def _forbidding(oracle: Oracle, rules: Sequence[Rule]) -> list[Formula]:
 def situations(group: Group, oracle: Oracle, assumptions: Assumptions) -> Iterator[tuple[Context, Expected]]:
     """The contexts of a group that the assumptions allow, smallest first, and what is due in each. Where there are too
     many, some of them, at random but always the same."""
-    names = {group.trigger, *(name for name, _ in group.given)}
+    names = {group.trigger, *(one.name for one in group.given)}
     for context in _chosen(group):
         expected = oracle.expected(context)
         if not expected.possible:
@@ -82,8 +82,7 @@ def _chosen(group: Group) -> Iterator[Context]:
     from random import Random
 
     dice = Random(group.trigger)
-    facts = ({name: dice.choice(values) for name, values in group.given} for _ in range(SAMPLED))
-    return (Context(triggers, {n: v for n, v in chosen.items() if v is not None}) for chosen in facts)
+    return (context_of(group.given, [dice.choice(one.values) for one in group.given], triggers) for _ in range(SAMPLED))
 
 
 def each_rule(bench: Bench, labels: frozenset[str] | None = None) -> int:

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise, product
 from math import ceil, floor, prod
+from typing import NamedTuple
 
 from sleec_runtime.model import (
     Atom,
@@ -31,8 +32,14 @@ LIMIT = 2**16
 
 BESIDE = Fraction(1, 1000)
 
-Given = tuple[str, tuple["Value | None", ...]]
-"""A condition or measure and its values, the plainest first: False, or None for "not reported"."""
+
+class Given(NamedTuple):
+    """A condition, a measure or a trigger and its values, the plainest first: False, or None for "not reported". An
+    `event` is a trigger that a condition names: True says that it occurs."""
+
+    name: str
+    values: tuple[Value | None, ...]
+    event: bool = False
 
 
 def constants(formulas: Iterable[Formula]) -> dict[str, set[Rational]]:
@@ -103,7 +110,7 @@ def beside(measure: Measure, formulas: Sequence[Formula]) -> tuple[Rational, ...
 def givens(
     formulas: Sequence[Formula], measures: Mapping[str, Measure], unreported: bool = True, near: bool = False
 ) -> list[Given]:
-    """What `formulas` speak of, with the values to try: conditions, then measures, by name.
+    """What `formulas` speak of, with the values to try: triggers, conditions, then measures, each by name.
 
     Raises UnsupportedCalculations: no values of single measures tell apart what is calculated from several.
 
@@ -113,13 +120,16 @@ def givens(
     calculated = list(dict.fromkeys(one for formula in formulas for one in calculations_in(formula)))
     if calculated:
         raise unsupported(calculated, "a test of every context that rules tell apart")
-    atoms = {leaf.name for f in formulas for leaf in leaves(f) if isinstance(leaf, Atom) and leaf.kind == "condition"}
+    atoms = {(leaf.kind, leaf.name) for f in formulas for leaf in leaves(f) if isinstance(leaf, Atom)}
     compared = sorted({name for comparison in _comparisons(formulas) for name in measures_of(comparison)})
     none: tuple[None, ...] = (None,) if unreported else ()
     return [
-        *((name, (False, True)) for name in sorted(atoms)),
+        *(Given(name, (False, True), event=True) for kind, name in sorted(atoms) if kind == "trigger"),
+        *(Given(name, (False, True)) for kind, name in sorted(atoms) if kind == "condition"),
         *(
-            (name, (*none, *values_of(measures[name], formulas), *(beside(measures[name], formulas) if near else ())))
+            Given(
+                name, (*none, *values_of(measures[name], formulas), *(beside(measures[name], formulas) if near else ()))
+            )
             for name in compared
         ),
     ]
@@ -127,14 +137,21 @@ def givens(
 
 def size(given: Sequence[Given]) -> int:
     """How many contexts there are over these values."""
-    return prod(len(values) for _, values in given)
+    return prod(len(one.values) for one in given)
 
 
 def contexts(given: Sequence[Given], triggers: frozenset[str]) -> Iterator[Context]:
     """Every context over these values, those with the fewest facts first, so that what fails first is smallest."""
     places = sorted(
-        product(*(range(len(values)) for _, values in given)), key=lambda chosen: len(chosen) - chosen.count(0)
+        product(*(range(len(one.values)) for one in given)), key=lambda chosen: len(chosen) - chosen.count(0)
     )
     for chosen in places:
-        facts = {name: values[place] for (name, values), place in zip(given, chosen)}
-        yield Context(triggers, {name: value for name, value in facts.items() if value is not None})
+        yield context_of(given, [one.values[place] for one, place in zip(given, chosen)], triggers)
+
+
+def context_of(given: Sequence[Given], chosen: Sequence[Value | None], triggers: frozenset[str]) -> Context:
+    """The context of the values that are `chosen`, one of each, in which `triggers` occur in any case."""
+    pairs = list(zip(given, chosen))
+    occurring = (one.name for one, value in pairs if one.event and value)
+    facts = {one.name: value for one, value in pairs if not one.event and value is not None}
+    return Context(triggers.union(occurring), facts)

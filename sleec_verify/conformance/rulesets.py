@@ -54,6 +54,7 @@ def rulesets(
     domains: bool = True,
     declarations: bool = True,
     overlap: bool = True,
+    events: bool = True,
     labels: bool = True,
     exotic: bool = False,
     comments: bool = False,
@@ -62,17 +63,22 @@ def rulesets(
     """Valid rulesets of `min_rules` to `max_rules` rules with up to `max_hedges` hedges in each chain.
 
     Formulas are up to `max_depth` operators deep, over `names` names of each kind. `nested` allows chains in
-    parentheses, `negations` prohibitions, `overlap` names that are both trigger and obligation, `labels` rules with
-    labels of their own, `exotic` names in other scripts, `comments` comments everywhere.
+    parentheses, `negations` prohibitions, `overlap` names that are both trigger and obligation, `events` conditions
+    that name triggers of rules, `labels` rules with labels of their own, `exotic` names in other scripts, `comments`
+    comments everywhere.
     """
     known = Vocabulary(names, overlap, exotic)
     statements: list[Statement] = []
     if measures:
         statements += draw(measures_and_constants(known))
     leaf = leaves_over(known)
+    triggers = draw(st.lists(st.sampled_from(known.triggers), min_size=min_rules, max_size=max_rules))
+    if events:
+        event = st.builds(Atom, st.just("trigger"), st.sampled_from(sorted(set(triggers))))
+        leaf = st.one_of(leaf, leaf, leaf, event)
     rules = [
-        draw(_rules(known, leaf, max_hedges, max_depth, nested, guards, negations, domains, labels, number))
-        for number in range(1, draw(st.integers(min_rules, max_rules)) + 1)
+        draw(_rules(known, trigger, leaf, max_hedges, max_depth, nested, guards, negations, domains, labels, number))
+        for number, trigger in enumerate(triggers, 1)
     ]
     others: list[Statement] = []
     if constraints and draw(st.booleans()):
@@ -104,6 +110,7 @@ def _merged(draw: st.DrawFn, others: list[Statement], rules: list[Rule]) -> list
 def _rules(
     draw: st.DrawFn,
     known: Vocabulary,
+    trigger: str,
     leaf: st.SearchStrategy[Formula],
     max_hedges: int,
     max_depth: int,
@@ -119,7 +126,7 @@ def _rules(
     default, *hedges = draw(_chains(known, condition, max_hedges, nested, negations, depth=0))
     return Rule(
         label=draw(st.sampled_from((f"r{number}", f"ward.r{number}", f"r-{number}"))) if labelled else f"rule_{number}",
-        trigger=draw(st.sampled_from(known.triggers)),
+        trigger=trigger,
         guard=draw(condition) if guards and draw(st.integers(0, 3)) == 0 else None,
         default=default,
         hedges=tuple(hedges),
@@ -176,7 +183,8 @@ def _constraints(
     found: list[Statement] = []
     obligations = sorted({o.name for rule in rules for clause in rule.clauses() for o in clause.obligations})
     triggers = sorted({rule.trigger for rule in rules})
-    used = {atom.name for rule in rules for f in formulas_of(rule) for atom in leaves(f) if isinstance(atom, Atom)}
+    atoms = (atom for rule in rules for f in formulas_of(rule) for atom in leaves(f) if isinstance(atom, Atom))
+    used = {atom.name for atom in atoms if atom.kind == "condition"}
     if draw(st.booleans()):
         names = draw(st.lists(st.sampled_from(known.obligations), min_size=2, max_size=3, unique=True))
         found.append(Exclusive(tuple(names), draw(where)))

@@ -10,7 +10,7 @@ from random import Random
 from sleec_runtime.model import Context, Value, formulas_of
 from sleec_verify.conformance.oracle import Oracle
 from sleec_verify.conformance.possible import Assumptions
-from sleec_verify.conformance.regions import Given, givens
+from sleec_verify.conformance.regions import Given, context_of, givens
 
 _TRIES = 40
 _MIXTURES = 12
@@ -66,8 +66,7 @@ def _pair(oracle: Oracle, assumptions: Assumptions, triggers: frozenset[str], di
 
 
 def _drawn(given: Sequence[Given], triggers: frozenset[str], assumptions: Assumptions, dice: Random) -> Context | None:
-    values = {name: dice.choice(choices) for name, choices in given}
-    return assumptions.nearest(Context(triggers, {n: v for n, v in values.items() if v is not None}))
+    return assumptions.nearest(context_of(given, [dice.choice(one.values) for one in given], triggers))
 
 
 def _mixtures(first: Context, second: Context, dice: Random) -> Iterator[Context]:

@@ -29,6 +29,7 @@ from sleec_runtime.model import (
     Ruleset,
     Span,
     Statement,
+    formulas_of,
     leaves,
 )
 from sleec_runtime.model_time import RELATIONS, Claim
@@ -50,6 +51,8 @@ def in_dsl(ruleset: Ruleset, dialect: Dialect) -> tuple[Ruleset, list[str]]:
     notes: list[str] = []
     english = ruleset.syntax == "english"
     statements = list(_from_english(ruleset, notes) if english else ruleset.statements)
+    if english:
+        notes += _of_events_in_conditions(ruleset)
     if dialect == "sleec-tk":
         from sleec_verify.conversion.sleec_tk import has_untimed, refuse_unsayable, taken_names
 
@@ -77,7 +80,9 @@ def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
     for name in _undeclared(ruleset.triggers | ruleset.obligations | events, declared):
         defined.add(_name(ruleset, name))
         yield Declaration("event", (name,))
-    beside = {leaf.name for formula in formulas for leaf in leaves(formula) if isinstance(leaf, Atom)}
+    atoms = [leaf for formula in formulas for leaf in leaves(formula) if isinstance(leaf, Atom)]
+    beside = {atom.name for atom in atoms if atom.kind == "condition"}
+    events |= {atom.name for atom in atoms if atom.kind == "trigger"}
     for name in _undeclared(ruleset.conditions | beside, declared):
         yield Declaration("condition", (_name(ruleset, name),))
     for measure in ruleset.inferred:
@@ -107,6 +112,15 @@ def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
         else:
             word = type(statement).__name__.upper()
             refuse(ruleset, f"the DSL has nothing that means what {word} does", statement.span)
+
+
+def _of_events_in_conditions(ruleset: Ruleset) -> Iterator[str]:
+    formulas = [formula for rule in ruleset.rules for formula in formulas_of(rule)] + beside_rules(ruleset)[1]
+    atoms = (leaf for formula in formulas for leaf in leaves(formula) if isinstance(leaf, Atom))
+    named = sorted({atom.name for atom in atoms if atom.kind == "trigger"})
+    if named:
+        names = f"{listed(named)} {'stands in a condition' if len(named) == 1 else 'stand in conditions'}"
+        yield f"{names}, where SLEEC-TK and LEGOS-SLEEC read measures alone"
 
 
 def _undeclared(names: Iterable[str], declared: set[str]) -> list[str]:

@@ -114,8 +114,9 @@ def span_json(span: Span, source: Source) -> dict[str, Json]:
 
 
 def witness_json(witness: Witness) -> Json:
-    """A situation: what occurs, and what is the case."""
-    return {"triggers": list(witness.triggers), "conditions": values_json(witness.conditions)}
+    """A situation: what occurs, what is the case, and, if it matters, what does not occur."""
+    absent: dict[str, Json] = {"absent": list(witness.absent)} if witness.absent else {}
+    return {"triggers": list(witness.triggers), "conditions": values_json(witness.conditions), **absent}
 
 
 def _timeline(timeline: Timeline, source: Source) -> Json:

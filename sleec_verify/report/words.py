@@ -44,9 +44,10 @@ def in_short(obligation: Obligation) -> str:
 
 
 def witness_text(witness: Witness) -> str:
-    """``When A and B occur, C is true and Age is 15 (the rest does not matter)``"""
+    """``When A and B occur, D does not occur and Age is 15 (the rest does not matter)``"""
     occurs = f"When {occurring(witness.triggers)}" if witness.triggers else "Whatever occurs"
-    return f"{', '.join([occurs, *given(witness.conditions)])} (the rest does not matter)"
+    facts = [f"{quoted(name)} does not occur" for name in witness.absent]
+    return f"{', '.join([occurs, *given(witness.conditions, facts)])} (the rest does not matter)"
 
 
 def context_text(context: Context) -> str:
@@ -60,7 +61,7 @@ def occurring(triggers: Sequence[str]) -> str:
     return f"{listed(map(quoted, triggers))} {'occurs' if len(triggers) == 1 else 'occur'}"
 
 
-def given(conditions: Mapping[str, Value]) -> list[str]:
-    """The facts as one phrase, or none."""
-    facts = [f"{quoted(name)} is {value_text(value)}" for name, value in conditions.items()]
-    return [listed(facts)] if facts else []
+def given(conditions: Mapping[str, Value], facts: Sequence[str] = ()) -> list[str]:
+    """The conditions, and other `facts` before them, as one phrase, or none."""
+    every = [*facts, *(f"{quoted(name)} is {value_text(value)}" for name, value in conditions.items())]
+    return [listed(every)] if every else []

@@ -29,7 +29,8 @@ def test_100_random_cases_by_8_rules() -> None:
         with benches[domain].running() as running:
             whole = running.oracle.whole
             formulas = [formula for rule in whole.rules for formula in formulas_of(rule)]
-            drawn = {name: dice.choice(values) for name, values in givens(formulas, whole.measures, unreported=False)}
+            given = givens(formulas, whole.measures, unreported=False)
+            drawn = {one.name: dice.choice(one.values) for one in given}
             facts = {name: value for name, value in drawn.items() if value is not None}
             for rule in whole.rules:
                 assert tried(running, Context(frozenset({rule.trigger}), facts)) is None

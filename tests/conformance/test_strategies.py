@@ -42,7 +42,7 @@ def test_contexts_of_any_ruleset(data: st.DataObject) -> None:
 def test_the_nearest_context_is_the_context_itself_where_that_is_possible(data: st.DataObject) -> None:
     ruleset = data.draw(small_rulesets(measures=True))
     context = data.draw(strategies.contexts(ruleset, unreported=False))
-    if not broken_assumptions(ruleset, context):
+    if any(True for _ in brute.contexts(ruleset)) and not broken_assumptions(ruleset, context):
         assert Assumptions(ruleset).nearest(context) == context
 
 

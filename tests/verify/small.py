@@ -45,6 +45,7 @@ def _formula(leaves, depth=2):
 
 
 _booleans = st.sampled_from(CONDITIONS).map(lambda name: Atom("condition", name))
+_events = st.sampled_from(TRIGGERS).map(lambda name: Atom("trigger", name))
 _operators = st.sampled_from(OPERATORS)
 _numeric = st.builds(Comparison, st.just(MeasureRef("x")), _operators, st.sampled_from((1, 2)).map(Number))
 _flipped = st.builds(Comparison, st.sampled_from((1, 2)).map(Number), _operators, st.just(MeasureRef("x")))
@@ -62,9 +63,9 @@ MEASURES = (Measure("x", "number"), Measure("y", "integer"), Measure("s", "scale
 
 @st.composite
 def small_rulesets(draw, measures=False, constraints=True, assumptions=True, rules=4, hedges=2, nested=True):
-    leaves = st.one_of(_booleans, _booleans, _booleans, _truths)
+    leaves = st.one_of(_booleans, _booleans, _events, _truths)
     if measures:
-        leaves = st.one_of(_booleans, _numeric, _flipped, _scales, _pairs)
+        leaves = st.one_of(_booleans, _events, _numeric, _flipped, _scales, _pairs)
     conditions = _formula(leaves, 1)
     literals = st.builds(Obligation, st.sampled_from(OBLIGATIONS), st.sampled_from((False, False, True)))
     responses = st.lists(literals, min_size=1, max_size=2, unique=True).map(tuple)
@@ -88,6 +89,6 @@ def small_rulesets(draw, measures=False, constraints=True, assumptions=True, rul
         statements += [Exclusive(tuple(names)) for names in draw(st.lists(exclusive, max_size=1))]
         statements += [Never(formula) for formula in draw(st.lists(never, max_size=2))]
     if assumptions:
-        situations = st.one_of(leaves, st.sampled_from(TRIGGERS).map(lambda name: Atom("trigger", name)))
+        situations = st.one_of(leaves, _events)
         statements += [Assume(formula) for formula in draw(st.lists(_formula(situations, 1), max_size=2))]
     return Ruleset((*statements, *found), reading=draw(st.sampled_from(("cascade", "priority"))))

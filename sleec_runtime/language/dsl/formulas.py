@@ -26,6 +26,8 @@ class FormulaParser(Cursor):
     def __init__(self, source: Source, tokens: Tokens, dialect: Dialect, problems: list[Problem], names: Terms) -> None:
         super().__init__(source, tokens, dialect, problems)
         self.names = names
+        self.names_events = True
+        """Whether an event may be named where a condition stands: in rules and claims, and not in relations."""
 
     def formula(self) -> Formula:
         first = self.at
@@ -82,6 +84,8 @@ class FormulaParser(Cursor):
             if isinstance(left, Calculation) or not isinstance(left.written, str):
                 self.expected("a comparison such as < or >= after the number", self._compared(left))
             self._refuse_plain_words(left)
+            if self.names_events and not left.braced and self.names.kinds.get(left.written) == "event":
+                return Atom("trigger", left.written, left.span)
             if not self.hurt:
                 self.names.boolean(left.written, left.span)
             return Atom("condition", left.written, left.span)

@@ -194,9 +194,10 @@ class Names:
             return
         elif kind == "event":
             self.problem(
-                f"{self.described(name)}, and conditions speak of measures",
+                f"{self.described(name)}, and here only a measure can stand",
                 span,
-                f"define what is to be known as a measure: measure {name[:1].lower()}{name[1:]}: boolean",
+                "in a condition of a rule, name the event alone; or define what is to be known as a measure: "
+                f"measure {name[:1].lower()}{name[1:]}: boolean",
             )
         else:
             self.problem(f"{self.described(name)}, which is not true or false by itself", span, self._compare(name))

@@ -271,6 +271,7 @@ class DslParser(RelationParser):
 
     def _rule(self) -> Rule | None:
         first = self.at
+        self.names_events = True
         label, label_span = self.label("rule")
         self.at += 1
         opening: tuple[str, Span, Formula | None, Clause] | None = None

@@ -220,7 +220,7 @@ class _Printer:
         if isinstance(formula, Truth):
             return "true" if formula.value else "false"
         if isinstance(formula, Atom):
-            return self._measure(formula.name)
+            return formula.name if formula.kind == "trigger" else self._measure(formula.name)
         if isinstance(formula, Comparison):
             operator = "<>" if formula.operator == "!=" else formula.operator
             text = f"{self._term(formula.left)} {operator} {self._term(formula.right)}"

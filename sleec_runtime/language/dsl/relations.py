@@ -68,6 +68,7 @@ class RelationParser(ResponseParser):
 
     def claim(self, kind: ClaimKind) -> Claim:
         first = self.at
+        self.names_events = True
         label, _ = self.label(kind)
         return self._claim(kind, label, first)
 
@@ -125,6 +126,7 @@ class RelationParser(ResponseParser):
         first = self.at
         word = self.token_text(first)
         self.at += 1
+        self.names_events = False
         if word == "when":
             return self._lasting(first)
         comments = self.comments_of(first)
