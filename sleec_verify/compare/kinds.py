@@ -1,13 +1,15 @@
-"""The kinds of names that only constraints mention, taken from the other ruleset.
+"""The kinds of names that only constraints or conditions mention, taken from the other ruleset.
 
-A name that no rule uses and no declaration mentions is a condition in an `ASSUME` and an obligation in a `NEVER`. Its
-kind is a default, not a statement of the text: it changes when the last rule that uses the name is deleted.
+A name that no rule uses and no declaration mentions is a condition in an `ASSUME` and an obligation in a `NEVER`. In a
+guard or a hedge, a name is a condition if no rule has it as its trigger. These kinds are defaults, not statements of
+the text: they change when the last rule that uses the name is deleted.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 from sleec_runtime.model import (
     And,
@@ -19,15 +21,19 @@ from sleec_runtime.model import (
     Never,
     Not,
     Or,
+    Rule,
     Ruleset,
     formulas_of,
     leaves,
     literals,
 )
+from sleec_verify.checks.names import formulas_beside_rules
+from sleec_verify.conversion.parts import with_formulas
 
 _ASSUMED: tuple[Kind, ...] = ("trigger", "condition")
 _FORBIDDEN: tuple[Kind, ...] = ("obligation", "condition", "trigger")
-"""The kinds that a name may have in such a constraint; the first that the name has anywhere is its kind there."""
+"""The kinds that a name may have in an `ASSUME` or a condition of a rule, and in a `NEVER`; the first that the name has
+anywhere is its kind there."""
 
 
 def with_kinds_of(ruleset: Ruleset, other: Ruleset) -> Ruleset:
@@ -40,9 +46,13 @@ def with_kinds_of(ruleset: Ruleset, other: Ruleset) -> Ruleset:
         if isinstance(leaf, Atom)
     }
     open_names = mentioned - {name for _, name in _stated(ruleset)} if mentioned else mentioned
-    if not open_names:
+    conditions = _conditions_by_default(ruleset)
+    if not open_names and not conditions:
         return ruleset
-    kinds = {(kind, name) for kind, name in _stated(other) if name in open_names}
+    stated = list(_stated(other))
+    turned = {name for kind, name in stated if kind == "trigger" and name in conditions}
+    open_names |= turned
+    kinds = {(kind, name) for kind, name in stated if name in open_names}
     if not kinds:
         return ruleset
 
@@ -57,12 +67,28 @@ def with_kinds_of(ruleset: Ruleset, other: Ruleset) -> Ruleset:
         return formula
 
     statements = (
-        replace(statement, formula=read(statement.formula, _ASSUMED if isinstance(statement, Assume) else _FORBIDDEN))
-        if isinstance(statement, (Assume, Never))
+        with_formulas(statement, partial(read, order=_FORBIDDEN if isinstance(statement, Never) else _ASSUMED))
+        if isinstance(statement, (Assume, Never)) or (turned and isinstance(statement, Rule))
         else statement
         for statement in ruleset.statements
     )
     return replace(ruleset, statements=tuple(statements))
+
+
+def _conditions_by_default(ruleset: Ruleset) -> set[str]:
+    """The names that are conditions because rules use them so, and for no other reason."""
+    used = {name for kind, name in _of_conditions(ruleset) if kind == "condition"}
+    if not used:
+        return used
+    beside = (leaf for formula in formulas_beside_rules(ruleset) for leaf in leaves(formula))
+    stated = {leaf.name for leaf in beside if isinstance(leaf, Atom)}
+    return used - ruleset.declared["condition"] - stated
+
+
+def _of_conditions(ruleset: Ruleset) -> Iterator[tuple[Kind, str]]:
+    for rule in ruleset.rules:
+        for formula in formulas_of(rule):
+            yield from ((leaf.kind, leaf.name) for leaf in leaves(formula) if isinstance(leaf, Atom))
 
 
 def _stated(ruleset: Ruleset) -> Iterator[tuple[Kind, str]]:
@@ -75,9 +101,8 @@ def _stated(ruleset: Ruleset) -> Iterator[tuple[Kind, str]]:
     for constraint in ruleset.constraints:
         if isinstance(constraint, Exclusive):
             yield from (("obligation", name) for name in constraint.names)
+    yield from _of_conditions(ruleset)
     for rule in ruleset.rules:
         yield "trigger", rule.trigger
-        for formula in formulas_of(rule):
-            yield from ((leaf.kind, leaf.name) for leaf in leaves(formula) if isinstance(leaf, Atom))
         for clause in rule.clauses():
             yield from (("obligation", literal.name) for literal in literals(clause))

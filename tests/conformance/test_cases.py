@@ -100,7 +100,8 @@ def smallest_cover(goals, sets) -> int:
     for size in range(min(len(largest), 4) + 1):
         if any(frozenset().union(*chosen) == goals for chosen in combinations(largest, size)):
             return size
-    covered, size = frozenset(), 0
+    covered: frozenset[object] = frozenset()
+    size = 0
     while covered != goals:
         covered |= max(largest, key=lambda one: len(one - covered))
         size += 1

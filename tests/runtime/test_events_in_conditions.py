@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import warnings
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -12,6 +13,7 @@ from hypothesis import strategies as st
 
 from sleec_runtime import Sleec
 from sleec_runtime.errors import NotEnforced, SnapshotRefused
+from sleec_runtime.evaluation import Decision
 from sleec_runtime.language import parse
 from sleec_runtime.timed.clocks import VirtualClock
 from tests import brute
@@ -24,7 +26,7 @@ EXCLUSIVE Lock, Open
 """
 
 
-def robot(text: str = TEXT, **options: object) -> Sleec:
+def robot(text: str = TEXT, **options: Any) -> Sleec:
     sleec = Sleec(parse(text), **options)
     obligations = sorted(sleec.ruleset.obligations)
     sleec.implement({name: (lambda *_: None) for name in obligations})
@@ -76,7 +78,7 @@ def test_dispatches_agree_with_brute_force(data: st.DataObject) -> None:
         alone = brute.active_clauses(ruleset, type(context)(frozenset({trigger}), context.conditions))
         outcomes = [(label, number) for label, number, _ in alone]
         cell = sleec._snapshot.cell(sleec._snapshot.program.number_of[trigger])
-        assert [(o.rule.label, o.clause) for o in cell.outcomes if o is not None] == outcomes
+        assert [(o.rule.label, o.clause) for o in cell.outcomes if isinstance(o, Decision)] == outcomes
 
 
 TIMED = """
@@ -87,7 +89,7 @@ RULE warn WHEN Fire THEN Warn UNLESS Night IN WHICH CASE Whisper
 """
 
 
-def timed(**options: object) -> tuple[Sleec, VirtualClock, list[str]]:
+def timed(**options: Any) -> tuple[Sleec, VirtualClock, list[str]]:
     clock, done = VirtualClock(), []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", NotEnforced)
@@ -130,7 +132,7 @@ def test_with_chains_a_rule_sees_the_triggers_that_led_to_its_own() -> None:
 @pytest.mark.parametrize("triggers", ["Fire", [1], ["Lock"], [["Fire"]]])
 def test_a_snapshot_with_other_triggers_is_refused(triggers) -> None:
     sleec, _, _ = timed()
-    with pytest.raises(OSError):
+    with pytest.raises(OSError, match="stuck"):
         sleec.trigger("Stranger")
     saved = sleec.pending_snapshot(now=1000)
     saved["decisions"][0]["triggers"] = triggers

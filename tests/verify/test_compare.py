@@ -296,6 +296,20 @@ def test_a_name_keeps_its_kind_when_the_last_rule_that_uses_it_is_deleted(constr
     assert (back.relation, gained(back), back.situations) == ("stricter", {"CallNurse"}, ())
 
 
+@pytest.mark.parametrize("constraint", ["", "ASSUME NOT (FallDetected AND Asleep)\n", "NEVER Tea AND FallDetected\n"])
+def test_a_name_in_a_hedge_keeps_its_kind_when_its_last_rule_is_deleted(constraint: str) -> None:
+    rest = f"{constraint}{TEA}\nUNLESS FallDetected AND Asleep IN WHICH CASE Wait\n"
+    old, new = FALL + rest, rest
+    found = differ(old, new)
+    assert found.relation == "laxer"
+    assert (lost(found), gained(found), found.situations, found.conflicts) == ({"CallNurse"}, set(), (), ())
+    assert {name.way for name in found.names} <= {"removed"}
+    back = differ(new, old)
+    assert (back.relation, gained(back), back.situations) == ("stricter", {"CallNurse"}, ())
+    declared = differ(old, f"CONDITION FallDetected, Asleep\n{rest}")
+    assert {(name.way, name.kind, name.name) for name in declared.names} >= {("added", "condition", "FallDetected")}
+
+
 def test_a_declared_kind_is_not_taken_from_the_other_ruleset() -> None:
     constraint = "ASSUME NOT (FallDetected AND TeaTime)\n"
     found = differ(constraint + FALL + TEA, "CONDITION FallDetected\n" + constraint + TEA)
