@@ -36,13 +36,13 @@ let rec chain () =
   Chain (obliged, several hedge)
 
 and hedge () =
-  let when_ = formula condition () in
+  let when_ = formula fact () in
   (when_, chain ())
 
 let rule () =
   let nested_label = name () in
   let nested_trigger = name () in
-  let nested_guard = formula condition () in
+  let nested_guard = formula fact () in
   { nested_label; nested_trigger; nested_guard; response = chain () }
 
 type asked = {

@@ -30,21 +30,21 @@ Module care_robot_hospital.
 Definition rules : list nested_rule :=
   [ NestedRule 1 1 (Truth true)
      (Chain [Do 1]
-      [ ((Atom 1), (Chain [Do 2] []));
-        ((Atom 2), (Chain [Do 3] [])) ]);
+      [ ((Atom (Holds 1)), (Chain [Do 2] []));
+        ((Atom (Holds 2)), (Chain [Do 3] [])) ]);
     NestedRule 2 2 (Truth true)
      (Chain [Do 4]
-      [ ((Atom 3), (Chain [Do 5] [])) ]);
+      [ ((Atom (Holds 3)), (Chain [Do 5] [])) ]);
     NestedRule 3 3 (Truth true)
      (Chain [Do 6]
-      [ ((Atom 4), (Chain [Do 7] []));
-        ((Atom 5), (Chain [Do 8] [])) ]);
+      [ ((Atom (Holds 4)), (Chain [Do 7] []));
+        ((Atom (Holds 5)), (Chain [Do 8] [])) ]);
     NestedRule 4 4 (Truth true)
      (Chain [Do 9]
-      [ ((Or (Not (Atom 6)) (Not (Atom 7))), (Chain [Do 10] [])) ]);
+      [ ((Or (Not (Atom (Holds 6))) (Not (Atom (Holds 7)))), (Chain [Do 10] [])) ]);
     NestedRule 5 5 (Truth true)
      (Chain [Do 11]
-      [ ((Atom 8), (Chain [Do 12] [])) ]) ].
+      [ ((Atom (Holds 8)), (Chain [Do 12] [])) ]) ].
 
 Definition constraints : list constraint := [].
 
@@ -73,21 +73,21 @@ Module care_robot_household.
 Definition rules : list nested_rule :=
   [ NestedRule 1 1 (Truth true)
      (Chain [Do 1]
-      [ ((Atom 1), (Chain [Do 2] []));
-        ((Atom 2), (Chain [Do 3] [])) ]);
+      [ ((Atom (Holds 1)), (Chain [Do 2] []));
+        ((Atom (Holds 2)), (Chain [Do 3] [])) ]);
     NestedRule 2 2 (Truth true)
      (Chain [Do 4]
-      [ ((Atom 3), (Chain [Do 5] [])) ]);
+      [ ((Atom (Holds 3)), (Chain [Do 5] [])) ]);
     NestedRule 3 3 (Truth true)
      (Chain [Do 6]
-      [ ((Atom 4), (Chain [Do 7; Do 8] []));
-        ((Atom 5), (Chain [Do 9; Do 6] [])) ]);
+      [ ((Atom (Holds 4)), (Chain [Do 7; Do 8] []));
+        ((Atom (Holds 5)), (Chain [Do 9; Do 6] [])) ]);
     NestedRule 4 4 (Truth true)
      (Chain [Do 10]
-      [ ((Or (Atom 6) (Atom 7)), (Chain [Do 11] [])) ]);
+      [ ((Or (Atom (Holds 6)) (Atom (Holds 7))), (Chain [Do 11] [])) ]);
     NestedRule 5 5 (Truth true)
      (Chain [Do 12]
-      [ ((Not (Atom 8)), (Chain [Do 13] [])) ]) ].
+      [ ((Not (Atom (Holds 8))), (Chain [Do 13] [])) ]) ].
 
 Definition constraints : list constraint := [].
 

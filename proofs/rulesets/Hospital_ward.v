@@ -63,110 +63,110 @@ Module hospital_ward.
 Definition rules : list nested_rule :=
   [ NestedRule 1 1 (Truth true)
      (Chain [Do 1; Do 2]
-      [ ((And (Atom 1) (Not (Atom 2))), (Chain [Do 3] [])) ]);
+      [ ((And (Atom (Holds 1)) (Not (Atom (Holds 2)))), (Chain [Do 3] [])) ]);
     NestedRule 2 2 (Truth true)
      (Chain [Do 4]
-      [ ((Atom 3), (Chain [Do 5] [])) ]);
+      [ ((Atom (Holds 3)), (Chain [Do 5] [])) ]);
     NestedRule 3 3 (Truth true)
      (Chain [Do 6]
-      [ ((Atom 4), (Chain [Do 7; Do 8] [])) ]);
+      [ ((Atom (Holds 4)), (Chain [Do 7; Do 8] [])) ]);
     NestedRule 4 4 (Truth true)
      (Chain [Do 9; Avoid 10] []);
     NestedRule 5 5 (Truth true)
      (Chain [Do 11; Do 12]
-      [ ((Or (Atom 5) (Atom 6)), (Chain [Do 12] []));
-        ((Atom 6), (Chain [Do 13; Do 14] [])) ]);
+      [ ((Or (Atom (Holds 5)) (Atom (Holds 6))), (Chain [Do 12] []));
+        ((Atom (Holds 6)), (Chain [Do 13; Do 14] [])) ]);
     NestedRule 6 6 (Truth true)
      (Chain [Do 15]
-      [ ((Or (Not (Atom 7)) (Atom 8)), (Chain [Do 16; Do 13] [])) ]);
+      [ ((Or (Not (Atom (Holds 7))) (Atom (Holds 8))), (Chain [Do 16; Do 13] [])) ]);
     NestedRule 7 7 (Truth true)
      (Chain [Do 17; Do 12; Avoid 18]
-      [ ((Atom 9), (Chain [Do 17; Do 13; Avoid 18] [])) ]);
+      [ ((Atom (Holds 9)), (Chain [Do 17; Do 13; Avoid 18] [])) ]);
     NestedRule 8 8 (Truth true)
      (Chain [Do 19]
-      [ ((Or (Atom 10) (Atom 11)), (Chain [Do 20; Do 12] [])) ]);
+      [ ((Or (Atom (Holds 10)) (Atom (Holds 11))), (Chain [Do 20; Do 12] [])) ]);
     NestedRule 9 9 (Truth true)
      (Chain [Do 21]
-      [ ((Or (Atom 10) (Or (Atom 11) (Atom 12))), (Chain [Do 20; Do 12] [])) ]);
+      [ ((Or (Atom (Holds 10)) (Or (Atom (Holds 11)) (Atom (Holds 12)))), (Chain [Do 20; Do 12] [])) ]);
     NestedRule 10 10 (Truth true)
      (Chain [Do 22]
-      [ ((Not (Atom 13)), (Chain [Do 22; Do 12] []));
-        ((Not (Atom 14)), (Chain [Do 22; Do 13; Do 14] [])) ]);
+      [ ((Not (Atom (Holds 13))), (Chain [Do 22; Do 12] []));
+        ((Not (Atom (Holds 14))), (Chain [Do 22; Do 13; Do 14] [])) ]);
     NestedRule 11 11 (Truth true)
      (Chain [Do 23]
-      [ ((And (Atom 1) (Atom 15)), (Chain [Do 24] [])) ]);
+      [ ((And (Atom (Holds 1)) (Atom (Holds 15))), (Chain [Do 24] [])) ]);
     NestedRule 12 12 (Truth true)
      (Chain [Do 25]
-      [ ((Not (Atom 15)), (Chain [Do 25; Do 13] []));
-        ((Not (Atom 16)), (Chain [Do 25; Do 26; Do 14] [])) ]);
+      [ ((Not (Atom (Holds 15))), (Chain [Do 25; Do 13] []));
+        ((Not (Atom (Holds 16))), (Chain [Do 25; Do 26; Do 14] [])) ]);
     NestedRule 13 13 (Truth true)
      (Chain [Do 27]
-      [ ((Or (Not (Atom 17)) (Atom 18)), (Chain [Do 27; Do 12] [])) ]);
+      [ ((Or (Not (Atom (Holds 17))) (Atom (Holds 18))), (Chain [Do 27; Do 12] [])) ]);
     NestedRule 14 14 (Truth true)
      (Chain [Do 13; Do 14; Do 28; Avoid 29]
-      [ ((Not (Atom 19)), (Chain [Do 26; Do 14; Avoid 29] [])) ]);
+      [ ((Not (Atom (Holds 19))), (Chain [Do 26; Do 14; Avoid 29] [])) ]);
     NestedRule 15 15 (Truth true)
      (Chain [Do 30]
-      [ ((Not (Atom 20)), (Chain [Do 31; Do 13] [])) ]);
+      [ ((Not (Atom (Holds 20))), (Chain [Do 31; Do 13] [])) ]);
     NestedRule 16 16 (Truth true)
      (Chain [Do 32]
-      [ ((Or (Not (Atom 21)) (Atom 22)), (Chain [Do 20; Do 12] [])) ]);
+      [ ((Or (Not (Atom (Holds 21))) (Atom (Holds 22))), (Chain [Do 20; Do 12] [])) ]);
     NestedRule 17 17 (Truth true)
      (Chain [Do 33]
-      [ ((Not (Atom 23)), (Chain [Do 13; Do 14; Avoid 34] [])) ]);
+      [ ((Not (Atom (Holds 23))), (Chain [Do 13; Do 14; Avoid 34] [])) ]);
     NestedRule 18 18 (Truth true)
      (Chain [Do 20; Do 13; Avoid 35] []);
     NestedRule 19 19 (Truth true)
      (Chain [Do 36; Do 37]
-      [ ((Or (Atom 24) (Or (Atom 25) (Atom 22))), (Chain [Do 38] []));
-        ((And (Or (Atom 24) (Atom 25)) (And (Atom 2) (Not (Atom 22)))), (Chain [Do 39; Do 37] [])) ]);
-    NestedRule 20 19 (Atom 26)
+      [ ((Or (Atom (Holds 24)) (Or (Atom (Holds 25)) (Atom (Holds 22)))), (Chain [Do 38] []));
+        ((And (Or (Atom (Holds 24)) (Atom (Holds 25))) (And (Atom (Holds 2)) (Not (Atom (Holds 22))))), (Chain [Do 39; Do 37] [])) ]);
+    NestedRule 20 19 (Atom (Holds 26))
      (Chain [Do 40] []);
-    NestedRule 21 20 (Atom 26)
+    NestedRule 21 20 (Atom (Holds 26))
      (Chain [Do 40; Do 41] []);
     NestedRule 22 21 (Truth true)
      (Chain [Do 42; Do 23]
-      [ ((Atom 27), (Chain [Do 42; Do 23; Do 43] [])) ]);
+      [ ((Atom (Holds 27)), (Chain [Do 42; Do 23; Do 43] [])) ]);
     NestedRule 23 22 (Truth true)
      (Chain [Do 44; Do 45] []);
     NestedRule 24 23 (Truth true)
      (Chain [Do 20; Avoid 46]
-      [ ((And (Not (Atom 28)) (Not (Atom 25))), (Chain [Do 46] [])) ]);
+      [ ((And (Not (Atom (Holds 28))) (Not (Atom (Holds 25)))), (Chain [Do 46] [])) ]);
     NestedRule 25 24 (Truth true)
      (Chain [Do 47]
-      [ ((Or (Atom 29) (Atom 30)), (Chain [Do 48; Do 12] []));
-        ((And (Atom 29) (And (Atom 31) (Not (Atom 30)))), (Chain [Do 47; Do 12] [])) ]);
+      [ ((Or (Atom (Holds 29)) (Atom (Holds 30))), (Chain [Do 48; Do 12] []));
+        ((And (Atom (Holds 29)) (And (Atom (Holds 31)) (Not (Atom (Holds 30))))), (Chain [Do 47; Do 12] [])) ]);
     NestedRule 26 25 (Truth true)
      (Chain [Do 49]
-      [ ((And (Atom 32) (Not (Atom 30))), (Chain [Do 50] [])) ]);
+      [ ((And (Atom (Holds 32)) (Not (Atom (Holds 30)))), (Chain [Do 50] [])) ]);
     NestedRule 27 26 (Truth true)
      (Chain [Do 51]
-      [ ((Atom 33), (Chain [Do 52] [])) ]);
+      [ ((Atom (Holds 33)), (Chain [Do 52] [])) ]);
     NestedRule 28 27 (Truth true)
      (Chain [Do 53; Do 54]
-      [ ((Atom 2), (Chain [Do 55] [])) ]);
+      [ ((Atom (Holds 2)), (Chain [Do 55] [])) ]);
     NestedRule 29 28 (Truth true)
      (Chain [Do 56]
-      [ ((Atom 34), (Chain [Do 57] [])) ]);
+      [ ((Atom (Holds 34)), (Chain [Do 57] [])) ]);
     NestedRule 30 29 (Truth true)
      (Chain [Do 58; Do 59]
-      [ ((Atom 35), (Chain [Do 58; Do 13; Avoid 60] [])) ]);
+      [ ((Atom (Holds 35)), (Chain [Do 58; Do 13; Avoid 60] [])) ]);
     NestedRule 31 30 (Truth true)
      (Chain [Do 61]
-      [ ((Or (Atom 36) (Atom 22)), (Chain [Do 62] [])) ]);
+      [ ((Or (Atom (Holds 36)) (Atom (Holds 22))), (Chain [Do 62] [])) ]);
     NestedRule 32 31 (Truth true)
      (Chain [Do 63; Do 64]
-      [ ((Atom 2), (Chain [Do 63; Do 14; Do 65] [])) ]);
+      [ ((Atom (Holds 2)), (Chain [Do 63; Do 14; Do 65] [])) ]);
     NestedRule 33 32 (Truth true)
      (Chain [Do 63]
-      [ ((Atom 37), (Chain [Do 66; Do 63] [])) ]);
+      [ ((Atom (Holds 37)), (Chain [Do 66; Do 63] [])) ]);
     NestedRule 34 33 (Truth true)
      (Chain [Do 67]
-      [ ((Atom 38), (Chain [Do 68] []));
-        ((And (Atom 38) (Or (Atom 2) (Atom 22))), (Chain [Do 67; Do 65] [])) ]);
+      [ ((Atom (Holds 38)), (Chain [Do 68] []));
+        ((And (Atom (Holds 38)) (Or (Atom (Holds 2)) (Atom (Holds 22)))), (Chain [Do 67; Do 65] [])) ]);
     NestedRule 35 34 (Truth true)
      (Chain [Do 69; Do 12]
-      [ ((Atom 2), (Chain [Do 69; Do 65] [])) ]) ].
+      [ ((Atom (Holds 2)), (Chain [Do 69; Do 65] [])) ]) ].
 
 Definition constraints : list constraint :=
   [ Assume (Or (Atom (Holds 2)) (Not (Atom (Occurs 14))));

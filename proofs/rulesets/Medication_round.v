@@ -21,16 +21,16 @@ Module medication_round.
 Definition rules : list nested_rule :=
   [ NestedRule 1 1 (Truth true)
      (Chain [Do 1]
-      [ ((Atom 1), (Chain [Do 2] []));
-        ((Atom 2), (Chain [Do 3] [])) ]);
+      [ ((Atom (Holds 1)), (Chain [Do 2] []));
+        ((Atom (Holds 2)), (Chain [Do 3] [])) ]);
     NestedRule 2 2 (Truth true)
      (Chain [Do 4]
-      [ ((Atom 1), (Chain [Do 2] []));
-        ((And (Atom 1) (Atom 2)), (Chain [Do 3] [])) ]);
+      [ ((Atom (Holds 1)), (Chain [Do 2] []));
+        ((And (Atom (Holds 1)) (Atom (Holds 2))), (Chain [Do 3] [])) ]);
     NestedRule 3 3 (Truth true)
      (Chain [Do 5]
-      [ ((Or (Atom 1) (Atom 2)), (Chain [Do 2] []));
-        ((Atom 2), (Chain [Do 3] [])) ]) ].
+      [ ((Or (Atom (Holds 1)) (Atom (Holds 2))), (Chain [Do 2] []));
+        ((Atom (Holds 2)), (Chain [Do 3] [])) ]) ].
 
 Definition constraints : list constraint := [].
 

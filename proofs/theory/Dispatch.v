@@ -306,8 +306,8 @@ Let undressed := 1. Let distressed := 2. Let request := 1.
 
 Definition dress_assist : rule :=
   Rule 1 request (Truth true) [Do open]
-       [Hedge (Atom undressed) [Do refuse; Do explain];
-        Hedge (Atom distressed) [Do warn; Do open]].
+       [Hedge (Atom (Holds undressed)) [Do refuse; Do explain];
+        Hedge (Atom (Holds distressed)) [Do warn; Do open]].
 
 Definition only_undressed : situation := fun c => Pos.eqb c undressed.
 Definition both_of_them : situation := fun c => Pos.eqb c undressed || Pos.eqb c distressed.
@@ -349,8 +349,8 @@ Qed.
     [WHEN request THEN o1 UNLESS c IN WHICH CASE o2],
     [WHEN request THEN o3 UNLESS c IN WHICH CASE o4]. *)
 Definition two_rules : ruleset :=
-  [Rule 1 request (Truth true) [Do 1] [Hedge (Atom 1) [Do 2]];
-   Rule 2 request (Truth true) [Do 3] [Hedge (Atom 1) [Do 4]]].
+  [Rule 1 request (Truth true) [Do 1] [Hedge (Atom (Holds 1)) [Do 2]];
+   Rule 2 request (Truth true) [Do 3] [Hedge (Atom (Holds 1)) [Do 4]]].
 
 Definition nothing_holds : situation := fun _ => false.
 

@@ -34,7 +34,7 @@ Lemma due_of_ext r chi psi R :
   (forall f, chi f = psi f) -> due_of r chi R = due_of r psi R.
 Proof.
   intro H. unfold due_of, triggered, active, truths, satisfies.
-  rewrite H. rewrite (eval_ext _ (fun n => psi (Holds n))) by auto.
+  rewrite H. rewrite (eval_ext _ psi) by auto.
   erewrite map_ext; [reflexivity|]. intro h. apply eval_ext. auto.
 Qed.
 

@@ -21,10 +21,10 @@ Definition conjuncts {A} (r : reading) (c0 : formula A) (cs : list (formula A)) 
   end.
 
 Definition c0 (R : rule) : formula fact :=
-  And (Atom (Occurs (trigger R))) (situation_of (rule_guard R)).
+  And (Atom (Occurs (trigger R))) (rule_guard R).
 
 Definition conditions (R : rule) : list (formula fact) :=
-  map (fun h => situation_of (hedge_condition h)) (hedges R).
+  map hedge_condition (hedges R).
 
 Definition guard (r : reading) (R : rule) (i : nat) : formula fact :=
   conj (conjuncts r (c0 R) (conditions R) i).
@@ -115,13 +115,10 @@ Proof.
 Qed.
 
 Lemma eval_c0 chi R : eval chi (c0 R) = triggered chi R.
-Proof. unfold c0, triggered. simpl. rewrite eval_situation_of. reflexivity. Qed.
+Proof. reflexivity. Qed.
 
 Lemma eval_conditions chi R : map (eval chi) (conditions R) = truths chi R.
-Proof.
-  unfold conditions, truths. rewrite map_map. apply map_ext.
-  intro h. apply eval_situation_of.
-Qed.
+Proof. unfold conditions, truths. apply map_map. Qed.
 
 (** Equation 1 and Algorithm 1 choose the same clause. *)
 Theorem guard_iff_active r chi R i :

@@ -399,7 +399,7 @@ Lemma conditions_size R :
   total (map named (conditions R)) + length (hedges R) <= list_sum (map hedge_size (hedges R)).
 Proof.
   unfold conditions. induction (hedges R) as [|h hs IH]; [reflexivity|].
-  cbn [map length]. rewrite total_cons. unfold named at 1, situation_of at 1.
+  cbn [map length]. rewrite total_cons. unfold named at 1.
   rewrite !size_rename. cbn [list_sum fold_right] in *. unfold list_sum in *. cbn [fold_right].
   unfold hedge_size at 1. lia.
 Qed.
@@ -445,7 +445,7 @@ Proof.
     induction (hedges R) as [|h hs IH]; cbn [map fold_right length]; [lia|].
     unfold hedge_size at 1. lia. }
   assert (D : size (equal (Atom (Prefix k 0)) (named (c0 R))) = 11 + 2 * size (rule_guard R)).
-  { unfold equal, named, c0, situation_of. cbn [size rename]. rewrite !size_rename. lia. }
+  { unfold equal, named, c0. cbn [size rename]. rewrite !size_rename. lia. }
   rewrite D, prefix_definitions_size, chain_length.
   assert (L : length (map named (conditions R)) = length (hedges R)).
   { unfold conditions. rewrite !map_length. reflexivity. }
@@ -454,7 +454,7 @@ Proof.
                                        + list_sum (map hedge_size (hedges R))).
   { unfold clauses, conditions. cbn [map]. clear. unfold list_sum, total. cbn [fold_right].
     induction (hedges R) as [|h hs IH]; cbn [map fold_right length]; [cbn; lia|].
-    unfold hedge_size at 1, named at 1, situation_of at 1. rewrite !size_rename.
+    unfold hedge_size at 1, named at 1. rewrite !size_rename.
     cbn [list_sum fold_right] in *. unfold list_sum in *. cbn [fold_right] in *. lia. }
   destruct r; cbn [chain].
   - unfold total at 1. cbn [map list_sum fold_right]. unfold rule_size. lia.

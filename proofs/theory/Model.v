@@ -109,17 +109,12 @@ Inductive atom :=
     every condition whether it holds. *)
 Definition context := fact -> bool.
 
-(** A Boolean combination of conditions; it cannot mention triggers. *)
-Definition condition := formula name.
-
-Definition situation_of (c : condition) : formula fact := rename Holds c.
+(** A Boolean combination of conditions and triggers.  A trigger is true if it
+    occurs in the same situation. *)
+Definition condition := formula fact.
 
 (** χ ⊨ C *)
-Definition satisfies (chi : context) (c : condition) : bool :=
-  eval (fun n => chi (Holds n)) c.
-
-Lemma eval_situation_of chi c : eval chi (situation_of c) = satisfies chi c.
-Proof. apply eval_rename. Qed.
+Definition satisfies (chi : context) (c : condition) : bool := eval chi c.
 
 (** * Literals of obligations *)
 

@@ -90,7 +90,7 @@ Definition only (triggers held : list name) : context := fun f =>
 
 (** [WHEN t THEN o UNLESS c IN WHICH CASE o'] *)
 Definition one_hedge (l t o c o' : name) : rule :=
-  Rule l t (Truth true) [Do o] [Hedge (Atom c) [Do o']].
+  Rule l t (Truth true) [Do o] [Hedge (Atom (Holds c)) [Do o']].
 
 (** [WHEN t THEN …] *)
 Definition no_hedge (l t : name) (ls : list literal) : rule :=

@@ -70,7 +70,7 @@ Definition relation_open (earlier : trace) (i : instant) (later : trace) (rel : 
   | Until e c p stop d, _ =>
       let ending := And (occurring stop) (situation_of d) in
       implb (begins e c i)
-            (lasts_so_far (begins stop d) (fun j => satisfies (context_of j) p)
+            (lasts_so_far (begins stop d) (fun j => in_state j p)
                           (fun j => can_hold j (Or (situation_of p) ending)) (i :: later))
   | HappenBefore _ _, _ | For _ _ _ _, _ | _, _ :: _ => relation_kept earlier i later rel
   | _, [] => can_hold i (invariant rel)

@@ -23,7 +23,7 @@ Qed.
 Lemma begins_grown e c i i' : grown i i' -> begins e c i = true -> begins e c i' = true.
 Proof.
   intros [_ [C [_ E]]]. unfold begins. rewrite !andb_true_iff. intros [X Y]. split; [apply E, X|].
-  unfold satisfies in *. simpl in *. rewrite C. exact Y.
+  unfold in_state in *. rewrite C. exact Y.
 Qed.
 
 Lemma lasts_prefix over p past now now' later :
@@ -126,14 +126,14 @@ Proof.
     rewrite (begins_grown _ _ _ _ Gi B) in K. simpl in K |- *.
     destruct (Split _ _ Gr) as [now' [rest [G F]]].
     change (lasts (fun j => time i + seconds i length <=? time j)
-                  (fun j => satisfies (context_of j) p) (i :: later) = true).
+                  (fun j => in_state j p) (i :: later) = true).
     change (lasts (fun j => time i' + seconds i' length <=? time j)
-                  (fun j => satisfies (context_of j) p) (i' :: later') = true) in K.
+                  (fun j => in_state j p) (i' :: later') = true) in K.
     assert (L : time i' + seconds i' length = time i + seconds i length).
     { destruct Gi as [T [_ [Le _]]]. rewrite T. destruct length; simpl; rewrite ?Le; reflexivity. }
     rewrite L in K. rewrite F in K. rewrite E. eapply lasts_prefix; [| |exact K].
     + destruct G as [T _]. rewrite T. reflexivity.
-    + destruct G as [_ [C _]]. unfold satisfies. simpl. rewrite C. reflexivity.
+    + destruct G as [_ [C _]]. unfold in_state. rewrite C. reflexivity.
 Qed.
 
 (** * All laws *)

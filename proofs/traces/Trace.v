@@ -152,20 +152,30 @@ Definition rule_kept (r : reading) (u : untimed) (tr : trace) (i : instant) (R :
 
 (** * Relations *)
 
+(** A Boolean combination of conditions; relations mention no events in them. *)
+Definition state := formula name.
+
+Definition situation_of (c : state) : formula fact := rename Holds c.
+
+Definition in_state (i : instant) (c : state) : bool := eval (conditions i) c.
+
+Lemma eval_situation_of i c : eval (context_of i) (situation_of c) = in_state i c.
+Proof. unfold situation_of, in_state. rewrite eval_rename. reflexivity. Qed.
+
 Inductive relation :=
 | Witness (a b : name)
 | Equal (a b : name)
 | MutuallyExclusive (a b : name)
 | HappenBefore (a b : name)
-| Imply (p q : condition)
-| Iff (p q : condition)
-| NotBoth (p q : condition)
-| Invariant (p : condition)
-| Causation (e : name) (p : condition)
-| Includes (e : name) (p : condition)
-| Forbid (e : name) (p : condition)
-| Until (e : name) (c p : condition) (stop : name) (d : condition)
-| For (e : name) (c p : condition) (length : bound)
+| Imply (p q : state)
+| Iff (p q : state)
+| NotBoth (p q : state)
+| Invariant (p : state)
+| Causation (e : name) (p : state)
+| Includes (e : name) (p : state)
+| Forbid (e : name) (p : state)
+| Until (e : name) (c p : state) (stop : name) (d : state)
+| For (e : name) (c p : state) (length : bound)
 | Stated (k : constraint).
 
 Definition occurring (e : name) : formula fact := Atom (Occurs e).
@@ -196,8 +206,8 @@ Fixpoint lasts (over p : instant -> bool) (from : trace) : bool :=
   | i :: later => over i || (p i && lasts over p later)
   end.
 
-Definition begins (e : name) (c : condition) (i : instant) : bool :=
-  events i e && satisfies (context_of i) c.
+Definition begins (e : name) (c : state) (i : instant) : bool :=
+  events i e && in_state i c.
 
 (** A relation is kept at the instant [i] of the trace [earlier ++ i :: later]. *)
 Definition relation_kept (earlier : trace) (i : instant) (later : trace) (rel : relation) : bool :=
@@ -205,11 +215,11 @@ Definition relation_kept (earlier : trace) (i : instant) (later : trace) (rel : 
   | HappenBefore a b => implb (events i b) (existsb (fun j => events j a) earlier)
   | Until e c p stop d =>
       implb (begins e c i)
-            (lasts (begins stop d) (fun j => satisfies (context_of j) p) (i :: later))
+            (lasts (begins stop d) (fun j => in_state j p) (i :: later))
   | For e c p length =>
       implb (begins e c i)
             (lasts (fun j => time i + seconds i length <=? time j)
-                   (fun j => satisfies (context_of j) p) (i :: later))
+                   (fun j => in_state j p) (i :: later))
   | _ => eval (context_of i) (invariant rel)
   end.
 

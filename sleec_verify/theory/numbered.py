@@ -119,7 +119,7 @@ class Numbered:
         return _listed("  ", (self._coq_constraint(constraint) for constraint in self._ruleset.constraints))
 
     def _coq_rule(self, rule: Rule) -> str:
-        guard = self._coq_formula(Truth(True) if rule.guard is None else rule.guard, "{number}")
+        guard = self._coq_formula(Truth(True) if rule.guard is None else rule.guard, "({fact})")
         label, trigger = self._number("rule", rule.label), self._number("trigger", rule.trigger)
         return f"NestedRule {label} {trigger} {guard}\n     {self._coq_chain(rule.default, rule.hedges, ' ' * 6)}"
 
@@ -129,7 +129,7 @@ class Numbered:
             f"{'Avoid' if literal.negated else 'Do'} {abs(self._signed(literal))}" for literal in literals
         )
         members = (
-            f"({self._coq_formula(condition, '{number}')}, {self._coq_chain(*_member(clause), indent + '  ')})"
+            f"({self._coq_formula(condition, '({fact})')}, {self._coq_chain(*_member(clause), indent + '  ')})"
             for condition, clause in inner
         )
         return f"(Chain [{obliged}]{_listed(indent, members)})"

@@ -157,7 +157,7 @@ def _clause(draw: random.Random, condition: Formula | None, depth: int) -> Claus
     )
 
 
-def _formula(draw: random.Random, depth: int, kinds: Sequence[str] = ("condition",)) -> Formula:
+def _formula(draw: random.Random, depth: int, kinds: Sequence[str] = ("condition", "condition", "trigger")) -> Formula:
     shape = draw.randrange(6) if depth else 0
     if shape < 3:
         if draw.random() < 0.04:

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from sleec_runtime.model import Ruleset
+from sleec_runtime.model import Atom, Ruleset, formulas_of, leaves
 from sleec_verify.conformance.rulesets import rulesets
 from sleec_verify.theory.oracle import NoAnswer, answers
 from tests import brute
@@ -41,6 +41,12 @@ ALL = [
 @pytest.mark.parametrize("seed", range(4))
 def test_20_000_random_contexts(oracle: Path, seed: int) -> None:
     assert compare(oracle, random_cases(seed, 5_000)) == 5_000
+
+
+def test_random_guards_and_hedges_name_triggers() -> None:
+    formulas = [f for ruleset, _ in random_cases(0, 500) for rule in ruleset.rules for f in formulas_of(rule)]
+    named = [leaf for formula in formulas for leaf in leaves(formula) if isinstance(leaf, Atom)]
+    assert {"trigger", "condition"} == {atom.kind for atom in named}
 
 
 @pytest.mark.long
@@ -98,6 +104,6 @@ def test_what_is_no_question_is_not_answered(oracle: Path) -> None:
     ):
         with pytest.raises(NoAnswer, match="UNREADABLE"):
             answers(oracle, [line, question])
-    for rules in ("rules", "rules both 0 0 0", f"{line} 0", "rules cascade 1 1 1 1 t 1 1 1 0 0", "at 1 t 1"):
+    for rules in ("rules", "rules both 0 0 0", f"{line} 0", "rules cascade 1 1 1 1 o 1 1 1 0 0", "at 1 t 1"):
         with pytest.raises(NoAnswer, match="UNREADABLE"):
             answers(oracle, [rules])
