@@ -58,7 +58,9 @@ def judge(found: Gated, policy: Policy) -> None:
             found.unknown.append(Block("unknown", path, f"{assertion.text}: {answer}"))
         elif answer is not None:
             what = f"{assertion.text} does not hold"
-            found.blocks.append(_block("assertions", path, what, *_places(answer.deciding), witness=answer.witness))
+            domains = (answer.domain,) if answer.domain else ()
+            places = _places(answer.deciding)
+            found.blocks.append(_block("assertions", path, what, *places, witness=answer.witness, domains=domains))
     found.heeded = policy.unknown
 
 
@@ -99,7 +101,7 @@ def _on_ruleset(one: Examined, policy: Policy) -> Iterator[Block]:
         for change in one.difference.situations:
             if change.way == "removed":
                 what = f"situations that counted before are ruled out: {change.what}"
-                yield _block("ruled-out-situations", one.path, what, witness=change.witness)
+                yield _block("ruled-out-situations", one.path, what, witness=change.witness, domains=change.domains)
     if isinstance(one.certificate, str):
         yield _block("certificates", one.path, one.certificate)
     if policy.clause_coverage is not None and one.coverage is not None and one.coverage.why is None:
@@ -130,10 +132,13 @@ def _block(
     clauses: tuple[ClauseRef, ...] = (),
     obligations: tuple[str, ...] = (),
     witness: Witness | None = None,
+    domains: tuple[str, ...] = (),
 ) -> Block:
     """One that is no finding of a check: it is made one, so that it can be shown beside them."""
     rules = tuple(dict.fromkeys(clause.rule for clause in clauses))
-    made = Finding(policy, policy, "error", what, span, rules, clauses, obligations, witness, related=related)
+    made = Finding(
+        policy, policy, "error", what, span, rules, clauses, obligations, witness, related=related, domains=domains
+    )
     return Block(policy, where, what, made)
 
 
@@ -162,7 +167,9 @@ def _new_conflicts(one: Examined) -> Iterator[Block]:
             names = tuple(sorted({o.name for o in conflict.literals}))
             what = f"{rules} now conflict over {listed(names) if names else 'the situation'}"
             span, related, clauses = _places(conflict.after)
-            yield _block("new-conflicts", one.path, what, span, related, clauses, names, conflict.witness)
+            yield _block(
+                "new-conflicts", one.path, what, span, related, clauses, names, conflict.witness, conflict.domains
+            )
 
 
 def _lost(one: Examined, patterns: tuple[str, ...]) -> Iterator[Block]:

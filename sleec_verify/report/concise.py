@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.outcome import Outcome, Unusable, checked, in_short, one_line
-from sleec_verify.report.words import listed
+from sleec_verify.report.words import in_domains, listed
 
 if TYPE_CHECKING:
     from sleec_verify.report.palette import Palette
@@ -25,7 +25,8 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             source = finding.source or rules
             place = source.place(finding.span)
             label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
-            yield f"{source.path}:{place.line}:{place.column}: {label} {finding.message}"
+            message = f"{finding.message}{in_domains(finding.domains)}"
+            yield f"{source.path}:{place.line}:{place.column}: {label} {message}"
         for name, why in outcome.unlisted:
             yield f"{rules.path}: {palette('note', f'note[{name}]')} {why}"
         for name, why in outcome.undecided:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from sleec_verify.compare.result import by_obligation, relation
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.outcome import counted
-from sleec_verify.report.words import given, in_short, listed, occurring, quoted, value_text
+from sleec_verify.report.words import given, in_domains, in_short, listed, occurring, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
@@ -128,7 +128,7 @@ def _change(found: Difference, change: Change, palette: Palette) -> Iterator[str
     yield f"  {palette('strong', _rule(change))}: {_so(change)}"
     yield f"    {witness_text(change.witness)}:"
     yield from _before_and_after(found, change.before, change.after, palette)
-    yield f"    {extent_text(change.extent)}{_in_domains(change.domains)}"
+    yield f"    {extent_text(change.extent)}{in_domains(change.domains)}"
 
 
 def _rule(change: Change) -> str:
@@ -252,12 +252,6 @@ def _part(part: Part) -> str:
     return names if part.ways == 2 else f"{names} in {part.ways} values"
 
 
-def _in_domains(domains: Sequence[str]) -> str:
-    if not domains:
-        return ""
-    return f"; domain{'' if len(domains) == 1 else 's'} {listed(domains)}"
-
-
 def _conflict(found: Difference, conflict: ConflictChange, palette: Palette) -> Iterator[str]:
     added = conflict.way == "added"
     ruleset = found.new if added else found.old
@@ -268,7 +262,7 @@ def _conflict(found: Difference, conflict: ConflictChange, palette: Palette) -> 
     yield f"  {head}: {_conflicting(conflict)}: {_at_odds(conflict)}{by}"
     yield f"    {witness_text(conflict.witness)}:"
     yield from _before_and_after(found, conflict.before, conflict.after, palette)
-    yield f"    {extent_text(conflict.extent)}{_in_domains(conflict.domains)}"
+    yield f"    {extent_text(conflict.extent)}{in_domains(conflict.domains)}"
 
 
 def _at_odds(conflict: ConflictChange) -> str:
@@ -292,7 +286,7 @@ def _situation(one: SituationChange, palette: Palette) -> Iterator[str]:
         occurs = f"when {occurring(one.witness.triggers)}" if one.witness.triggers else ""
         facts = ", ".join(part for part in (occurs, *given(one.witness.conditions)) if part) or "any situation"
         yield f"    {word}, among others: {facts}"
-        yield f"    {extent_text(one.extent)}{_in_domains(one.domains)}"
+        yield f"    {extent_text(one.extent)}{in_domains(one.domains)}"
 
 
 def _names(found: Difference, palette: Palette) -> Iterator[str]:
@@ -327,7 +321,7 @@ def on_assertions(asked: Sequence[Asked], palette: Palette) -> Iterator[str]:
             yield f"{palette('good', 'holds')}: {assertion.text} ({path})"
         elif isinstance(answer, Broken):
             yield f"{palette('error', 'broken')}: {assertion.text} ({path})"
-            yield f"  {witness_text(answer.witness)}{_in_domains((answer.domain,) if answer.domain else ())}:"
+            yield f"  {witness_text(answer.witness)}{in_domains((answer.domain,) if answer.domain else ())}:"
             lines = [f"{_due(one)}, by {_clause(one)} ({_place(ruleset.source, one.span)})" for one in answer.deciding]
             yield from (f"    {line}" for line in lines or ["no rule says anything"])
         else:
@@ -359,7 +353,8 @@ def _concise(report: Report, palette: Palette) -> Iterator[str]:
             at_odds = ", ".join(map(str, conflict.literals)) or "constraints"
             yield f"{path}: {sign} {at_odds} {_short_cause(conflict)}"
         for situation in found.situations:
-            yield f"{path}: {'+' if situation.way == 'added' else '-'} situations: {situation.what}"
+            sign = "+" if situation.way == "added" else "-"
+            yield f"{path}: {sign} situations: {situation.what}{in_domains(situation.domains)}"
         for way, kind, name in found.names:
             yield f"{path}: {'+' if way == 'added' else '-'} {kind} {name}"
         for what, why in found.undecided:
@@ -368,7 +363,8 @@ def _concise(report: Report, palette: Palette) -> Iterator[str]:
     for assertion, ruleset, answer in report.asked:
         if isinstance(answer, Broken):
             broken = f"{palette('error', 'broken')} {assertion.text}"
-            yield f"{ruleset.source.path}: {broken}: {_short_witness(answer.witness)}"
+            where = in_domains((answer.domain,) if answer.domain else ())
+            yield f"{ruleset.source.path}: {broken}: {_short_witness(answer.witness)}{where}"
         elif answer is not None:
             yield f"{ruleset.source.path}: {palette('unknown', 'unknown')} {assertion.text}: {answer}"
     if len(report.compared) + report.unchanged > 1:
@@ -377,7 +373,7 @@ def _concise(report: Report, palette: Palette) -> Iterator[str]:
 
 def _short_cause(one: Change | ConflictChange) -> str:
     count = "" if one.extent.affected is None else f" ({one.extent.affected:,}/{one.extent.possible:,})"
-    return f"[{'/'.join(one.rules)}] {_short_witness(one.witness)}{count}"
+    return f"[{'/'.join(one.rules)}] {_short_witness(one.witness)}{count}{in_domains(one.domains)}"
 
 
 def _short_witness(witness: Witness) -> str:

@@ -10,7 +10,7 @@ from sleec_verify.report.difference import WORDS, change_in_words, conflict_in_w
 from sleec_verify.report.escape import as_line, as_text
 from sleec_verify.report.outcome import counted, one_line
 from sleec_verify.report.told import told_once
-from sleec_verify.report.words import in_short, listed
+from sleec_verify.report.words import in_domains, in_short, listed
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
@@ -97,12 +97,17 @@ def _errors(found: Gated) -> list[tuple[str, SleecError]]:
 
 
 def _line(block: Block) -> str:
-    return f"{block.policy}: {block.where}: {block.what}"
+    return f"{block.policy}: {block.where}: {_what(block)}"
+
+
+def _what(block: Block) -> str:
+    return block.what if block.finding is None else f"{block.what}{in_domains(block.finding.domains)}"
 
 
 def _set_aside(one: Examined, palette: Palette) -> Iterator[str]:
     for finding, suppression in one.allowed:
-        what = f"{finding.code} {finding.message}, because {suppression.reason}"
+        message = f"{finding.message}{in_domains(finding.domains)}"
+        what = f"{finding.code} {message}, because {suppression.reason}"
         yield f"{one.path}: {palette('faint', 'allowed')}: {what}"
     if one.known:
         yield f"{one.path}: {palette('faint', 'baseline')}: {counted(len(one.known), 'finding')} that the baseline has"
@@ -147,7 +152,7 @@ def _markdown(found: Gated) -> Iterator[str]:
     for title, blocks in lists:
         if blocks:
             yield from ("", f"### {title}", "")
-            lines = [f"- **{block.policy}**, {_code(block.where)}: {_plain(block.what)}" for block in blocks]
+            lines = [f"- **{block.policy}**, {_code(block.where)}: {_plain(_what(block))}" for block in blocks]
             yield from _cut(lines, "reason")
     if found.unusable:
         yield from ("", "### What cannot be read", "")
@@ -195,7 +200,7 @@ def _changes(difference: Difference) -> Iterator[str]:
 
 def _change(head: str, one: Change | ConflictChange) -> str:
     lines = (
-        f"- {head}, {_plain(extent_text(one.extent))}",
+        f"- {head}, {_plain(extent_text(one.extent))}{_plain(in_domains(one.domains))}",
         f"  {_plain(witness_text(one.witness))}:",
         f"  before {_deciding(one.before)}; after {_deciding(one.after)}",
     )

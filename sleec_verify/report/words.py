@@ -16,6 +16,11 @@ def listed(names: Iterable[str]) -> str:
     return f"{', '.join(most)} and {last}" if most else last
 
 
+def in_domains(domains: Sequence[str]) -> str:
+    """``; domain home``, ``; domains home and ward``; nothing for rules without domains."""
+    return f"; domain{'' if len(domains) == 1 else 's'} {listed(domains)}" if domains else ""
+
+
 def value_text(value: Value) -> str:
     """A value as the language writes it; a fraction that is no finite decimal as ``1/3``."""
     if isinstance(value, bool):
