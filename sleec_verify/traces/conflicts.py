@@ -17,19 +17,12 @@ from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import minimal_rules, weakest, without_slots
 from sleec_verify.traces.histories import Histories, Moment
 from sleec_verify.traces.index import Index
+from sleec_verify.traces.refinement import Refinement
 from sleec_verify.traces.situations import Fact, Situations
-from sleec_verify.traces.templates import Defeat, Template, template_of
 from sleec_verify.traces.witness import needed_relations, needed_values
-
-MOST_COPIES = 8
-"""Slots for responses that need several. Published rulesets need one."""
 
 MOST_UNDECIDED = 4
 """Situations that may stay undecided while the search for other conflicts goes on."""
-
-MOST_TEMPLATES = 400
-"""Templates after which the search gives up."""
-
 
 LATER = -1
 """The clause of a rule that the response triggers at an instant to come."""
@@ -62,57 +55,34 @@ class ConflictSearch:
 
     def __init__(self, index: Index) -> None:
         self._index = index
-        self._templates: list[Template] = []
         self._found: list[Conflict] = []
         self._undecided: list[Undecided] = []
-        self._begin(1)
-
-    def _begin(self, copies: int) -> None:
-        self._copies = copies
-        self._needs_all = False
-        self._situations = Situations(self._index, copies)
-        self._defeat = Defeat(self._situations)
-        self._present: dict[Pair, int] = {}
-        self._counting: dict[int, Template] = {}
-        for template in self._templates or [Template()]:
-            self._add(template)
-        for conflict in self._found:
-            self._exclude_pairs(conflict.pairs)
-
-    def _add(self, template: Template) -> None:
-        if template not in self._templates:
-            self._templates.append(template)
-        self._counting[self._defeat.add(template)] = template
+        self._situations = Situations(index)
+        self._refinement = Refinement(self._situations)
 
     def find(self) -> Iterator[Conflict]:
         """Every minimal conflict, by its pairs; none whose pairs contain those of another one found before.
 
         Raises Undecided where that is all that could be decided.
         """
-        while True:
-            without_history = [-slot.active for slot in self._situations.slots]
-            without_history += [-active for _, active, _ in self._situations.lasting.values()]
-            # Situations without a history make the plainest witnesses.
-            for assumed in (without_history, []):
-                while self._situations.find(*assumed, *self._counting):
-                    try:
-                        conflict = self._look()
-                    except Undecided as error:
-                        self._leave_open(error)
-                        continue
-                    if conflict is not None:
-                        self._found.append(conflict)
-                        self._exclude_pairs(conflict.pairs)
-                        yield conflict
-            if self._undecided:
-                raise self._undecided[0]
-            # Each template fails because of one pending demand, so that as many copies are enough to defeat all.
-            needed = len(self._situations.core & self._counting.keys())
-            if self._situations.is_exact or (needed <= self._copies and not self._needs_all):
-                return
-            if self._copies >= MOST_COPIES:
-                raise Undecided(f"no conflict with {self._copies} pending triggerings of one response")
-            self._begin(min(MOST_COPIES, max(needed, self._copies + 1)))
+        while self._refinement.propose():
+            yield from self._examine()
+        if self._undecided:
+            raise self._undecided[0]
+
+    def _examine(self) -> Iterator[Conflict]:
+        """The conflict in the situation proposed, unless that is none."""
+        try:
+            conflict = self._look()
+        except Undecided as error:
+            self._leave_open(error)
+            return
+        if conflict is not None:
+            self._found.append(conflict)
+            self._situations.exclude_pairs(
+                (pair.rule, None if pair.clause == LATER else pair.clause) for pair in conflict.pairs
+            )
+            yield conflict
 
     def _leave_open(self, error: Undecided) -> None:
         """Go on without the situations of the same rules, inputs and slots as the one that was not decided."""
@@ -130,10 +100,7 @@ class ConflictSearch:
         rules = [str(fact[1]) for fact in facts if fact[0] == "rule"]
         continuations = Continuations(s, facts)
         if continuations.complies(rules):
-            template = template_of(continuations, from_now=not s.is_exact)
-            if template in self._templates or len(self._templates) >= MOST_TEMPLATES:
-                raise Undecided(f"no answer after {len(self._templates)} continuations")
-            self._add(template)
+            self._refinement.learn(continuations)
             return None
         return self._stuck(continuations, rules, facts)
 
@@ -230,8 +197,7 @@ class ConflictSearch:
             if not histories.exist():
                 others = [slot for n, slot in enumerate(s.slots) if slot.rule.label in rules and n not in own]
                 needed = [*weakest(histories, histories.refuted(), s), *(("rule", label, True) for label in rules)]
-                s.add([*(-s.literal(fact) for fact in needed), *(slot.active for slot in others)])
-                self._needs_all = True
+                s.add([*(-s.literal(fact) for fact in needed), *(slot.active for slot in others), s.more])
                 return None
         moments, time = histories.history()
         left_out = [fact for fact in continuations.facts if fact not in core and fact[0] != "state"]
@@ -289,17 +255,3 @@ class ConflictSearch:
         others = [label for label in rules if label != rule.label]
         event = continuations.model.instants[continuations.now].event(rule.trigger)
         return not continuations.complies(others, (), -event)
-
-    def _exclude_pairs(self, pairs: tuple[Pair, ...]) -> None:
-        """No further situation has all these pairs."""
-        s = self._situations
-        for pair in pairs:
-            if pair not in self._present:
-                present = self._present[pair] = s.formula.fresh()
-                selected = s.selected[pair.rule]
-                decides = s.true if pair.clause == LATER else s.guards[pair.rule][pair.clause]
-                s.add([-selected, -decides, present])
-                for slot in s.slots:
-                    if (slot.rule.label, slot.pending.number) == pair:
-                        s.add([-selected, -slot.active, present])
-        s.add([-self._present[pair] for pair in pairs])

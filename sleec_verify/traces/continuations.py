@@ -8,8 +8,9 @@ from sleec_runtime.model import Clause, Obligation
 from sleec_runtime.model_time import Lasting
 from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
 from sleec_verify.traces.induction import InductiveModel
+from sleec_verify.traces.pending import Slot
 from sleec_verify.traces.relations import relation_key
-from sleec_verify.traces.situations import Fact, Situations, Slot, state_formulas
+from sleec_verify.traces.situations import Fact, Situations, state_formulas
 
 
 class _Contested(InductiveModel):
@@ -36,7 +37,9 @@ class Continuations:
             self.nodes[situations.slots[number].node] = model.node()
         self._active = {str(fact[1]): model.formula.fresh() for fact in facts if fact[0] == "lasts" and fact[-1]}
         for key in self._active:
-            self.nodes[situations.lasting[key][2]] = model.node()
+            law, _, node = situations.lasting[key]
+            if law.duration is not None:
+                self.nodes[node] = model.node()
         occurred = {event: model.formula.fresh() for event in situations.occurred}
         model.occurred = lambda event: occurred.get(event, -model.formula.true)
         for key in self._active:

@@ -60,7 +60,7 @@ def weakest(question: Question, core: Collection[Fact], situations: Situations) 
     """Facts that imply less than those of a core, and are still refuted: as few as can be besides the rules, and the
     bounds on times as weak as can be. It stops where that is not decided."""
     facts = list(core)
-    with _as_far_as_decided():
+    with as_far_as_decided():
         for fact in [fact for fact in core if fact[0] not in ("rule", "gap")]:
             nodes = situations.nodes_of(fact)
             less = [f for f in facts if f != fact and not (f[0] == "gap" and nodes & {*f[1:3]})]
@@ -80,7 +80,8 @@ def weakest(question: Question, core: Collection[Fact], situations: Situations) 
 
 
 @contextmanager
-def _as_far_as_decided() -> Iterator[None]:
+def as_far_as_decided() -> Iterator[None]:
+    """Leave what is inside where a question is not decided, unless the budget is spent."""
     try:
         yield
     except OutOfBudget:

@@ -169,9 +169,7 @@ def simplified(demand: Demand, values: dict[int, bool]) -> Demand:
             parts += simple.parts
         else:
             parts.append(simple)
-    if len(parts) == 1:
-        return parts[0]
-    return Every(tuple(parts)) if isinstance(demand, Every) else Some(tuple(parts))
+    return _joined(tuple(parts), every=isinstance(demand, Every))
 
 
 def seconds(length: Length) -> Rational:
@@ -188,9 +186,31 @@ def last_second(length: Length) -> int:
 
 
 def _joined(parts: tuple[Demand, ...], every: bool) -> Demand:
-    if len(parts) == 1:
-        return parts[0]
-    return Every(parts) if every else Some(parts)
+    """All of some demands, or one of them. Where an event shall occur in one of two windows, or in neither, and the
+    windows overlap, they are one."""
+    joined: list[Demand] = []
+    for part in parts:
+        for place, other in enumerate(joined):
+            union = _union(part, other) if isinstance(part, Occurs) and isinstance(other, Occurs) else None
+            if union is not None and union.negated == every:
+                joined[place] = union
+                break
+        else:
+            joined.append(part)
+    if len(joined) == 1:
+        return joined[0]
+    return Every(tuple(joined)) if every else Some(tuple(joined))
+
+
+def _union(one: Occurs, other: Occurs) -> Occurs | None:
+    """The atom with the windows of two, if they are of one event and leave no gap."""
+    if (one.event, one.negated) != (other.event, other.negated) or one.start is None or other.start is None:
+        return None
+    first, second = (one, other) if one.start <= other.start else (other, one)
+    assert second.start is not None
+    if first.end is None or (second.end is not None and second.end <= first.end):
+        return first
+    return first._replace(end=second.end) if second.start <= first.end + 1 else None
 
 
 def occurrences(demand: Demand) -> Iterator[Occurs]:

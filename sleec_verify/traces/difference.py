@@ -109,22 +109,36 @@ class Differences:
         return [[-literal for literal in self._weakened(cycle)] for cycle in cycles]
 
     def schedule(
-        self, holds: Callable[[int], bool], used: Sequence[int]
+        self, holds: Callable[[int], bool], used: Sequence[int], fixed: int | None = None
     ) -> tuple[dict[int, int], dict[int, tuple[int, int]]]:
         """The earliest times, from 0 on, that a model allows, and for each node that cannot be earlier because of
-        another one: ``(the other node, the seconds after it)``. The model is one that `refused` accepts."""
-        earliest = dict.fromkeys(used, 0)
+        another one: ``(the other node, the seconds after it)``. With a node `fixed`, the latest times with that node at
+        the same time; what has none is late. The model is one that `refused` accepts."""
+        times = dict.fromkeys(used, 0)
         waits: dict[int, tuple[int, int]] = {}
         edges = list(self._edges(holds, used))
         changed = True
         while changed:
             changed = False
             for edge in edges:
-                if earliest[edge.target] - edge.length > earliest[edge.source]:
-                    earliest[edge.source] = earliest[edge.target] - edge.length
+                if times[edge.target] - edge.length > times[edge.source]:
+                    times[edge.source] = times[edge.target] - edge.length
                     waits[edge.source] = (edge.target, -edge.length)
                     changed = True
-        return earliest, waits
+        if fixed is None:
+            return times, waits
+        now, waits = times[fixed], {}
+        times = dict.fromkeys(used, 2 * max(times.values()) + 1)
+        times[fixed] = now
+        changed = True
+        while changed:
+            changed = False
+            for edge in edges:
+                if times[edge.source] + edge.length < times[edge.target]:
+                    times[edge.target] = times[edge.source] + edge.length
+                    waits[edge.target] = (edge.source, edge.length)
+                    changed = True
+        return times, waits
 
 
 _Edges = Mapping[int, Mapping[int, _Edge]]

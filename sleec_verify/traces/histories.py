@@ -13,7 +13,8 @@ from sleec_runtime.model import Rule, Value
 from sleec_runtime.model_time import Lasting
 from sleec_verify.traces.demands import Demand, Every, Occurs
 from sleec_verify.traces.model import TraceModel
-from sleec_verify.traces.situations import Fact, Situations, Slot
+from sleec_verify.traces.pending import Slot
+from sleec_verify.traces.situations import Fact, Situations
 
 
 class Moment(NamedTuple):
@@ -155,7 +156,7 @@ class Histories(TraceModel):
         for node, slot in self._slots.items():
             if (slot.rule.label, slot.pending.number) == (rule.label, number):
                 found.append(self.formula.every(self.times.within(node, at, 0, 0)))
-                if slot.is_dominant and slot.demand == demand and isinstance(demand, Occurs):
+                if slot.pending.is_dominant and slot.demand == demand and isinstance(demand, Occurs):
                     earlier, later = (at, node) if demand.negated else (node, at)
                     found.append(self.times.at_most(later, earlier, 0))
         return found

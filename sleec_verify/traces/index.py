@@ -45,6 +45,8 @@ class Index:
         self.untimed = untimed
         self.recorder = recorder
         self.responses = Responses(untimed)
+        self.impossible: dict[frozenset[str], frozenset[str]] = {}
+        """The events that never occur, by the rules and relations that count (`sleec_verify.traces.induction`)."""
 
     @cached_property
     def relations(self) -> list[Relation]:

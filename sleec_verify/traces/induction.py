@@ -34,21 +34,30 @@ class InductiveModel(TraceModel):
         literal = self._induction.get(counting)
         if literal is None:
             literal = self._induction[counting] = self.formula.fresh()
-            for event in sorted(impossible_events(self.index, counting)):
+            for event in sorted(self._impossible(counting)):
                 self.exclude(literal, event)
         return literal
+
+    def _impossible(self, counting: frozenset[str]) -> frozenset[str]:
+        known = self.index.impossible
+        if counting not in known:
+            # With fewer rules and relations, no more is impossible.
+            more = [events for others, events in known.items() if counting < others]
+            among = frozenset.intersection(*more) if more else {*self.index.by_trigger, *self.index.relations_of_event}
+            known[counting] = impossible_events(self.index, counting, among)
+        return known[counting]
 
     def matter(self) -> list[str]:
         # That an event is impossible rests on all of them.
         return super().matter() if self.core.isdisjoint(self._induction.values()) else sorted(self._counting)
 
 
-def impossible_events(index: Index, counting: Collection[str]) -> frozenset[str]:
+def impossible_events(index: Index, counting: Collection[str], among: Collection[str]) -> frozenset[str]:
     """The largest set of events of which each occurrence requires a later one, by the rules and relations `counting`,
     as far as that is decided. At most quadratic in the number of events."""
-    left = {*index.by_trigger, *index.relations_of_event}
+    left = set(among)
     while left:
-        possible = {event for event in left if _can_be_last(index, counting, event, left)}
+        possible = {event for event in sorted(left) if _can_be_last(index, counting, event, left)}
         if not possible:
             break
         left -= possible

@@ -1,27 +1,25 @@
 """Situations as an abstract state: what a history leaves pending, and the inputs and measures of now.
 
 The state has *slots*. A slot is one pending demand: a response of a clause that decided before now and that the events
-so far have neither met nor broken. For a response with a single window that opens at its trigger, one slot is enough:
-the earliest deadline implies all later ones, and the latest end of a prohibition implies all earlier ones (dominance,
-proved in Coq: proofs/traces). Other responses have `copies` slots each.
+so far have neither met nor broken. Responses of which one pending demand does not imply the others get more slots when
+a refutation needs them (`add_copies`).
 
 Nothing here says that a lawful history leads to the state: `sleec_verify.traces.histories` decides that.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator
 
-from sleec_runtime.model import Atom, Obligation, Rule, formulas_of, leaves
+from sleec_runtime.model import Atom, formulas_of, leaves
 from sleec_runtime.model import Formula as Condition
 from sleec_runtime.model_time import EventRelation, Lasting
 from sleec_verify.solver import MiniSat, Undecided
-from sleec_verify.traces.demands import Demand, Every, Occurs, last_second, occurrences
+from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
 from sleec_verify.traces.difference import Differences
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.instant import Formula, Instant
+from sleec_verify.traces.pending import Pending, Slot, alternatives, pending_of
 from sleec_verify.traces.relations import formulas_of_relation, relation_key
 
 Fact = tuple[object, ...]
@@ -30,42 +28,10 @@ Fact = tuple[object, ...]
 seconds after node a), ``("occurred", event)`` or ``("lasts", key)``."""
 
 
-class Pending(NamedTuple):
-    """What a history can leave pending: the `demand` of a response of clause `number` of a rule, where the chains of
-    hedges inside the response decide as in one of `choices`."""
-
-    rule: Rule
-    number: int
-    obligation: Obligation
-    demand: Demand
-    choices: tuple[tuple[int, ...], ...]
-
-
-@dataclass(frozen=True)
-class Slot:
-    """A pending demand, triggered at the time `node`.
-
-    `came` says of atoms of the demand that the event came about in their windows before now."""
-
-    pending: Pending
-    node: int
-    active: int
-    is_dominant: bool
-    came: dict[Occurs, int] = field(default_factory=dict)
-
-    @property
-    def rule(self) -> Rule:
-        return self.pending.rule
-
-    @property
-    def demand(self) -> Demand:
-        return self.pending.demand
-
-
 class Situations:
     """The formula of all abstract states of a component."""
 
-    def __init__(self, index: Index, copies: int) -> None:
+    def __init__(self, index: Index) -> None:
         self.index = index
         self.reading = index.ruleset.reading
         self.formula = Formula()
@@ -84,27 +50,30 @@ class Situations:
         self.selected = {rule.label: self.formula.fresh() for rule in index.ruleset.rules}
         self.inputs = {event: self.formula.fresh() for event in sorted(index.by_trigger)}
         self.guards = {rule.label: self.instant.guards(rule, self.reading, self.true) for rule in index.ruleset.rules}
-        self.slots: list[Slot] = []
-        self.is_exact = True
-        """Whether the slots can hold all that any history leaves pending."""
         self.occurred = {
             law.left: self.formula.fresh()
             for law in index.relations
             if isinstance(law, EventRelation) and law.relation == "happenBefore"
         }
+        self.active: dict[int, int] = {self.now: self.true}
+        """For a node, the literal that something of this time is pending."""
         self.lasting = {
             relation_key(law): (law, self.formula.fresh(), self._node())
             for law in index.relations
             if isinstance(law, Lasting)
         }
         for law, active, node in self.lasting.values():
-            if law.duration is not None:
-                self._pending_since(node, active, last_second(law.duration))
-        for rule in index.ruleset.rules:
-            for number, clause in enumerate(rule.clauses()):
-                for obligation in index.contested(clause):
-                    for demand, choices in index.responses.variants(obligation):
-                        self._add_slots(Pending(rule, number, obligation, demand, tuple(choices)), copies)
+            self._pending_since(node, active, None if law.duration is None else last_second(law.duration))
+        self._present: dict[tuple[str, int], int] = {}
+        self.slots: list[Slot] = []
+        self.several: list[Pending] = []
+        """Responses of which a history can leave several demands, none of which implies the others."""
+        self.more = self.formula.fresh()
+        """The literal "a slot that is not there yet is active"."""
+        for pending in pending_of(index):
+            self._add_slot(pending)
+            if not pending.is_single:
+                self.several.append(pending)
         self._require_inputs()
 
     def _node(self) -> int:
@@ -113,37 +82,37 @@ class Situations:
 
     # Slots ----------------------------------------------------------------------------------------------------
 
-    def _add_slots(self, pending: Pending, copies: int) -> None:
-        demand = pending.demand
-        leaves = list(dict.fromkeys(occurrences(demand)))
-        if not any(leaf.end is None or leaf.end > 0 for leaf in leaves):
-            return
-        dominant = isinstance(demand, Occurs) and (demand.start is None or demand.start <= 1)
-        previous: Slot | None = None
-        enough = 1 if dominant else _most_pending(leaves)
-        self.is_exact &= enough <= copies
-        for _ in range(min(enough, copies)):
-            slot = Slot(pending, self._node(), self.formula.fresh(), dominant)
-            ends = [leaf.end for leaf in leaves]
-            last = None if None in ends else max(end for end in ends if end is not None)
-            self._pending_since(slot.node, slot.active, last)
-            self._add_flags(slot)
-            self.slots.append(slot)
-            if previous is not None:
-                # The copies are interchangeable: the earlier trigger comes first.
-                self.add([-slot.active, previous.active])
-                self.add([-slot.active, self.times.before(previous.node, slot.node)])
-            previous = slot
+    def add_copies(self, number: int) -> list[Slot]:
+        """So many further slots for each response of which a history can leave several demands."""
+        more, self.more = self.more, self.formula.fresh()
+        added = [self._add_slot(pending) for pending in self.several for _ in range(number)]
+        self.add([-more, *(slot.active for slot in added), self.more])
+        return added
+
+    def _add_slot(self, pending: Pending) -> Slot:
+        slot = Slot(pending, self._node(), self.formula.fresh())
+        self._pending_since(slot.node, slot.active, pending.last)
+        self._add_flags(slot)
+        self.slots.append(slot)
+        selected = self.selected[slot.rule.label]
+        allowed = self._allows_inputs(slot, slot.demand)
+        if allowed != self.true:
+            self.add([-slot.active, -selected, allowed])
+        present = self._present.get((slot.rule.label, pending.number))
+        if present is not None:
+            self.add([-selected, -slot.active, present])
+        return slot
 
     def _pending_since(self, node: int, active: int, last: int | None) -> None:
+        self.active[node] = active
         self.add([-active, self.times.before(node, self.now)])
         if last is not None:
             self.add([-active, self.times.at_most(node, self.now, last)])
 
     def _add_flags(self, slot: Slot) -> None:
         """Which atoms came about before now is open, except where the demand would be decided by it."""
-        decisive = set(_alternatives(slot.demand))
-        for leaf in dict.fromkeys(occurrences(slot.demand)):
+        decisive = set(alternatives(slot.demand))
+        for leaf in slot.pending.atoms:
             if (leaf in decisive and not leaf.negated) or (leaf == slot.demand):
                 slot.came[leaf] = -self.true
                 continue
@@ -176,10 +145,6 @@ class Situations:
                 speaks = self.formula.any_of(self.guards[rule.label])
                 decides.append(self.formula.every([given, self.selected[rule.label], speaks]))
         self.add(decides)
-        for slot in self.slots:
-            allowed = self._allows_inputs(slot, slot.demand)
-            if allowed != self.true:
-                self.add([-slot.active, -self.selected[slot.rule.label], allowed])
 
     def _allows_inputs(self, slot: Slot, demand: Demand) -> int:
         """A literal that implies that no input breaks what a slot forbids now."""
@@ -228,6 +193,24 @@ class Situations:
         """No further situation has all these facts."""
         self.add([-self.literal(fact) for fact in facts])
 
+    def exclude_pairs(self, pairs: Iterable[tuple[str, int | None]]) -> None:
+        """No further situation has all these rules, with their clauses that decide now or decided what is pending; None
+        is any."""
+        present = []
+        for label, number in pairs:
+            selected = self.selected[label]
+            if number is None:
+                present.append(selected)
+                continue
+            if (label, number) not in self._present:
+                literal = self._present[label, number] = self.formula.fresh()
+                self.add([-selected, -self.guards[label][number], literal])
+                for slot in self.slots:
+                    if (slot.rule.label, slot.pending.number) == (label, number):
+                        self.add([-selected, -slot.active, literal])
+            present.append(self._present[label, number])
+        self.add([-literal for literal in present])
+
     def facts(self) -> list[Fact]:
         """The facts of the situation of the last `find`, without what no slot or rule depends on."""
         times, _ = self.times.schedule(self.holds, self._used())
@@ -252,9 +235,7 @@ class Situations:
         return [("gap", node, self.now, age, True), ("gap", self.now, node, -age, True)]
 
     def _used(self) -> list[int]:
-        nodes = [slot.node for slot in self.slots if self.holds(slot.active)]
-        nodes += [node for law, active, node in self.lasting.values() if self.holds(active)]
-        return [self.now, *nodes]
+        return [node for node, active in self.active.items() if self.holds(active)]
 
     # Solving --------------------------------------------------------------------------------------------------
 
@@ -280,25 +261,18 @@ class Situations:
                 return True
             self.formula.clauses += refused
 
+    def find_least(self, *assumed: int) -> bool:
+        """As `find`; as few slots as can be are active."""
+        if not self.find(*assumed):
+            return False
+        inactive = [-slot.active for slot in self.slots if not self.holds(slot.active)]
+        for active in [slot.active for slot in self.slots if self.holds(slot.active)]:
+            if self.find(*assumed, *inactive, -active):
+                inactive.append(-active)
+        return self.find(*assumed, *inactive)
+
     def holds(self, literal: int) -> bool:
         return self._solver.holds(literal)
-
-
-def _most_pending(leaves: list[Occurs]) -> int:
-    """How many triggerings of one response can leave different demands. There is one for each second until the last
-    bound of a window; after that, those without end differ in what came about only."""
-    last = max(bound for leaf in leaves for bound in (leaf.start or 0, leaf.end or 0))
-    endless = sum(leaf.end is None for leaf in leaves)
-    return last + (2**endless if endless else 0)
-
-
-def _alternatives(demand: Demand) -> Iterator[Occurs]:
-    """The atoms each of which meets a demand by itself."""
-    if isinstance(demand, Occurs):
-        yield demand
-    elif not isinstance(demand, (int, Every)):
-        for part in demand.parts:
-            yield from _alternatives(part)
 
 
 def state_formulas(index: Index) -> Iterator[Condition]:

@@ -74,6 +74,7 @@ class Unrolling(ABC):
         self._solver = MiniSat()
         self._sent = 0
         self._core: set[int] = set()
+        self._asked: tuple[Sequence[int], Collection[str] | None] = (), None
 
     def node(self) -> int:
         """A new time, without an instant."""
@@ -156,6 +157,7 @@ class Unrolling(ABC):
 
         Raises Undecided where the solver gives up, or the trace needs more instants than are tried.
         """
+        self._asked = required, counting
         while True:
             if self._solve(required, counting, closed=True):
                 return True
@@ -164,6 +166,18 @@ class Unrolling(ABC):
             if not self._solve(required, counting, closed=False):
                 return False
             self._grow()
+
+    def reduce(self) -> None:
+        """Leave instants and events out of the trace of the last `ask` as far as it does not need them."""
+        required, counting = self._asked
+        spare: list[int] = []
+        instants = [instant.used for instant in self.instants.values()]
+        events = [literal for instant in self.instants.values() for literal in instant.events().values()]
+        for literal in [*instants, *events]:
+            if self.true(literal) and self._solve([*required, *spare, -literal], counting, closed=True):
+                spare.append(-literal)
+        found = self._solve([*required, *spare], counting, closed=True)
+        assert found, "the trace is left"
 
     def _grow(self) -> None:
         """Add an instant for each event that the model leaves to instants to come: one may serve several needs."""
@@ -262,6 +276,7 @@ class Unrolling(ABC):
         """The events of an instant of the trace of the last `ask`."""
         return frozenset(name for name, literal in self.instants[at].events().items() if self.true(literal))
 
-    def schedule(self) -> tuple[dict[int, int], dict[int, tuple[int, int]]]:
-        """The earliest times of the trace of the last `ask`, and what each node waits for."""
-        return self.times.schedule(self.true, self.used())
+    def schedule(self, fixed: int | None = None) -> tuple[dict[int, int], dict[int, tuple[int, int]]]:
+        """The earliest times of the trace of the last `ask`, and what each node waits for. With a node `fixed`, the
+        latest ones."""
+        return self.times.schedule(self.true, self.used(), fixed)

@@ -8,6 +8,7 @@ from sleec_runtime.model import Value, names_of
 from sleec_verify.cnf import Key
 from sleec_verify.solver import MiniSat
 from sleec_verify.traces.continuations import Continuations
+from sleec_verify.traces.cores import as_far_as_decided
 from sleec_verify.traces.instant import Formula, Instant
 from sleec_verify.traces.relations import formulas_of_relation
 from sleec_verify.traces.situations import Fact, Situations
@@ -20,8 +21,9 @@ def needed_relations(continuations: Continuations, rules: Collection[str], but: 
     kept = continuations.relations_in_core()
     for key in list(kept):
         less = [other for other in kept if other != key]
-        if not continuations.complies(rules, but, relations=less):
-            kept = less
+        with as_far_as_decided():
+            if not continuations.complies(rules, but, relations=less):
+                kept = less
     return tuple(kept)
 
 
@@ -56,8 +58,9 @@ def needed_values(
             less = kept - {name}
             left_out = [fact for fact in facts if not named[fact] <= less]
             still = [literal for fact, literal in literals.items() if fact not in left_out]
-            if solver.solve(still) is False and not continuations.complies(rules, [*but, *left_out]):
-                kept = less
+            with as_far_as_decided():
+                if solver.solve(still) is False and not continuations.complies(rules, [*but, *left_out]):
+                    kept = less
     return {name: value for name, value in values.items() if name in _closed(situations, kept, values)}
 
 

@@ -114,6 +114,24 @@ def test_a_conflict_does_not_hide_behind_inputs_of_other_rules(unit: str) -> Non
     assert rules_of(text) >= {frozenset({"R2", "R3"}), frozenset({"R5", "R6"})}
 
 
+@pytest.mark.parametrize("unit", ["seconds", "minutes", "hours", "days"])
+@pytest.mark.parametrize("tail", ["", " otherwise Y", " otherwise X"])
+def test_any_number_of_pending_demands_of_one_response(unit: str, tail: str) -> None:
+    """Each of any number of pending triggerings is met at a time of its own, however long the windows are."""
+    text = dsl(
+        f"A then X within [3,11] {unit}{tail}",
+        f"B then not X within 2 {unit}",
+        "C then X unless {b0} then not Y",
+        f"D then Y within [4,9] {unit}",
+    )
+    found = rules_of(text)
+    assert frozenset({"R2", "R3"}) in found
+    assert frozenset({"R3", "R4"}) in found
+    assert (frozenset({"R1", "R2"}) in found) == (tail != " otherwise Y")
+    if not tail:
+        assert found == {frozenset(pair) for pair in ({"R2", "R3"}, {"R3", "R4"}, {"R1", "R2"})}
+
+
 def assert_agrees(text: str, smallest: set[frozenset[str]], every: set[frozenset[str]]) -> bool:
     """The engine finds each smallest set and none that is not one; returns whether it decided everything."""
     found, reason = conflicts_of(text)
@@ -134,12 +152,12 @@ def examples(first: int, last: int) -> int:
 
 
 def test_examples_of_an_exact_automaton() -> None:
-    assert examples(10, 60) <= 5
+    assert examples(10, 60) <= 3
 
 
 @pytest.mark.long
 def test_all_examples_of_an_exact_automaton() -> None:
-    assert examples(0, 150) <= 15
+    assert examples(0, 150) <= 8
 
 
 RELATIONS = (
@@ -197,12 +215,12 @@ def agreement(seeds: range) -> int:
 
 
 def test_agreement_with_explicit_states() -> None:
-    assert agreement(range(60)) <= 3
+    assert agreement(range(60)) <= 1
 
 
 @pytest.mark.long
 def test_long_agreement_with_explicit_states() -> None:
-    assert agreement(range(1000, 1600)) <= 30
+    assert agreement(range(1000, 1600)) <= 6
 
 
 @pytest.mark.parametrize("seed", range(12))

@@ -1,0 +1,80 @@
+"""Counterexample-guided refinement: situations that no template fits, and templates of the continuations they have.
+
+(Counterexample-guided inductive synthesis; A. Solar-Lezama, "Program synthesis by sketching", 2008; for exists-forall
+SMT: B. Dutertre, "Solving exists/forall problems with Yices", 2015.)
+"""
+
+from __future__ import annotations
+
+from sleec_verify.solver import Undecided
+from sleec_verify.traces.continuations import Continuations
+from sleec_verify.traces.defeat import Defeat
+from sleec_verify.traces.pending import most_prohibitions
+from sleec_verify.traces.situations import Situations
+from sleec_verify.traces.templates import Template, templates_of
+
+MOST_COPIES = 8
+"""Further slots for each response that needs several, besides those of templates. Published rulesets need none."""
+
+MOST_TEMPLATES = 400
+"""Templates after which the search gives up."""
+
+
+class Refinement:
+    """Proposes situations until a template fits each one.
+
+    At first, each response has one slot. A template fails because of few pending demands. So once no situation is left,
+    the templates that this rests on get slots of their own: that is as good as any number of slots.
+    """
+
+    def __init__(self, situations: Situations) -> None:
+        self._situations = s = situations
+        self._defeat = Defeat(s)
+        self._slots = tuple(s.slots)
+        self._without_history = [-active for active in s.active.values() if active != s.true]
+        self._shared: dict[Template, int] = {}
+        """For each template, the literal that leaves only the situations that it does not fit."""
+        self._lifted: dict[Template, int] = {}
+        """The same, for templates with slots of their own."""
+        self._own = 1 + most_prohibitions(s.index)
+        self._copies = 0
+        self._add(Template())
+
+    def propose(self) -> bool:
+        """Whether a situation is left that no template fits. It is then that of the last `find` of the situations.
+
+        Raises Undecided if it could need too many pending demands of one response."""
+        s = self._situations
+        if not self._lifted:
+            # Situations without a history make the plainest witnesses.
+            for assumed in (self._without_history, []):
+                if s.find(*assumed, -s.more, *self._shared.values()):
+                    return True
+            if not s.several:
+                return False
+            for template in [template for template, literal in self._shared.items() if literal in s.core]:
+                self._lift(template)
+        while not s.find_least(-s.more, *self._lifted.values()):
+            if -s.more not in s.core:
+                return False
+            if self._copies >= MOST_COPIES:
+                raise Undecided(f"no conflict with {self._copies} more pending triggerings of each response")
+            self._copies += 1
+            s.add_copies(1)
+        return True
+
+    def learn(self, continuations: Continuations) -> None:
+        """Exclude the situations that the continuation just found suits. Raises Undecided after too many."""
+        known = self._lifted or self._shared
+        for template in templates_of(continuations):
+            if template not in known and len(known) < MOST_TEMPLATES:
+                (self._lift if self._lifted else self._add)(template)
+                return
+        raise Undecided(f"no answer after {len(known)} continuations")
+
+    def _add(self, template: Template) -> None:
+        self._shared[template] = self._defeat.add(template, self._slots)
+
+    def _lift(self, template: Template) -> None:
+        slots = [*self._slots, *self._situations.add_copies(self._own)]
+        self._lifted[template] = self._defeat.add(template, slots)
