@@ -117,7 +117,8 @@ def broken_so_far(
 ) -> tuple[Broken, ...]:
     """All that `history` breaks whatever comes: the last of its instants is now, when more may still happen.
 
-    A statement is broken, at an instant, if no further events of now and no later instants satisfy it there. Each is
+    A statement is broken, at an instant, if no further events of now and no later instants satisfy it there; a guard or
+    hedge that names an event is decided by the events that the history has. Each is
     looked at by itself: that two of them cannot be satisfied together does not show here. Of the rule `apart`, each
     response of now is, too: that its own responses contradict one another does not show either. Raises WrongType as
     `broken`.

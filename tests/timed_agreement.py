@@ -136,5 +136,17 @@ def compare_calculations(first: int, last: int) -> int:
     return total
 
 
+def compare_named(first: int, last: int) -> int:
+    """As `compare_all`, about rulesets whose conditions name events."""
+    total = 0
+    for seed in range(first, last):
+        ruleset = timed_ruleset(seed, **SIZES[0], named=True)
+        try:
+            total += compare(ruleset, "at")
+        except AssertionError as error:
+            raise AssertionError(f"seed {seed}: {error}\n{ruleset.source.text}") from error
+    return total
+
+
 if __name__ == "__main__":
     sys.stdout.write(str(compare_all(int(sys.argv[1]), int(sys.argv[2]))))

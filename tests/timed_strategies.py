@@ -26,11 +26,15 @@ def timed_ruleset(
     relations: int = 2,
     hedges: int = 2,
     calculations: bool = False,
+    named: bool = False,
 ) -> Ruleset:
     """A ruleset with one rule at least and the given numbers at most; no window is over after `longest` seconds. With
-    `calculations`, half of its conditions calculate with two numbers."""
+    `calculations`, half of its conditions calculate with two numbers; with `named`, half of those of its rules and
+    claims name events."""
     random = Random(seed)
-    return parse(_Writer(random, rules, events, booleans, scale, longest, relations, hedges, calculations).text())
+    writer = _Writer(random, rules, events, booleans, scale, longest, relations, hedges, calculations)
+    writer.named = named
+    return parse(writer.text())
 
 
 class _Writer:
@@ -53,6 +57,7 @@ class _Writer:
         self.scale = scale and random.randrange(3) == 0
         self.longest = longest
         self.calculations = calculations
+        self.named = False
 
     def text(self) -> str:
         definitions = [f"event {e}" for e in self.events]
@@ -92,6 +97,8 @@ class _Writer:
             return f"({self.condition(depth - 1)} {word} {self.condition(depth - 1)})"
         if depth and kind in (1, 2):
             return f"(not {self.condition(0)})"
+        if self.named and kind in (3, 4, 5, 6):
+            return self.event()
         if self.calculations and kind in (3, 4, 5, 6):
             calculated = self.random.choice(("{x} + {y}", "{x} - {y}", "{x} * {y}", "2 * {x} + {y}", "{y} - 3 * {x}"))
             return (
@@ -141,6 +148,13 @@ class _Writer:
         return f"{label} when {self.event()}{self.maybe_condition()} then {self.response()}{''.join(self.hedges())}"
 
     def relation(self) -> str:
+        named, self.named = self.named, False
+        try:
+            return self.relation_of_states()
+        finally:
+            self.named = named
+
+    def relation_of_states(self) -> str:
         a, b = self.event(), self.event()
         p, q = self.condition(), self.condition()
         kind = self.random.randrange(13)

@@ -1,7 +1,7 @@
 """Parts of a ruleset that have nothing to do with each other: what is done for one cannot break another.
 
-What the robot can do at any time without consequence is no part of any: nothing forbids it, no relation speaks of it,
-and what it triggers is of the same kind.
+What the robot can do at any time without consequence is no part of any: nothing forbids it, no relation or condition
+speaks of it, and what it triggers is of the same kind.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from sleec_runtime.model import Atom, Exclusive, Formula, Rule, formulas_of, leaves, measures_of
 from sleec_runtime.model_time import EventRelation, Lasting, MeasureRelation
-from sleec_verify.timed.program import Law, Program, events_of
+from sleec_verify.timed.program import Law, Program, events_in_conditions, events_of
 from sleec_verify.timed.responses import Occurs
 
 
@@ -30,6 +30,7 @@ def free_events(program: Program) -> frozenset[str]:
     """What the robot can do at any time without consequence. Linear in the size of the rules, but for those that call
     for something later which leads back to them."""
     tied = {name for law in program.laws for name in events_of(law)}
+    tied |= {name for rule in program.rules for name in events_in_conditions(rule)}
     windows = {rule.label: program.windows(rule) for rule in program.rules}
     bound = {window.event for found in windows.values() for window in found if window.negated}
     bound |= (
@@ -87,6 +88,8 @@ def parts(program: Program) -> Iterator[Part]:
     for rule in contested:
         for window in windows[rule.label]:
             union.join(rule.trigger, window.event)
+        for event in events_in_conditions(rule):
+            union.join(rule.trigger, event)
         for fact in _facts(formulas_of(rule)):
             if fact in tied:
                 union.join(rule.trigger, users[fact])
@@ -100,7 +103,7 @@ def parts(program: Program) -> Iterator[Part]:
     for rule in contested:
         part = found.setdefault(union.root(rule.trigger), ([], [], set()))
         part[0].append(rule)
-        part[2].update([rule.trigger, *(window.event for window in windows[rule.label])])
+        part[2].update([rule.trigger, *(window.event for window in windows[rule.label]), *events_in_conditions(rule)])
     for law, events, _ in laws:
         if events:
             part = found.setdefault(union.root(events[0]), ([], [], set()))

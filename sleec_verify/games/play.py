@@ -20,7 +20,7 @@ from sleec_verify.games.circuit import FALSE, TRUE, Circuit
 from sleec_verify.games.grid import Grid
 from sleec_verify.games.parts import Part, formulas_of_law
 from sleec_verify.games.values import Scales, Values
-from sleec_verify.timed.program import Law, Program, events_of, excluding
+from sleec_verify.timed.program import Law, Program, events_in_conditions, events_of, excluding
 from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
 
 
@@ -106,6 +106,7 @@ class Play:
         scales = Scales(program.ruleset.measures, formulas)
         self.grid = Grid(lengths(part), steps * (1 + spare), (1 + spare) * 2 ** (steps - 1))
         tied = {name for law in part.laws for name in events_of(law)}
+        tied |= {name for rule in part.rules for name in events_in_conditions(rule)}
         answers = {w.event for rule in part.rules for w in part.windows[rule.label]}
         called_for = {w.event for rule in part.rules for w in part.windows[rule.label] if not w.negated}
         # What nothing calls for, the robot does not do.

@@ -85,6 +85,8 @@ def conflict(program: Program, rule: Rule) -> History | None:
 
     Raises Undecided where more instants could matter than are tried.
     """
+    if rule.label in program.tied:
+        raise Undecided("conditions that name events, where rules have times, are not analysed yet")
     if program.free.is_all_free_now(rule, thorough=False):
         return None
     found = _Searches(program, rule).find()

@@ -433,6 +433,21 @@ class Program:
         return not leads_back((_found(same, event), _found(same, called)) for event, called in calls)
 
     @cached_property
+    def tied(self) -> frozenset[str]:
+        """The labels of the rules whose conditions name events, and of all that share names with these, through one
+        another or through laws: most arguments about conflicts hold only where measures alone decide a rule."""
+        named = {rule.label: set(_names_of(rule)) for rule in self.rules}
+        laws = [{*events_of(law), *(n for f in formulas_of_law(law) for n in names_of(f))} for law in self.laws]
+        names = {name for rule in self.rules if any(events_in_conditions(rule)) for name in named[rule.label]}
+        grew = bool(names)
+        while grew:
+            reached = (own for own in (*named.values(), *laws) if not own.isdisjoint(names))
+            fresh = set[str]().union(*reached) - names
+            names |= fresh
+            grew = bool(fresh)
+        return frozenset(label for label, own in named.items() if not own.isdisjoint(names))
+
+    @cached_property
     def is_open_ended(self) -> bool:
         """Whether any time to come can be as now is, but for the events: no law tells one time from another."""
         return all(
@@ -466,12 +481,27 @@ class Program:
             for response in responses_of(rule):
                 found.setdefault(response.name, "system")
         for rule in self.rules:
-            found.setdefault(rule.trigger, "environment")
+            for event in (rule.trigger, *events_in_conditions(rule)):
+                found.setdefault(event, "environment")
         return found
 
     @cached_property
     def claims(self) -> list[Claim]:
         return [s for s in self.ruleset.statements if isinstance(s, Claim)]
+
+
+def events_in_conditions(rule: Rule) -> Iterator[str]:
+    """The events that the conditions of a rule name, also those inside what is due in place of a response."""
+    for formula in formulas_of(rule):
+        yield from (leaf.name for leaf in leaves(formula) if isinstance(leaf, Atom) and leaf.kind == "trigger")
+
+
+def _names_of(rule: Rule) -> Iterator[str]:
+    """All events, conditions and measures that a rule names, but for measures that give lengths."""
+    yield rule.trigger
+    yield from (response.name for response in responses_of(rule))
+    for formula in formulas_of(rule):
+        yield from names_of(formula)
 
 
 def responses_of(rule: Rule) -> Iterator[Obligation]:

@@ -31,10 +31,10 @@ class Drawn(NamedTuple):
     reach: int
 
 
-def drawn(seed: int) -> Drawn:
-    """The same ruleset for the same seed."""
+def drawn(seed: int, named: bool = False) -> Drawn:
+    """The same ruleset for the same seed. With `named`, conditions name events instead of `m`."""
     random = Random(seed)
-    with_m = random.random() < 0.4
+    with_m = random.random() < 0.4 and not named
 
     def response(inner: bool = False) -> str:
         negated, window = random.random() < 0.45, random.choice(WINDOWS)
@@ -45,6 +45,11 @@ def drawn(seed: int) -> Drawn:
 
     rules = []
     for number in range(random.randint(1, 3)):
+        if named:
+            guard = random.choice(("", " and B", " and (not A)", " and (not X)"))
+            hedge = f" unless {random.choice('ABX')} then {response(inner=True)}" if random.random() < 0.6 else ""
+            rules.append(f"  R{number} when {random.choice('AABBX')}{guard} then {response()}{hedge}\n")
+            continue
         guard = random.choice(("", " and {m}", " and (not {m})")) if with_m else ""
         hedge = f" unless ({{m}}) then {response(inner=True)}" if with_m and random.random() < 0.4 else ""
         rules.append(f"  R{number} when {random.choice('AABBX')}{guard} then {response()}{hedge}\n")
