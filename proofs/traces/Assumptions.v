@@ -1,6 +1,6 @@
 (** What the theorems about traces rest on; [make -C proofs check] reads the answers. *)
 
-From Traces Require Trace Continuation RelationsSoFar Dominance Situation.
+From Traces Require Trace Continuation RelationsSoFar Dominance Situation UntimedConflict.
 
 Print Assumptions Trace.broken_nothing.
 Print Assumptions Continuation.demand_open_spec.
@@ -12,3 +12,7 @@ Print Assumptions Dominance.one_slot_exact.
 Print Assumptions Dominance.slots_exact.
 Print Assumptions Dominance.flags_suffice.
 Print Assumptions Situation.can_comply_fewer.
+Print Assumptions UntimedConflict.minimal_conflict_decides.
+Print Assumptions UntimedConflict.conflict_in_situation.
+Print Assumptions UntimedConflict.untimed_conflicts.
+Print Assumptions UntimedConflict.other_triggers.
