@@ -1,8 +1,8 @@
 """Components: the parts of a ruleset that no conflict joins.
 
-Two rules are joined if one requires an event that the other forbids or is triggered by, or if a relation mentions
-events of both. A minimal set of rules in conflict lies in one component: what other components require can be done at
-the same time.
+Two rules are joined if one requires an event that the other forbids or is triggered by, if one has an event that a
+condition of the other names, or if a relation mentions events of both. A minimal set of rules in conflict lies in one
+component: what other components require can be done at the same time.
 """
 
 from __future__ import annotations
@@ -49,6 +49,12 @@ def components(index: Index) -> list[Index]:
             others = [other.label for other in index.by_trigger.get(response.name, ())]
             for label in (*others, *(obliging.get(response.name, ()) if response.negated else ())):
                 union.join(rule.label, label)
+    for event, naming in index.naming.items():
+        for rule in naming:
+            about.setdefault(event, []).append(rule.label)
+            for having in (index.by_trigger, index.obliging, index.forbidding):
+                for other in having.get(event, ()):
+                    union.join(rule.label, other.label)
     for key, relation in index.relation_by_key.items():
         for event in events_of(relation):
             for label in about.get(event, ()):

@@ -17,6 +17,7 @@ from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import minimal_rules, weakest, without_slots
 from sleec_verify.traces.histories import Histories, Moment
 from sleec_verify.traces.index import Index
+from sleec_verify.traces.naming import event_of, is_of_state, named_atoms
 from sleec_verify.traces.refinement import Refinement
 from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.witness import needed_relations, needed_values
@@ -26,6 +27,11 @@ MOST_UNDECIDED = 4
 
 LATER = -1
 """The clause of a rule that the response triggers at an instant to come."""
+
+
+def _without_states(moment: Moment) -> Moment:
+    """A moment without the states that stand for events."""
+    return moment._replace(conditions={n: v for n, v in moment.conditions.items() if event_of(n) is None})
 
 
 class Pair(NamedTuple):
@@ -65,6 +71,9 @@ class ConflictSearch:
 
         Raises Undecided where that is all that could be decided.
         """
+        named = sorted({event for rule in self._index.ruleset.rules for event in named_atoms(rule)})
+        if named:
+            raise Undecided(f"a condition names {named[0]}, which is also a response: not analysed")
         while self._refinement.propose():
             yield from self._examine()
         if self._undecided:
@@ -113,7 +122,9 @@ class ConflictSearch:
             return None
         core = continuations.core()
         given = {str(fact[1]) for fact in facts if fact[0] == "input" and fact[-1]}
-        foreign = {e for e in given if not any(rule.label in rules for rule in self._index.by_trigger[e])}
+        index = self._index
+        concerned = {e: [*index.by_trigger.get(e, ()), *index.naming.get(e, ())] for e in given}
+        foreign = {e for e in given if not any(rule.label in rules for rule in concerned[e])}
         if foreign:
             # With an input of other rules this is no situation of these rules, and of no more rules it is minimal.
             fewer: list[Fact] = [("input", f[1], False) if f[0] == "input" and f[1] in foreign else f for f in facts]
@@ -211,7 +222,8 @@ class ConflictSearch:
         ]
         values = needed_values(s, continuations, rules, left_out, deciding, self._values())
         now = Moment(time, frozenset(given), values)
-        return Conflict(pairs, tuple(moments), now, tuple(core), relations)
+        stated = tuple(key for key in relations if not is_of_state(self._index.relation_by_key[key]))
+        return Conflict(pairs, tuple(map(_without_states, moments)), _without_states(now), tuple(core), stated)
 
     def _about_past(self, core: list[Fact], slots: set[int]) -> list[Fact]:
         """The facts of a core about the past, with all that is known of some slots."""

@@ -1,6 +1,7 @@
 """Responses that can always be met: the one static argument besides refinement.
 
-An event is *free* if no rule forbids it, no relation mentions it, and everything that it triggers can always be met. A
+An event is *free* if no rule forbids it, no relation or condition mentions it, and everything that it triggers can
+always be met. A
 demand with a free event in a window that closes last can be met whatever else happens: the event occurs in that window.
 It can be in no minimal set of rules in conflict.
 """
@@ -15,7 +16,8 @@ from sleec_verify.traces.index import Index
 def free_events(index: Index) -> frozenset[str]:
     """The free events: the least fixpoint, so that what leads back to itself is not among them. Quadratic at most."""
     free: set[str] = set()
-    candidates = set(index.obliging) - set(index.forbidding) - set(index.relations_of_event) - index.mere_inputs
+    candidates = set(index.obliging) - set(index.forbidding) - index.mere_inputs
+    candidates -= {*index.relations_of_event, *index.naming}
     grew = True
     while grew:
         fresh = {event for event in candidates - free if _leads_to_free(index, event, frozenset(free))}

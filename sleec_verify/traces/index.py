@@ -22,6 +22,7 @@ from sleec_runtime.model import (
 from sleec_runtime.model_time import RELATIONS
 from sleec_verify.solver import Recorder
 from sleec_verify.traces.demands import Responses, Untimed
+from sleec_verify.traces.naming import named_events, with_states
 from sleec_verify.traces.relations import Relation, events_of, relation_key, required_events
 
 _Indexed = TypeVar("_Indexed", Rule, Relation)
@@ -38,10 +39,12 @@ class Index:
         whole: Index | None = None,
     ) -> None:
         """`whole` is the ruleset that this is a part of."""
+        self.ruleset = ruleset
         if whole is not None:
             self.mere_inputs = whole.mere_inputs
             self.free = whole.free
-        self.ruleset = ruleset
+        else:
+            self.ruleset = with_states(ruleset, self.mere_inputs)
         self.untimed = untimed
         self.recorder = recorder
         self.responses = Responses(untimed)
@@ -60,6 +63,11 @@ class Index:
     @cached_property
     def by_trigger(self) -> dict[str, list[Rule]]:
         return _index((rule.trigger, rule) for rule in self.ruleset.rules)
+
+    @cached_property
+    def naming(self) -> dict[str, list[Rule]]:
+        """The rules with a guard or a hedge that names an event."""
+        return _index((event, rule) for rule in self.ruleset.rules for event in named_events(rule))
 
     @cached_property
     def obliging(self) -> dict[str, list[Rule]]:
@@ -118,7 +126,7 @@ class Index:
     @cached_property
     def agents(self) -> dict[str, Agent]:
         """Whose each event of a rule is: as it is declared; else the robot's if a response names it, and the
-        environment's if it is a trigger only."""
+        environment's if it is not."""
         found: dict[str, Agent] = {}
         for statement in self.ruleset.statements:
             if isinstance(statement, Declaration) and statement.agent is not None:
@@ -127,7 +135,8 @@ class Index:
             for response in responses_of(rule):
                 found.setdefault(response.name, "system")
         for rule in self.ruleset.rules:
-            found.setdefault(rule.trigger, "environment")
+            for event in (rule.trigger, *named_events(rule)):
+                found.setdefault(event, "environment")
         return found
 
     @cached_property

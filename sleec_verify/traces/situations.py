@@ -48,7 +48,7 @@ class Situations:
         for formula in state_formulas(index):
             self.instant.literal(formula)
         self.selected = {rule.label: self.formula.fresh() for rule in index.ruleset.rules}
-        self.inputs = {event: self.formula.fresh() for event in sorted(index.by_trigger)}
+        self.inputs = {event: self.formula.fresh() for event in sorted({*index.by_trigger, *index.naming})}
         self.guards = {rule.label: self.instant.guards(rule, self.reading, self.true) for rule in index.ruleset.rules}
         self.occurred = {
             law.left: self.formula.fresh()
@@ -136,11 +136,13 @@ class Situations:
     # What a situation is --------------------------------------------------------------------------------------
 
     def _require_inputs(self) -> None:
-        """Some input occurs; each triggers a selected rule; a clause of one of these decides."""
+        """Some input occurs; each triggers a selected rule, or is named by one; a clause of one that is triggered
+        decides."""
         decides = []
         for event, given in self.inputs.items():
-            rules = self.index.by_trigger[event]
-            self.add([-given, *(self.selected[rule.label] for rule in rules)])
+            rules = self.index.by_trigger.get(event, [])
+            concerned = [*rules, *self.index.naming.get(event, ())]
+            self.add([-given, *(self.selected[rule.label] for rule in concerned)])
             for rule in rules:
                 speaks = self.formula.any_of(self.guards[rule.label])
                 decides.append(self.formula.every([given, self.selected[rule.label], speaks]))

@@ -11,7 +11,7 @@ from functools import cached_property
 from itertools import chain, combinations
 from typing import NamedTuple
 
-from sleec_runtime.model import Ruleset, formulas_of, literals
+from sleec_runtime.model import Atom, Ruleset, formulas_of, leaves, literals
 from sleec_runtime.model_time import Effect, Lasting, MeasureRelation
 from tests.explicit.demands import Demand, every, forbids, met_by_silence, progress, strongest
 from tests.explicit.rules import Events, Lastings, Meaning, Values, silence, valuations
@@ -48,24 +48,35 @@ class Explicit:
         self._meaning = Meaning(ruleset)
         self._most = most
         self._alive: dict[tuple[State, frozenset[int]], bool] = {}
-        self._outcomes: dict[tuple[int, int], tuple[int, Demand] | None] = {}
+        self._outcomes: dict[tuple[int, Events, int], tuple[int, Demand] | None] = {}
 
     # The alphabet -------------------------------------------------------------------------------------------
 
     @cached_property
-    def inputs(self) -> Events:
-        declared = frozenset(
+    def declared(self) -> Events:
+        """The events that are declared as the environment's."""
+        return frozenset(
             name
             for d in self.ruleset.statements
             if getattr(d, "agent", None) == "environment"
             for name in d.names  # type: ignore[union-attr]
         )
-        return declared | {rule.trigger for rule in self.rules}
+
+    @cached_property
+    def inputs(self) -> Events:
+        return self.declared | {rule.trigger for rule in self.rules} | (frozenset[str]().union(*self.named) - self.acts)
+
+    @cached_property
+    def named(self) -> list[Events]:
+        """For each rule, the events that its conditions name."""
+        return [
+            frozenset(a.name for f in formulas_of(r) for a in leaves(f) if isinstance(a, Atom) and a.kind == "trigger")
+            for r in self.rules
+        ]
 
     @cached_property
     def acts(self) -> Events:
-        declared = self.inputs - {rule.trigger for rule in self.rules}
-        return frozenset(o.name for rule in self.rules for c in rule.clauses() for o in literals(c)) - declared
+        return frozenset(o.name for rule in self.rules for c in rule.clauses() for o in literals(c)) - self.declared
 
     @cached_property
     def events(self) -> Events:
@@ -95,13 +106,14 @@ class Explicit:
         formulas += [c.formula for c in self.ruleset.constraints if hasattr(c, "formula")]
         return valuations(self.ruleset, formulas)
 
-    def _outcome(self, rule: int, values: int) -> tuple[int, Demand] | None:
-        """The clause of a rule that decides where its trigger occurs with these values, and what it demands."""
-        key = (rule, values)
+    def _outcome(self, rule: int, events: Events, values: int) -> tuple[int, Demand] | None:
+        """The clause of a rule that decides where its trigger occurs with these events and values, and what it
+        demands."""
+        key = (rule, events & self.named[rule], values)
         if key not in self._outcomes:
-            found = self._meaning.deciding(self.rules[rule], self.values[values])
+            found = self._meaning.deciding(self.rules[rule], key[1], self.values[values])
             self._outcomes[key] = (
-                None if found is None else (found[0], self._meaning.demand(found[1], self.values[values]))
+                None if found is None else (found[0], self._meaning.demand(found[1], key[1], self.values[values]))
             )
         return self._outcomes[key]
 
@@ -128,7 +140,7 @@ class Explicit:
         for number, demands in enumerate(state.pending):
             new = set(demands)
             if number in rules and self.rules[number].trigger in events:
-                outcome = self._outcome(number, values)
+                outcome = self._outcome(number, events, values)
                 if outcome is not None:
                     new.add(outcome[1])
             pending.append(strongest({progress(d, events) for d in new} - {True}))
@@ -238,7 +250,9 @@ class Explicit:
     def _minimal(self, state: State, events: Events, values: int) -> set[frozenset[int]]:
         """The minimal sets of rules without a complying response in one situation, of those that it is one for."""
         speaking = [
-            n for n, rule in enumerate(self.rules) if rule.trigger in events and self._outcome(n, values) is not None
+            n
+            for n, rule in enumerate(self.rules)
+            if rule.trigger in events and self._outcome(n, events, values) is not None
         ]
         if not speaking or not self.complies(state, events, values, frozenset()):
             return set()
@@ -251,8 +265,8 @@ class Explicit:
         return {rules for rules in stuck if self._is_situation(rules, state, events, speaking)}
 
     def _is_situation(self, rules: frozenset[int], state: State, events: Events, speaking: list[int]) -> bool:
-        triggers = {self.rules[number].trigger for number in rules}
-        if not events <= triggers or rules.isdisjoint(speaking):
+        concerned = {self.rules[number].trigger for number in rules}.union(*(self.named[number] for number in rules))
+        if not events <= concerned or rules.isdisjoint(speaking):
             return False
         return not any(forbids(demand, events) for number in rules for demand in state.pending[number])
 

@@ -114,30 +114,30 @@ class Meaning:
 
     # Rules ------------------------------------------------------------------------------------------------
 
-    def deciding(self, rule: Rule, values: Values) -> tuple[int, Clause] | None:
+    def deciding(self, rule: Rule, events: Events, values: Values) -> tuple[int, Clause] | None:
         """The number and the clause that decides where the trigger of `rule` occurs; None where its guard is false."""
-        if not self.holds(rule.guard, frozenset(), values):
+        if not self.holds(rule.guard, events, values):
             return None
-        clause = self._nested(self._chosen(rule.default, rule.hedges, values), values)
+        clause = self._nested(self._chosen(rule.default, rule.hedges, events, values), events, values)
         return next((number, one) for number, one in enumerate(rule.clauses()) if one is clause)
 
-    def _chosen(self, holder: Clause, hedges: tuple[Clause, ...], values: Values) -> Clause:
+    def _chosen(self, holder: Clause, hedges: tuple[Clause, ...], events: Events, values: Values) -> Clause:
         for hedge in hedges:
-            if self.holds(hedge.condition, frozenset(), values):
+            if self.holds(hedge.condition, events, values):
                 holder = hedge
             elif self.ruleset.reading == "cascade":
                 break
         return holder
 
-    def _nested(self, clause: Clause, values: Values) -> Clause:
-        inner = self._chosen(clause, clause.hedges, values)
-        return clause if inner is clause else self._nested(inner, values)
+    def _nested(self, clause: Clause, events: Events, values: Values) -> Clause:
+        inner = self._chosen(clause, clause.hedges, events, values)
+        return clause if inner is clause else self._nested(inner, events, values)
 
-    def demand(self, clause: Clause, values: Values, since: int = 0) -> Demand:
+    def demand(self, clause: Clause, events: Events, values: Values, since: int = 0) -> Demand:
         """What a clause demands if it is due `since` seconds from now."""
-        return every(self._obligation(obligation, values, since) for obligation in clause.obligations)
+        return every(self._obligation(obligation, events, values, since) for obligation in clause.obligations)
 
-    def _obligation(self, obligation: Obligation, values: Values, since: int) -> Demand:
+    def _obligation(self, obligation: Obligation, events: Events, values: Values, since: int) -> Demand:
         window = None if obligation.timing is None else obligation.timing.window
         first, last = since, since if window is None else None
         if window is not None:
@@ -146,9 +146,9 @@ class Meaning:
         options: list[Demand] = [Literal(obligation.name, obligation.negated, first, last)]
         if obligation.timing is not None and obligation.timing.otherwise is not None:
             then = since if last is None else last
-            options.append(self.demand(self._nested(obligation.timing.otherwise, values), values, then))
+            options.append(self.demand(self._nested(obligation.timing.otherwise, events, values), events, values, then))
         if obligation.timing is not None and obligation.timing.instead is not None:
-            options.append(self.demand(self._nested(obligation.timing.instead, values), values, since))
+            options.append(self.demand(self._nested(obligation.timing.instead, events, values), events, values, since))
         return some(options)
 
     # Relations and constraints ----------------------------------------------------------------------------

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -67,6 +68,14 @@ def dsl(*rules: str, events: str = "ABCDFGLOPTXY", relations: tuple[str, ...] = 
         (("A then X unless {b0}", "B then not X unless (not {b0})"), (), []),
         # The chain through T reaches a prohibition.
         (("A then T", "T then not D", "B then D"), (), [{"R1", "R2", "R3"}]),
+        # One trigger yields to another.
+        (("A then X unless B", "B then Y"), ("mutualExclusive X Y",), []),
+        (("A then X unless C", "B then Y"), ("mutualExclusive X Y",), [{"R1", "R2"}]),
+        # What a hedge names occurs, though it triggers no rule.
+        (("A then X unless B then not X", "C then X"), (), [{"R1", "R2"}]),
+        # A hedge was decided by what occurred then.
+        (("A then X within 3 seconds unless (not B)", "B then Y", "C then not X within 5 seconds"), (), [{"R1", "R3"}]),
+        (("A and B then X within 3 seconds", "C then not X within 5 seconds unless B"), (), [{"R1", "R2"}]),
     ],
 )
 def test_worked_examples(rules: tuple[str, ...], relations: tuple[str, ...], expected: list[set[str]]) -> None:
@@ -86,6 +95,24 @@ def test_without_need_of_one_there_is_no_history() -> None:
     (conflict,), reason = conflicts_of(dsl("A then X within 3 minutes", "B then not X within 5 minutes"))
     assert reason is None
     assert (conflict.history, sorted(conflict.now.events)) == ((), ["A", "B"])
+
+
+def test_a_conflict_shows_events_and_no_states_that_stand_for_them() -> None:
+    (conflict,), reason = conflicts_of(
+        dsl("A then X within 3 minutes unless (not B)", "C then not X within 5 minutes unless F")
+    )
+    assert reason is None
+    assert (conflict.history, sorted(conflict.now.events)) == ((), ["A", "B", "C"])
+    assert (conflict.now.conditions, conflict.relations) == ({}, ())
+    (conflict,), _ = conflicts_of(dsl("A then X within 3 minutes unless (not B)", "C then not X within 1 minutes"))
+    assert [sorted(moment.events) for moment in conflict.history] == [["A", "B"]]
+    assert all(not moment.conditions for moment in conflict.history)
+
+
+def test_a_condition_that_names_a_response_is_undecided() -> None:
+    found, reason = conflicts_of(dsl("A then X unless T", "X then not Y", "B then T", "T then Y"))
+    assert found == []
+    assert reason == "a condition names T, which is also a response: not analysed"
 
 
 @pytest.mark.parametrize("unit", ["seconds", "minutes", "days"])
@@ -204,10 +231,10 @@ def random_rules(seed: int) -> str:
     return dsl(*rules, events="ABCD", relations=chosen)
 
 
-def agreement(seeds: range) -> int:
+def agreement(seeds: range, rules: Callable[[int], str] = random_rules) -> int:
     undecided = 0
     for seed in seeds:
-        text = random_rules(seed)
+        text = rules(seed)
         every = Explicit(parse(text)).conflicts()
         smallest = {rules for rules in every if not any(other < rules for other in every)}
         undecided += not assert_agrees(text, smallest, every)
@@ -221,6 +248,37 @@ def test_agreement_with_explicit_states() -> None:
 @pytest.mark.long
 def test_long_agreement_with_explicit_states() -> None:
     assert agreement(range(1000, 1600)) <= 6
+
+
+def random_named(seed: int) -> str:
+    """Three rules, with conditions that name events of the environment. One in ten names a response."""
+    chance = random.Random(seed)
+
+    def condition() -> str:
+        event = chance.choice("ABF" if chance.random() < 0.9 else "CD")
+        return chance.choice((event, f"(not {event})", f"({event} or {{b0}})"))
+
+    def response() -> str:
+        window = chance.choice(("", "", " within 1 seconds", " within 2 seconds", " within [1,2] seconds"))
+        return f"{'not ' if chance.random() < 0.45 else ''}{chance.choice('CD')}{window}"
+
+    rules = []
+    for _ in range(3):
+        rule = f"{chance.choice('AABBC')}{' and ' + condition() if chance.random() < 0.3 else ''} then {response()}"
+        for _ in range(chance.randint(0, 2)):
+            rule += f" unless {condition()}{' then ' + response() if chance.random() < 0.7 else ''}"
+        rules.append(rule)
+    relation = chance.choice(("mutualExclusive A B", "happenBefore A B", "witness A B", "includes B {b0}"))
+    return dsl(*rules, events="ABCDF", relations=(relation,) if chance.random() < 0.3 else ())
+
+
+def test_agreement_about_conditions_that_name_events() -> None:
+    assert agreement(range(40), random_named) <= 12
+
+
+@pytest.mark.long
+def test_long_agreement_about_conditions_that_name_events() -> None:
+    assert agreement(range(1000, 1400), random_named) <= 120
 
 
 @pytest.mark.parametrize("seed", range(12))
