@@ -322,7 +322,7 @@ class Assume:
 Constraint = Union[Exclusive, Never, Assume]
 Statement = Union[Declaration, Measure, Constant, Exclusive, Never, Assume, Rule, "Claim", "Relation"]
 
-DefectKind = Literal["repeated-label", "foreign-value", "number-as-value"]
+DefectKind = Literal["repeated-label", "foreign-value", "number-as-value", "repeated-definition"]
 
 
 class Defect(NamedTuple):

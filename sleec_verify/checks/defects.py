@@ -8,7 +8,7 @@ from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding
 
-_KINDS = {"repeated-label": 0, "foreign-value": 1, "number-as-value": 2}
+_KINDS = {"repeated-label": 0, "foreign-value": 1, "number-as-value": 2, "repeated-definition": 3}
 
 
 def _defects(cones: Cones) -> Iterator[Finding]:
@@ -55,6 +55,16 @@ DEFECTS = Check(
             _DEFINED + "constant LIMIT = 20\ndef_end\nrule_start\n"
             "R1 when Called and ({risk} > LIMIT) then Answer\nrule_end\n",
             _DEFINED + "def_end\nrule_start\nR1 when Called and ({risk} > low) then Answer\nrule_end\n",
+        ),
+        FindingKind(
+            "SLEEC519",
+            "error",
+            "a definition that is repeated",
+            "An event, a measure or a constant is defined twice in the same way. The second definition changes nothing "
+            "here, but not every tool reads such a text. Two definitions of one name that differ are refused.",
+            "Delete one of the two definitions.",
+            _DEFINED + "event Called\ndef_end\nrule_start\nR1 when Called then Answer\nrule_end\n",
+            _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nrule_end\n",
         ),
     ),
     _defects,

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from sleec_runtime.model import (
     And,
+    Comments,
     Comparison,
+    Constant,
+    Declaration,
     Formula,
+    Measure,
     MeasureRef,
     Not,
     Or,
@@ -29,7 +34,8 @@ def in_english(ruleset: Ruleset) -> tuple[Ruleset, list[str]]:
     """`ruleset` as structured English says it, and what to know about the result.
 
     What is read only because others read it is put right: a value of another scale becomes the one that it is read
-    as, a number too, and the second of two rules with one label gets one of its own. Raises Unsayable for calculations.
+    as, a number too, the second of two rules with one label gets one of its own, and a repeated definition goes. Raises
+    Unsayable for calculations.
     """
     refuse_unsayable_calculations(ruleset, "structured English", _HINT)
     if ruleset.syntax == "english":
@@ -37,7 +43,7 @@ def in_english(ruleset: Ruleset) -> tuple[Ruleset, list[str]]:
     labels = {s.label for s in ruleset.statements if isinstance(s, (Rule, Claim))}
     notes = [_at_line(d.span, d.message, ruleset) for d in ruleset.defects if d.kind != "repeated-label"]
     statements: list[Statement] = []
-    for statement in ruleset.statements:
+    for statement in _defined_once(ruleset.statements):
         if isinstance(statement, (Rule, Claim)) and "#" in statement.label:
             new = _new_label(statement.label, labels)
             notes.append(_at_line(statement.label_span, f"{statement.label} is called {new} here", ruleset))
@@ -47,6 +53,21 @@ def in_english(ruleset: Ruleset) -> tuple[Ruleset, list[str]]:
         ruleset, statements=tuple(statements), syntax="english", dialect=None, defects=(), reading_stated=True
     )
     return english, notes
+
+
+def _defined_once(statements: Iterable[Statement]) -> list[Statement]:
+    """The statements without repeated definitions, whose comments move to the first ones."""
+    found: dict[int | Statement, Statement] = {}
+    for number, statement in enumerate(statements):
+        if not isinstance(statement, (Declaration, Measure, Constant)):
+            found[number] = statement
+        elif statement not in found:
+            found[statement] = statement
+        else:
+            first, again = found[statement].comments, statement.comments
+            above = (*first.above, *again.above, *([] if again.behind is None else [again.behind]))
+            found[statement] = replace(statement, comments=Comments(above, first.behind))
+    return list(found.values())
 
 
 def _new_label(label: str, labels: set[str]) -> str:

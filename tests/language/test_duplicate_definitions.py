@@ -1,4 +1,5 @@
-"""A name that is defined twice, in every way and with every use, is a list of problems and never another error."""
+"""A name that is defined twice, in every way and with every use, is a list of problems and never another error; if both
+definitions are the same, it is a defect of rules that are read."""
 
 from __future__ import annotations
 
@@ -8,7 +9,9 @@ from itertools import product
 import pytest
 
 from sleec_runtime.errors import LanguageError
-from sleec_runtime.language import parse
+from sleec_runtime.language import parse, print_ruleset
+from sleec_verify.checks import run_checks
+from sleec_verify.conversion import convert
 
 DSL_DEFINITIONS = (
     "event N",
@@ -58,10 +61,82 @@ def test_a_name_that_the_dsl_defines_twice_is_told_whatever_uses_it(definitions:
     one, two = definitions
     known = f"{one} {two} event E measure m: numeric measure other: scale(low, someValue) constant K = 3"
     for use in DSL_USES:
-        with pytest.raises(LanguageError) as caught:
-            parse(f"def_start {known} def_end rule_start Last when E then E rule_end {use}")
-        messages = [problem.message for problem in caught.value.problems]
-        assert any(message.startswith("`N` is ") for message in messages), (use, messages)
+        text = f"def_start {known} def_end rule_start Last when E then E rule_end {use}"
+        if one == two:
+            assert problems(text) == problems(text.replace(f"{one} {two}", f"{one} {' ' * len(two)}"))
+            continue
+        assert any(message.startswith("`N` is ") for message in problems(text)), (use, problems(text))
+
+
+def problems(text: str) -> list[str]:
+    """What is wrong with a text; of rules that are read, what is a defect, but for repeated definitions."""
+    try:
+        return [defect.message for defect in parse(text).defects if defect.kind != "repeated-definition"]
+    except LanguageError as error:
+        return [problem.message for problem in error.problems]
+
+
+REPEATED = """\
+def_start
+  event A as environment
+  event B
+  measure hot: boolean
+  measure pain: scale(low, high) // how it feels
+  measure heat: numeric
+  constant SHORT = 5
+  constant LONG = MEDIUM
+  constant MEDIUM = 10
+  {}
+def_end
+rule_start
+  R1 when A and {{hot}} and ({{pain}} > low) then B within SHORT minutes
+    unless ({{heat}} > LONG) then not B within LONG minutes
+rule_end
+"""
+
+
+@pytest.mark.parametrize(
+    "definition",
+    [
+        "event A as environment",
+        "event B",
+        "measure hot: boolean",
+        "measure pain: scale(low, high)",
+        "measure heat: numeric",
+        "constant SHORT = 5",
+        "constant LONG = MEDIUM",
+    ],
+)
+def test_a_repeated_definition_is_a_defect_and_changes_nothing(definition: str) -> None:
+    name = definition.replace(":", "").split()[1]
+    once, twice = parse(REPEATED.format("")), parse(REPEATED.format(f"// again\n  {definition}"))
+    (defect,) = twice.defects
+    line = next(n for n, text in enumerate(twice.source.text.splitlines(), 1) if f" {name}" in text)
+    assert defect.message == f"`{name}` is defined again; the first time in line {line}"
+    assert twice.source.text[defect.span.start : defect.span.end] == name
+    assert once.rules == twice.rules
+    assert len(twice.statements) == len(once.statements) + 1
+    assert parse(print_ruleset(twice)) == twice
+    english = convert(twice, "english")
+    assert english.ruleset.rules == convert(once, "english").ruleset.rules
+    assert "again" in english.text
+    assert "how it feels" in english.text
+    found = [[f.message for r in run_checks(one) for f in r.findings if f.check != "defect"] for one in (once, twice)]
+    assert found[0] == found[1]
+
+
+@pytest.mark.parametrize(
+    ("one", "two"),
+    [
+        ("event N", "event N as system"),
+        ("measure N: scale(low, high)", "measure N: scale(high, low)"),
+        ("constant N = 5", "constant N = 6"),
+        ("constant N = 3", "constant N = K"),
+    ],
+)
+def test_definitions_of_one_name_that_differ_are_refused(one: str, two: str) -> None:
+    with pytest.raises(LanguageError, match="`N` is defined twice; the first time in line 1"):
+        parse(f"def_start {one} {two} event E constant K = 3 def_end rule_start R when E then E rule_end")
 
 
 ENGLISH_DEFINITIONS = (

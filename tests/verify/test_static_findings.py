@@ -57,6 +57,11 @@ QUIRKS = [
     ("R1 when Called then Answer R1 when Called then Wait", "", [("SLEEC506", "R1")]),
     (
         "R1 when Called then Answer",
+        "def_start event Called constant LIMIT = 20 def_end",
+        [("SLEEC519", name) for name in ("Called", "LIMIT")],
+    ),
+    (
+        "R1 when Called then Answer",
         "purpose_start P6 exists Called and (risk >= moderate) P6 exists Answer purpose_end",
         [("SLEEC506", "P6")],
     ),

@@ -42,8 +42,9 @@ class DefinitionParser(FormulaParser):
                 self.expected("system or environment", f"did you mean {near}?" if near else "as in: event E as system")
             agent = "system" if written == "system" else "environment"
             self.at += 1
-        self.names.define("event", name, span)
-        return Declaration("event", (name,), self.span(first), (span,), self.comments_of(first), agent)
+        event = Declaration("event", (name,), self.span(first), (span,), self.comments_of(first), agent)
+        self.names.define("event", name, span, event)
+        return event
 
     def _measure(self, first: int) -> Declaration | Measure:
         name = self.name("the name of a measure")
@@ -60,8 +61,9 @@ class DefinitionParser(FormulaParser):
         self.at += 1
         comments = self.comments_of(first)
         if written == "boolean":
-            self.names.define("boolean", name, name_span)
-            return Declaration("condition", (name,), self.span(first), (name_span,), comments)
+            boolean = Declaration("condition", (name,), self.span(first), (name_span,), comments)
+            self.names.define("boolean", name, name_span, boolean)
+            return boolean
         values, spans = self._scale() if written == "scale" else ([], [])
         measure = Measure(
             name, "scale" if written == "scale" else "integer", tuple(values), True, self.span(first), comments
@@ -118,7 +120,7 @@ class DefinitionParser(FormulaParser):
         alias = side.written if isinstance(side.written, str) else None
         value = 0 if isinstance(side.written, str) else side.written
         constant = Constant(name, value, alias, self.span(first), self.comments_of(first))
-        if self.names.define("constant", name, name_span):
+        if self.names.define("constant", name, name_span, constant):
             self.constants[name] = (side, constant)
         return constant
 

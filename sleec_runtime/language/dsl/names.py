@@ -13,6 +13,7 @@ from sleec_runtime.language.suggest import Suggester
 from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import (
     Constant,
+    Declaration,
     Defect,
     Measure,
     MeasureRef,
@@ -40,6 +41,7 @@ class Names:
         self._source = source
         self._problems = problems
         self._spans: dict[str, Span] = {}
+        self._definitions: dict[str, Declaration | Measure | Constant] = {}
         self._owners: dict[str, Measure] = {}
         """Each value of a scale with the last measure that has it, be that a second definition of its name."""
         self._values: dict[str, tuple[str, Span]] = {}
@@ -59,13 +61,19 @@ class Names:
 
     # Definitions ----------------------------------------------------------------------------------------------
 
-    def define(self, kind: NameKind, name: str, span: Span) -> bool:
-        """Takes a definition in; False, and a problem, if the name is taken."""
+    def define(self, kind: NameKind, name: str, span: Span, statement: Declaration | Measure | Constant) -> bool:
+        """Takes a definition in; False if the name is taken. The same definition again is a defect, another one of
+        the same name a problem."""
         first = self._spans.setdefault(name, span)
         if first is span:
             self.kinds[name] = kind
+            self._definitions[name] = statement
             return True
         other = self.kinds[name]
+        if self._definitions[name] == statement:
+            message = f"{quoted(name)} is defined again; the first time in line {self.line(first)}"
+            self.defects.append(Defect("repeated-definition", message, span, "delete one of the two definitions"))
+            return False
         if other == kind:
             message = f"{quoted(name)} is defined twice; the first time in line {self.line(first)}"
         else:
@@ -74,7 +82,7 @@ class Names:
         return False
 
     def define_measure(self, measure: Measure, span: Span, value_spans: list[Span]) -> None:
-        if self.define("measure", measure.name, span):
+        if self.define("measure", measure.name, span, measure):
             self.measures[measure.name] = measure
         seen: set[str] = set()
         for value, value_span in zip(measure.values, value_spans):

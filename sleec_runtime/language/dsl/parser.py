@@ -6,6 +6,7 @@ Definitions are read first, wherever their block stands; then everything in the 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import TypeVar, cast
 
@@ -114,7 +115,8 @@ class DslParser(RelationParser):
                 if block == "def_start" and self.at in defined:
                     statement, self.at = defined[self.at]
                     if isinstance(statement, Constant):
-                        statement = self.names.constants.get(statement.name, statement)
+                        known = self.names.constants.get(statement.name, statement)
+                        statement = replace(statement, value=known.value)
                 elif kind in BLOCKS.values() or kind in BLOCKS or kind == "end":
                     break
                 else:
