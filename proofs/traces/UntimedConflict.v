@@ -38,6 +38,28 @@ Qed.
 
 (** * One situation *)
 
+(** An event triggers a rule without time, or its conditions name it. *)
+Definition mentions_event (R : rule) (x : name) : Prop :=
+  x = trigger R \/ In x (triggers_in (conditions_of R)).
+
+Lemma concerns_timed R x : concerns (timed_of R) x <-> mentions_event R x.
+Proof.
+  unfold concerns, mentions_event, timed_of, conditions_of, triggers_in.
+  cbn [timed_trigger timed_guard timed_response chain_names flat_map].
+  assert (E : flat_map response_names (timed_literals (default R)) = []).
+  { unfold timed_literals. induction (default R); [reflexivity|exact IHl]. }
+  assert (F : flat_map (fun h => events_in (fst h) ++ chain_names (snd h))
+                (map (fun h => (hedge_condition h, TimedChain (timed_literals (hedge_obliges h)) []))
+                     (hedges R))
+              = flat_map events_in (map hedge_condition (hedges R))).
+  { induction (hedges R) as [|h hs IH]; [reflexivity|]. cbn [map flat_map fst snd chain_names].
+    rewrite IH. f_equal. rewrite app_nil_r.
+    assert (G : flat_map response_names (timed_literals (hedge_obliges h)) = []).
+    { unfold timed_literals. induction (hedge_obliges h); [reflexivity|exact IHl]. }
+    rewrite G. apply app_nil_r. }
+  rewrite E, F. reflexivity.
+Qed.
+
 Lemma responds_now r G Ks mere s e :
   responds (timed_ruleset_of r G Ks mere) s e ->
   exists now' later, e = past s ++ now' :: later /\ ordered e
@@ -111,9 +133,9 @@ Theorem conflict_in_situation r G Ks mere S s :
 Proof.
   intros N I Sit.
   assert (Inputs : forall x, events (now s) x = true -> mere x = true).
-  { intros x X. destruct (inputs_trigger _ _ _ Sit x X) as [R' [J T]].
+  { intros x X. destruct (inputs_concern _ _ _ Sit x X) as [R' [J T]].
     apply in_map_iff in J. destruct J as [R [<- J]].
-    apply (triggers_mere _ _ _ N R x (I R J)). left. symmetry. exact T. }
+    apply (triggers_mere _ _ _ N R x (I R J)), concerns_timed, T. }
   pose proof (situation_possible _ _ _ _ _ _ N Sit) as P.
   pose proof (in_order _ _ _ Sit) as O.
   pose proof (lawful_kept _ _ _ _ _ O (is_lawful _ _ _ Sit)) as Past.
@@ -140,14 +162,15 @@ Qed.
 Lemma context_is_situation r G Ks mere S i :
   no_chains G Ks mere -> incl S G -> S <> [] ->
   possible Ks (context_of i) = true ->
-  (forall x, events i x = true -> exists R, In R S /\ trigger R = x) ->
+  (forall x, events i x = true -> exists R, In R S /\ mentions_event R x) ->
   minimal_conflict r S Ks (context_of i) ->
   situation_for (timed_ruleset_of r G Ks mere) (map timed_of S) (AtNow [] i).
 Proof.
   intros N I Ne P T M. constructor; cbn [past now].
   - repeat constructor.
   - intros earlier j later k E. destruct earlier; discriminate E.
-  - intros x X. destruct (T x X) as [R [J Q]]. exists (timed_of R). split; [apply in_map, J|exact Q].
+  - intros x X. destruct (T x X) as [R [J Q]]. exists (timed_of R). split; [apply in_map, J|].
+    apply concerns_timed, Q.
   - destruct S as [|R S]; [congruence|]. exists (timed_of R). split; [simpl; auto|].
     apply (minimal_conflict_decides _ _ _ _ M R). simpl. auto.
   - intros j R [].
@@ -155,7 +178,7 @@ Proof.
     + intros R [].
     + repeat constructor.
     + intros j [].
-    + intros x X. destruct (T x X) as [R [J Q]]. apply (triggers_mere _ _ _ N R x (I R J)). auto.
+    + intros x X. destruct (T x X) as [R [J Q]]. exact (triggers_mere _ _ _ N R x (I R J) Q).
     + destruct M as [_ M]. destruct S as [|R S]; [congruence|].
       apply compatible_fewer with S; [intros Q []|exact (M [] R S eq_refl)].
 Qed.
@@ -164,14 +187,14 @@ Theorem untimed_conflicts r G Ks mere S :
   no_chains G Ks mere -> incl S G -> S <> [] ->
   (exists s, in_conflict (timed_ruleset_of r G Ks mere) (map timed_of S) s) <->
   (exists chi, possible Ks chi = true
-               /\ (forall x, chi (Occurs x) = true -> exists R, In R S /\ trigger R = x)
+               /\ (forall x, chi (Occurs x) = true -> exists R, In R S /\ mentions_event R x)
                /\ minimal_conflict r S Ks chi).
 Proof.
   intros N I Ne. split.
   - intros [s C]. pose proof (proj1 (proj2 C)) as Sit. exists (context_of (now s)). split; [|split].
     + exact (situation_possible _ _ _ _ _ _ N Sit).
-    + intros x X. destruct (inputs_trigger _ _ _ Sit x X) as [R' [J T]].
-      apply in_map_iff in J. destruct J as [R [<- J]]. eauto.
+    + intros x X. destruct (inputs_concern _ _ _ Sit x X) as [R' [J T]].
+      apply in_map_iff in J. destruct J as [R [<- J]]. apply concerns_timed in T. eauto.
     + apply (conflict_in_situation r G Ks mere S s N I Sit), C.
   - intros [chi [P [T M]]].
     set (i := Instant 0 (fun x => chi (Occurs x)) (fun c => chi (Holds c)) (fun _ => 0)).
@@ -187,25 +210,30 @@ Proof.
     exists (AtNow [] i). apply conflict_in_situation; auto.
 Qed.
 
-(** Other triggers may occur, too, where neither the rules of [S] nor constraints speak of
-    them. *)
+(** Other triggers may occur, too, where no constraint speaks of them. *)
 Theorem other_triggers r S Ks chi :
-  let own := fun x => existsb (fun R => Pos.eqb (trigger R) x) S in
-  rules_over own S -> constraints_over own Ks ->
+  let own := fun x => existsb (fun R => existsb (Pos.eqb x) (trigger R :: triggers_in (conditions_of R))) S in
+  constraints_over own Ks ->
   possible Ks chi = true -> minimal_conflict r S Ks chi ->
   exists psi, possible Ks psi = true
-              /\ (forall x, psi (Occurs x) = true -> exists R, In R S /\ trigger R = x)
+              /\ (forall x, psi (Occurs x) = true -> exists R, In R S /\ mentions_event R x)
               /\ minimal_conflict r S Ks psi.
 Proof.
-  intros own NR NK P [C M].
+  intros own NK P [C M].
+  assert (Own : forall x, own x = true <-> exists R, In R S /\ mentions_event R x).
+  { intro x. unfold own. rewrite existsb_exists. split; intros [R [I H]]; exists R; (split; [exact I|]).
+    - apply existsb_exists in H. destruct H as [y [Y H]]. apply Pos.eqb_eq in H. subst y.
+      destruct Y as [<-|Y]; [left; reflexivity|right; exact Y].
+    - apply existsb_exists. exists x. rewrite Pos.eqb_refl. split; [|reflexivity].
+      destruct H as [->|H]; [left; reflexivity|right; exact H]. }
+  assert (NR : rules_over own S) by (intros R x I H; apply Own; exists R; auto).
   set (psi := fun f => match f with Occurs x => chi f && own x | Holds _ => chi f end).
   assert (E : same_inputs own chi psi).
   { split; [|reflexivity]. intros x X. simpl. rewrite X, andb_true_r. reflexivity. }
   assert (E' : same_inputs own psi chi) by (split; intros; symmetry; apply E; assumption).
   exists psi. split; [|split; [|split]].
   - rewrite <- (same_possible own Ks _ _ NK E). exact P.
-  - intros x X. simpl in X. apply andb_true_iff in X. destruct X as [_ X].
-    apply existsb_exists in X. destruct X as [R [I X]]. apply Pos.eqb_eq in X. eauto.
+  - intros x X. simpl in X. apply andb_true_iff in X. apply Own, X.
   - intro X. apply C. exact (same_compatible own r S S Ks _ _ NR NK (incl_refl S) E' X).
   - intros one R other F. apply (same_compatible own r S (one ++ other) Ks chi); auto.
     + intros Q J. rewrite F. apply in_app_iff in J. apply in_app_iff. simpl. tauto.
