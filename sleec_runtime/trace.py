@@ -10,7 +10,7 @@ rules with domains, give those of `Ruleset.in_domain`.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations, pairwise, product
 from math import ceil, floor
 from typing import Literal, NamedTuple, Union
@@ -35,6 +35,7 @@ from sleec_runtime.model import (
     Ruleset,
     Truth,
     Value,
+    formulas_of,
     leaves,
 )
 from sleec_runtime.model_time import (
@@ -180,11 +181,22 @@ class _Replay:
     # Rules ----------------------------------------------------------------------------------------------------
 
     def _rule(self, rule: Rule, instant: Instant) -> bool:
+        if not self.goes_on or instant is not self.instants[-1]:
+            return self._keeps(rule, instant)
+        # What else occurs now can decide a condition that names an event: each case is looked at.
+        named = frozenset().union(*map(_events_in, formulas_of(rule)))
+        return any(
+            replace(self, instants=(*self.instants[:-1], grown))._keeps(rule, grown, named - grown.events)
+            for grown in _grown(instant, named)
+        )
+
+    def _keeps(self, rule: Rule, instant: Instant, absent: frozenset[str] = frozenset()) -> bool:
+        """Whether a rule is kept at an instant, or can still be kept if the events `absent` do not occur there."""
         context = Context(instant.events, instant.conditions)
         decision = decide(rule, context, self.ruleset.reading, self.ruleset.measures)
         if decision is not None and rule is self.apart and instant is self.instants[-1]:
             return all(self._may_be_kept(obligation, instant.time, instant) for obligation in decision.obligations)
-        return decision is None or self._kept(decision.obligations, instant)
+        return decision is None or self._kept(decision.obligations, instant, absent)
 
     def _may_be_kept(self, obligation: Obligation, due: Rational, instant: Instant) -> bool:
         """Whether an obligation, or each of what stands in its place, can still be done, by itself."""
@@ -201,11 +213,15 @@ class _Replay:
         assert isinstance(decision, Decision), "without a guard, and in the closed world, a clause always decides"
         return decision.obligations
 
-    def _kept(self, obligations: tuple[Obligation, ...], instant: Instant) -> bool:
-        """Whether all of what is due at `instant` is done, or can still be done."""
+    def _kept(
+        self, obligations: tuple[Obligation, ...], instant: Instant, absent: frozenset[str] = frozenset()
+    ) -> bool:
+        """Whether all of what is due at `instant` is done, or can still be done if the events `absent` do not occur
+        there."""
         if self.goes_on:
             # All at once: what one obligation asks for may be what another forbids.
-            return any(map(self._can_be_done, self._ways(obligations, instant.time, instant)))
+            never = [_Due(event, True, instant.time, instant.time) for event in absent]
+            return any(self._can_be_done((*way, *never)) for way in self._ways(obligations, instant.time, instant))
         return all(
             any(all(self._occurs(due) != due.negated for due in way) for way in self._ways_of(o, instant.time, instant))
             for o in obligations
@@ -280,19 +296,25 @@ class _Replay:
         """Whether `formula` holds at `instant`; at now, with whatever else happens then."""
         if not self.goes_on or instant is not self.instants[-1]:
             return self._holds(formula, instant)
-        events = {leaf.name for leaf in leaves(formula) if isinstance(leaf, Atom) and leaf.kind != "condition"}
-        absent = sorted(events - instant.events)
-        return any(
-            self._holds(formula, Instant(instant.time, instant.events.union(more), instant.conditions))
-            for size in range(len(absent) + 1)
-            for more in combinations(absent, size)
-        )
+        return any(self._holds(formula, grown) for grown in _grown(instant, _events_in(formula)))
 
     def _holds(self, formula: Formula, instant: Instant) -> bool:
         context = Context(instant.events, instant.conditions)
         # To have been obliged is nothing here: an obligation is the event.
         done = {a.name: a.name in instant.events for a in leaves(formula) if isinstance(a, Atom)}
         return bool(truth(formula, Situation(context, self.ruleset.measures, obliged=done)))
+
+
+def _events_in(formula: Formula) -> frozenset[str]:
+    return frozenset(leaf.name for leaf in leaves(formula) if isinstance(leaf, Atom) and leaf.kind != "condition")
+
+
+def _grown(instant: Instant, events: frozenset[str]) -> Iterator[Instant]:
+    """The instant with any of these events occurring, too."""
+    further = sorted(events - instant.events)
+    for size in range(len(further) + 1):
+        for more in combinations(further, size):
+            yield Instant(instant.time, instant.events.union(more), instant.conditions)
 
 
 def _in_place(obligation: Obligation, due: Rational, own: _Due) -> Iterator[tuple[Clause, Rational]]:

@@ -31,6 +31,15 @@ Proof.
       * rewrite Forall_app. split; [exact F|]. apply Forall_forall. intros j J. apply C; auto.
 Qed.
 
+Lemma same_time tr i j : ordered tr -> In i tr -> In j tr -> time i = time j -> i = j.
+Proof.
+  unfold ordered. induction tr as [|x tr IH]; [intros _ []|].
+  intros O I J T. inversion O as [|y l S F]; subst. rewrite Forall_forall in F. unfold before in F.
+  destruct I as [<-|I], J as [<-|J]; auto.
+  - specialize (F j J). lia.
+  - specialize (F i I). lia.
+Qed.
+
 Lemma from_after now i later : ordered (i :: later) -> now <= time i -> from now (i :: later).
 Proof.
   intros O L. split; [exact O|]. inversion O as [|y l S F]; subst. constructor; [exact L|].

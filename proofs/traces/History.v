@@ -76,13 +76,37 @@ Definition relation_open (earlier : trace) (i : instant) (later : trace) (rel : 
   | _, [] => can_hold i (invariant rel)
   end.
 
+(** The events that the conditions of a rule speak of. *)
+Fixpoint response_events (R : response) : list name :=
+  match R with Response _ _ alternatives => flat_map (fun a => chain_events (snd a)) alternatives end
+with chain_events (c : timed_chain) : list name :=
+  match c with
+  | TimedChain all inner =>
+      flat_map response_events all ++ flat_map (fun h => events_in (fst h) ++ chain_events (snd h)) inner
+  end.
+
+Definition rule_events (R : timed_rule) : list name :=
+  events_in (timed_guard R) ++ chain_events (timed_response R).
+
+Definition rule_open (r : reading) (u : untimed) (h : trace) (now : Z) (i : instant) (R : timed_rule)
+  (more : list demand) : bool :=
+  implb (is_triggered i R) (demand_open h now (time i) (Every (rule_demand r u i R :: more))).
+
+(** These events do not occur at the instant of the trigger. *)
+Definition absent (i : instant) (es : list name) : list demand :=
+  map (fun e => Atomic (Occurrence (Avoid e) 0 (Some 0))) (filter (fun e => negb (events i e)) es).
+
+(** What else occurs now can decide a rule's conditions: each case is looked at. *)
 Definition law_open (r : reading) (u : untimed) (earlier : trace) (i : instant) (later : trace) (k : law)
   : bool :=
-  match k with
-  | RuleLaw R =>
-      implb (is_triggered i R)
-            (demand_open (earlier ++ i :: later) (time (last later i)) (time i) (rule_demand r u i R))
-  | RelationLaw rel => relation_open earlier i later rel
+  match k, later with
+  | RuleLaw R, [] =>
+      let es := nodup Pos.eq_dec (rule_events R) in
+      existsb (fun more => let i' := with_events i more in
+                           rule_open r u (earlier ++ [i']) (time i) i' R (absent i' es))
+              (valuations es)
+  | RuleLaw R, _ => rule_open r u (earlier ++ i :: later) (time (last later i)) i R []
+  | RelationLaw rel, _ => relation_open earlier i later rel
   end.
 
 (** For each instant, which laws a history breaks there whatever comes, by their places. *)

@@ -139,37 +139,31 @@ Qed.
 (** * All laws *)
 
 (** A law can still be kept at an instant of a history if and only if some way to go on
-    keeps it there.  The hypothesis on rules speaks of now only, and holds where hedges
-    speak of conditions. *)
+    keeps it there. *)
 Theorem law_open_exact r u earlier i later k :
   ordered (earlier ++ i :: later) ->
-  (forall R, k = RuleLaw R -> later <> [] \/ unaffected r u i R) ->
   law_open r u earlier i later k = true <->
   exists i' later', grows (i :: later) (i' :: later') /\ ordered (earlier ++ i' :: later')
                     /\ law_kept r u earlier i' later' k = true.
 Proof.
-  intros O U. destruct k as [R|rel].
-  - apply rule_open_exact; auto.
-  - apply relation_open_exact, O.
+  intro O. destruct k as [R|rel]; [apply rule_open_exact, O|].
+  transitivity (relation_open earlier i later rel = true); [destruct later; reflexivity|].
+  apply relation_open_exact, O.
 Qed.
 
 (** What [broken_so_far] reports is broken in every way to go on, and nothing else is. *)
 Theorem broken_so_far_exact r u laws h :
-  ordered h -> (forall R, In (RuleLaw R) laws -> rule_states R = true) ->
+  ordered h ->
   forall n earlier i later, nth_error (moments [] h) n = Some (earlier, i, later) ->
   forall m k, nth_error laws m = Some k ->
   (exists bs, nth_error (broken_so_far r u laws h) n = Some bs /\ nth_error bs m = Some true) <->
   forall i' later', grows (i :: later) (i' :: later') -> ordered (earlier ++ i' :: later') ->
     law_kept r u earlier i' later' k = false.
 Proof.
-  intros O S n earlier i later M m k K.
+  intros O n earlier i later M m k K.
   assert (E : h = earlier ++ i :: later).
   { apply nth_error_In, in_moments in M. destruct M as [e [-> ->]]. reflexivity. }
-  assert (X : law_open r u earlier i later k = true <->
-            exists i' later', grows (i :: later) (i' :: later') /\ ordered (earlier ++ i' :: later')
-                              /\ law_kept r u earlier i' later' k = true).
-  { apply law_open_exact; [rewrite <- E; exact O|]. intros R ->. right.
-    apply rule_states_unaffected, S. eapply nth_error_In, K. }
+  assert (X := law_open_exact r u earlier i later k). rewrite <- E in X. specialize (X O).
   unfold broken_so_far. rewrite nth_error_map, M. cbn [option_map]. split.
   - intros [bs [B T]] i' later' G O'. injection B as <-. rewrite nth_error_map, K in T.
     injection T as T. apply negb_true_iff in T. apply not_true_is_false. intro Y.

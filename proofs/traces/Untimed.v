@@ -48,15 +48,6 @@ Definition kept_at (r : reading) (S : ruleset) (Ks : list constraint) (i : insta
   possible Ks (context_of i) = true /\ respects Ks (done_at i)
   /\ forall l, In l (due r S (context_of i)) -> true_in (done_at i) l = true.
 
-Lemma same_time tr i j : ordered tr -> In i tr -> In j tr -> time i = time j -> i = j.
-Proof.
-  unfold ordered. induction tr as [|x tr IH]; [intros _ []|].
-  intros O I J T. inversion O as [|y l S F]; subst. rewrite Forall_forall in F. unfold before in F.
-  destruct I as [<-|I], J as [<-|J]; auto.
-  - specialize (F j J). lia.
-  - specialize (F i I). lia.
-Qed.
-
 Definition at_once (l : literal) : demand := Atomic (Occurrence l 0 (Some 0)).
 
 Lemma at_once_met tr i l :

@@ -94,15 +94,15 @@ class Draw:
     # Rules ----------------------------------------------------------------------------------------------------
 
     def rule(self, number: int) -> Rule:
-        hedges = [replace(self.clause(1), condition=self.formula(2)) for _ in range(self.chance.choice((0, 0, 1, 2)))]
-        guard = self.formula(1) if self.sometimes(0.3) else None
+        hedges = [replace(self.clause(1), condition=self.occasion(2)) for _ in range(self.chance.choice((0, 0, 1, 2)))]
+        guard = self.occasion(1) if self.sometimes(0.3) else None
         return Rule(f"r{number}", self.event(), guard, self.clause(2, least=1), tuple(hedges))
 
     def clause(self, depth: int, least: int = 0) -> Clause:
         """A response without a condition: its obligations, and sometimes a chain inside."""
         obligations = [self.obligation(depth) for _ in range(self.chance.choice((least, 1, 1, 2)))]
         inner = self.chance.randint(1, 2) if depth and self.sometimes(0.3) else 0
-        hedges = [replace(self.clause(depth - 1), condition=self.formula(1)) for _ in range(inner)]
+        hedges = [replace(self.clause(depth - 1), condition=self.occasion(1)) for _ in range(inner)]
         return Clause(None, tuple(obligations), tuple(hedges))
 
     def obligation(self, depth: int) -> Obligation:
@@ -161,13 +161,17 @@ class Draw:
             label,
             self.chance.choice(("exists", "when")),
             self.event(),
-            self.formula(1) if self.sometimes(0.5) else None,
+            self.occasion(1) if self.sometimes(0.5) else None,
             tuple(self.clause(1, least=1) for _ in range(self.chance.choice((0, 1, 1, 2)))),
             self.claim("") if self.sometimes(0.3) else None,
         )
 
     def event(self) -> str:
         return self.chance.choice(EVENTS)
+
+    def occasion(self, depth: int) -> Formula:
+        """A condition of a rule or claim, which may name events."""
+        return self.formula(depth, ("condition", "condition", "trigger"))
 
     def formula(self, depth: int, kinds: tuple[str, ...] = ("condition",)) -> Formula:
         chance = self.chance

@@ -131,7 +131,7 @@ EVERY = {
     *(f"{law} broken" for law in LAWS),
     *(f"{law} open" for law in LAWS if law not in {*NEVER_OPEN, "mutualExclusive", "forbid", "exclusive"}),
     *("claim holds", "claim does not hold", "at", "eventually", "cascade", "priority", "guard", "two hedges"),
-    *("exists", "when", "claim with a condition", "meanwhile", "comparison", "condition"),
+    *("exists", "when", "claim with a condition", "meanwhile", "comparison", "condition", "trigger"),
     *(f"{name} of {count} responses" for name in ("concern", "purpose") for count in range(3)),
     *(f"{count} instants" for count in range(6)),
     *("measured duration", "until with a condition", "chain in a chain", "hedge without a response", "two obligations"),

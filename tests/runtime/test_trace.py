@@ -291,6 +291,27 @@ def test_what_a_history_breaks_for_good_without_windows():
 
 
 @pytest.mark.parametrize(
+    ("rule", "timeline", "expected"),
+    [
+        # What still occurs now decides hedges and guards of now, and not those of before.
+        ("A then not A unless B", "0: A", []),
+        ("A then not A unless B", "0: A | 1:", [0]),
+        ("A and (not B) then not A", "0: A", []),
+        ("A then not A unless B then not B", "0: A", [0]),
+        ("A then C within 2 seconds otherwise {not A unless B}", "0: A", []),
+        # What a hedge looks for and what it then forbids, or requires, go together.
+        ("A then B unless B then not B", "0: A", [0]),
+        ("A then B unless B then not A", "0: A", [0]),
+        ("A then B unless B then C", "0: A", []),
+        ("A then B within [0, 1] seconds unless B then not A", "0: A", []),
+        ("A then B within [0, 1] seconds unless B then not A", "0: A B", [0]),
+    ],
+)
+def test_what_else_occurs_now_decides_conditions_that_name_events(rule, timeline, expected):
+    assert hopeless_at(rule, timeline) == expected
+
+
+@pytest.mark.parametrize(
     ("first", "second", "timeline", "expected"),
     [
         # Each could be kept, both cannot.
