@@ -38,25 +38,20 @@ Definition complies (G : timed_ruleset) (S : list timed_rule) (e : trace) : Prop
 Definition can_comply (G : timed_ruleset) (S : list timed_rule) (s : situation) : Prop :=
   exists e, responds G s e /\ complies G S e.
 
-(** The events that the conditions of a rule name. *)
-Fixpoint response_names (R : response) : list name :=
-  match R with Response _ _ alternatives => flat_map (fun a => chain_names (snd a)) alternatives end
-with chain_names (c : timed_chain) : list name :=
-  match c with
-  | TimedChain all inner =>
-      flat_map response_names all
-        ++ flat_map (fun h => events_in (fst h) ++ chain_names (snd h)) inner
-  end.
+(** Inputs trigger rules, or only the environment causes them. *)
+Definition is_input (G : timed_ruleset) (x : name) : Prop :=
+  mere_input G x = true \/ exists R, In R (timed_rules G) /\ timed_trigger R = x.
 
 (** An event triggers a rule, or its conditions name it. *)
 Definition concerns (R : timed_rule) (x : name) : Prop :=
-  x = timed_trigger R \/ In x (events_in (timed_guard R) ++ chain_names (timed_response R)).
+  x = timed_trigger R \/ In x (rule_events R).
 
 (** A situation for the rules [S]. *)
 Record situation_for (G : timed_ruleset) (S : list timed_rule) (s : situation) : Prop := {
   in_order : ordered (past s ++ [now s]);
   is_lawful : lawful_so_far G s;
-  inputs_concern : forall x, events (now s) x = true -> exists R, In R S /\ concerns R x;
+  inputs_concern : forall x, events (now s) x = true ->
+    is_input G x /\ exists R, In R S /\ concerns R x;
   one_decides : exists R, In R S /\ is_triggered (now s) R = true;
   inputs_allowed : forall i R, In i (past s) -> In R S ->
     exists e, grows (past s ++ [now s]) e /\ ordered e

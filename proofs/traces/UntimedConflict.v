@@ -44,17 +44,17 @@ Definition mentions_event (R : rule) (x : name) : Prop :=
 
 Lemma concerns_timed R x : concerns (timed_of R) x <-> mentions_event R x.
 Proof.
-  unfold concerns, mentions_event, timed_of, conditions_of, triggers_in.
-  cbn [timed_trigger timed_guard timed_response chain_names flat_map].
-  assert (E : flat_map response_names (timed_literals (default R)) = []).
+  unfold concerns, rule_events, mentions_event, timed_of, conditions_of, triggers_in.
+  cbn [timed_trigger timed_guard timed_response chain_events flat_map].
+  assert (E : flat_map response_events (timed_literals (default R)) = []).
   { unfold timed_literals. induction (default R); [reflexivity|exact IHl]. }
-  assert (F : flat_map (fun h => events_in (fst h) ++ chain_names (snd h))
+  assert (F : flat_map (fun h => events_in (fst h) ++ chain_events (snd h))
                 (map (fun h => (hedge_condition h, TimedChain (timed_literals (hedge_obliges h)) []))
                      (hedges R))
               = flat_map events_in (map hedge_condition (hedges R))).
-  { induction (hedges R) as [|h hs IH]; [reflexivity|]. cbn [map flat_map fst snd chain_names].
+  { induction (hedges R) as [|h hs IH]; [reflexivity|]. cbn [map flat_map fst snd chain_events].
     rewrite IH. f_equal. rewrite app_nil_r.
-    assert (G : flat_map response_names (timed_literals (hedge_obliges h)) = []).
+    assert (G : flat_map response_events (timed_literals (hedge_obliges h)) = []).
     { unfold timed_literals. induction (hedge_obliges h); [reflexivity|exact IHl]. }
     rewrite G. apply app_nil_r. }
   rewrite E, F. reflexivity.
@@ -133,7 +133,7 @@ Theorem conflict_in_situation r G Ks mere S s :
 Proof.
   intros N I Sit.
   assert (Inputs : forall x, events (now s) x = true -> mere x = true).
-  { intros x X. destruct (inputs_concern _ _ _ Sit x X) as [R' [J T]].
+  { intros x X. destruct (inputs_concern _ _ _ Sit x X) as [_ [R' [J T]]].
     apply in_map_iff in J. destruct J as [R [<- J]].
     apply (triggers_mere _ _ _ N R x (I R J)), concerns_timed, T. }
   pose proof (situation_possible _ _ _ _ _ _ N Sit) as P.
@@ -169,8 +169,9 @@ Proof.
   intros N I Ne P T M. constructor; cbn [past now].
   - repeat constructor.
   - intros earlier j later k E. destruct earlier; discriminate E.
-  - intros x X. destruct (T x X) as [R [J Q]]. exists (timed_of R). split; [apply in_map, J|].
-    apply concerns_timed, Q.
+  - intros x X. destruct (T x X) as [R [J Q]]. split.
+    + left. exact (triggers_mere _ _ _ N R x (I R J) Q).
+    + exists (timed_of R). split; [apply in_map, J|]. apply concerns_timed, Q.
   - destruct S as [|R S]; [congruence|]. exists (timed_of R). split; [simpl; auto|].
     apply (minimal_conflict_decides _ _ _ _ M R). simpl. auto.
   - intros j R [].
@@ -193,7 +194,7 @@ Proof.
   intros N I Ne. split.
   - intros [s C]. pose proof (proj1 (proj2 C)) as Sit. exists (context_of (now s)). split; [|split].
     + exact (situation_possible _ _ _ _ _ _ N Sit).
-    + intros x X. destruct (inputs_concern _ _ _ Sit x X) as [R' [J T]].
+    + intros x X. destruct (inputs_concern _ _ _ Sit x X) as [_ [R' [J T]]].
       apply in_map_iff in J. destruct J as [R [<- J]]. apply concerns_timed in T. eauto.
     + apply (conflict_in_situation r G Ks mere S s N I Sit), C.
   - intros [chi [P [T M]]].
