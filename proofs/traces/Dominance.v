@@ -1,5 +1,5 @@
-(** Dominance ([slots] in [sleec_verify/traces/situations.py], [_settled] and [_dominated] in
-    [sleec_verify/traces/histories.py]).
+(** Dominance ([is_dominant] in [sleec_verify/traces/pending.py], [_settled] and [_dominated]
+    in [sleec_verify/traces/histories.py]).
 
     Many triggerings of one response can be pending at now.  If its window opens with the
     trigger, the earliest deadline implies all later ones, and the latest prohibition implies
