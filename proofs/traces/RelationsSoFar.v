@@ -2,7 +2,7 @@
 
 From Coq Require Import List Bool PArith ZArith Lia.
 From Sleec Require Import Model Evaluation Entailment Constraints.
-From Traces Require Import Trace History Continuation RulesSoFar.
+From Traces Require Import Trace History Continuation Growth RulesSoFar.
 Import ListNotations.
 Local Open Scope Z_scope.
 

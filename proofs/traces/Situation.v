@@ -2,7 +2,7 @@
 
 From Coq Require Import List Bool PArith ZArith.
 From Sleec Require Import Model Evaluation.
-From Traces Require Import Trace History Continuation RulesSoFar.
+From Traces Require Import Trace History Continuation Growth.
 Import ListNotations.
 Local Open Scope Z_scope.
 

@@ -4,7 +4,7 @@
 
 From Coq Require Import List Bool PArith ZArith Lia Sorted.
 From Sleec Require Import Model Evaluation Entailment Constraints Clashes Conflict.
-From Traces Require Import Trace History Continuation RulesSoFar Situation.
+From Traces Require Import Trace History Continuation Growth Situation.
 Import ListNotations.
 Local Open Scope Z_scope.
 
