@@ -9,6 +9,7 @@ there is none, the facts that no history gives are excluded.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from typing import NamedTuple
 
 from sleec_runtime.model import Rule, Value
@@ -63,24 +64,35 @@ class ConflictSearch:
         self._index = index
         self._found: list[Conflict] = []
         self._undecided: list[Undecided] = []
-        self._situations = Situations(index)
-        self._refinement = Refinement(self._situations)
+
+    @cached_property
+    def _situations(self) -> Situations:
+        return Situations(self._index)
+
+    @cached_property
+    def _refinement(self) -> Refinement:
+        return Refinement(self._situations)
 
     def find(self) -> Iterator[Conflict]:
-        """Every minimal conflict, by its pairs; none whose pairs contain those of another one found before.
+        """Every minimal conflict, by its pairs; none whose pairs contain those of another one.
 
         Raises Undecided where that is all that could be decided.
         """
         named = sorted({event for rule in self._index.ruleset.rules for event in named_atoms(rule)})
         if named:
             raise Undecided(f"a condition names {named[0]}, which is also a response: not analysed")
-        while self._refinement.propose():
-            yield from self._examine()
+        try:
+            while self._refinement.propose():
+                self._examine()
+        except Undecided as error:
+            self._undecided.append(error)
+        every = [frozenset(conflict.pairs) for conflict in self._found]
+        yield from (one for one, pairs in zip(self._found, every) if not any(other < pairs for other in every))
         if self._undecided:
             raise self._undecided[0]
 
-    def _examine(self) -> Iterator[Conflict]:
-        """The conflict in the situation proposed, unless that is none."""
+    def _examine(self) -> None:
+        """Note the conflict in the situation proposed, unless that is none."""
         try:
             conflict = self._look()
         except Undecided as error:
@@ -91,13 +103,12 @@ class ConflictSearch:
             self._situations.exclude_pairs(
                 (pair.rule, None if pair.clause == LATER else pair.clause) for pair in conflict.pairs
             )
-            yield conflict
 
     def _leave_open(self, error: Undecided) -> None:
         """Go on without the situations of the same rules, inputs and slots as the one that was not decided."""
-        self._undecided.append(error)
-        if isinstance(error, OutOfBudget) or len(self._undecided) > MOST_UNDECIDED:
+        if isinstance(error, OutOfBudget) or len(self._undecided) >= MOST_UNDECIDED:
             raise error
+        self._undecided.append(error)
         self._situations.exclude([f for f in self._situations.facts() if f[0] in ("rule", "input", "slot") and f[-1]])
 
     # One situation --------------------------------------------------------------------------------------------
