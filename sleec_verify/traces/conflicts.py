@@ -129,7 +129,7 @@ class ConflictSearch:
         s = self._situations
         rules = minimal_rules(continuations, rules)
         if not rules:
-            s.exclude(continuations.core())
+            s.exclude(weakest(continuations, continuations.core(), s))
             return None
         core = continuations.core()
         given = {str(fact[1]) for fact in facts if fact[0] == "input" and fact[-1]}

@@ -59,9 +59,11 @@ def without_slots(continuations: Continuations, rules: list[str], facts: list[Fa
 def weakest(question: Question, core: Collection[Fact], situations: Situations) -> list[Fact]:
     """Facts that imply less than those of a core, and are still refuted: as few as can be besides the rules, and the
     bounds on times as weak as can be. It stops where that is not decided."""
-    facts = list(core)
+    # A bound on the time of what is pending says nothing unless it is pending.
+    pending = {node: fact for fact in situations.facts_of_pending() for node in situations.nodes_of(fact)}
+    facts = list(dict.fromkeys([*core, *(pending[n] for f in core if f[0] == "gap" for n in f[1:3] if n in pending)]))
     with as_far_as_decided():
-        for fact in [fact for fact in core if fact[0] not in ("rule", "gap")]:
+        for fact in [fact for fact in facts if fact[0] not in ("rule", "gap")]:
             nodes = situations.nodes_of(fact)
             less = [f for f in facts if f != fact and not (f[0] == "gap" and nodes & {*f[1:3]})]
             if question.refutes(less):

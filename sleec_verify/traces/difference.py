@@ -11,6 +11,11 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
+from sleec_verify.budget import spend
+
+PER_EDGE = 4
+"""Steps of a budget for each difference that is compared with the others."""
+
 
 class _Edge(NamedTuple):
     """``time[target] - time[source] <= length``, because `literal` is true."""
@@ -104,6 +109,7 @@ class Differences:
         tightest: dict[int, dict[int, _Edge]] = {node: {} for node in used}
         for edge in self._edges(holds, used):
             tightest[edge.source][edge.target] = edge
+        spend(PER_EDGE * sum(map(len, tightest.values())))
         # Nearly all contradictions are between three nodes: returning all of these at once saves models.
         cycles = list(_triangles(tightest)) or _negative_cycle(tightest)
         return [[-literal for literal in self._weakened(cycle)] for cycle in cycles]

@@ -185,6 +185,11 @@ class Situations:
             literal = self.lasting[str(name)][1]
         return literal if value else -literal
 
+    def facts_of_pending(self) -> Iterator[Fact]:
+        """The facts that something is pending, one for each thing that can be."""
+        yield from (("slot", number, True) for number in range(len(self.slots)))
+        yield from (("lasts", key, True) for key in self.lasting)
+
     def nodes_of(self, fact: Fact) -> set[int]:
         """The times that only a fact speaks about."""
         if fact[0] == "slot":

@@ -44,7 +44,7 @@ def templates_of(found: Continuations) -> Iterator[Template]:
     """Templates of the continuation that `found.complies` has just found: with the earliest and the latest times, each
     instant reckoned from what it waits for; and with times in between, all reckoned from now, which fits for sure."""
     now = found.now
-    found.model.reduce()
+    found.model.reduce([one.guard for one in found.model.decided if one.at != now])
     earliest, waits = found.model.schedule()
     latest, limits = found.model.schedule(now)
     first, second = _template(found, earliest, waits), _template(found, latest, limits)

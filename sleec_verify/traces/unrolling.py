@@ -13,7 +13,7 @@ this terminates; elsewhere the search gives up after `MOST_CYCLIC` instants.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 from sleec_runtime.model import Formula as Condition
@@ -167,13 +167,14 @@ class Unrolling(ABC):
                 return False
             self._grow()
 
-    def reduce(self) -> None:
-        """Leave instants and events out of the trace of the last `ask` as far as it does not need them."""
+    def reduce(self, spared: Iterable[int]) -> None:
+        """Leave instants and events out of the trace of the last `ask`, and make literals false that are `spared`, as
+        far as it does not need them."""
         required, counting = self._asked
         spare: list[int] = []
         instants = [instant.used for instant in self.instants.values()]
         events = [literal for instant in self.instants.values() for literal in instant.events().values()]
-        for literal in [*instants, *events]:
+        for literal in [*instants, *spared, *events]:
             if self.true(literal) and self._solve([*required, *spare, -literal], counting, closed=True):
                 spare.append(-literal)
         found = self._solve([*required, *spare], counting, closed=True)
