@@ -7,6 +7,7 @@ says that each guard implies what its clause obliges. This is the quadratic form
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import islice
 from typing import NamedTuple
 
 from sleec_runtime.model import And, Atom, Clause, Formula, Not, Or, Reading, Rule, Truth
@@ -20,15 +21,21 @@ class Implication(NamedTuple):
     clause: Clause
 
 
-def implications(rule: Rule, reading: Reading) -> list[Implication]:
+def implications(rule: Rule, reading: Reading) -> Iterator[Implication]:
     """Equation 1 of a rule, a conjunct for each clause in the order of `Rule.clauses`."""
     triggered: list[Formula] = [Atom("trigger", rule.trigger)]
     if rule.guard is not None:
         triggered.append(rule.guard)
-    found: list[tuple[Formula, Clause]] = []
-    for clause, parts in zip((rule.default, *rule.hedges), _split(triggered, rule.hedges, reading)):
-        found += _descend(parts, clause, reading)
-    return [Implication(number, guard, clause) for number, (guard, clause) in enumerate(found)]
+    number = 0
+    for member, parts in zip((rule.default, *rule.hedges), _split(triggered, rule.hedges, reading)):
+        for guard, clause in _descend(parts, member, reading):
+            yield Implication(number, guard, clause)
+            number += 1
+
+
+def guard(rule: Rule, reading: Reading, number: int) -> Formula:
+    """The guard of clause `number`."""
+    return next(islice(implications(rule, reading), number, None)).guard
 
 
 def chain(clause: Clause, reading: Reading) -> Iterator[tuple[Formula, Clause]]:
@@ -37,24 +44,20 @@ def chain(clause: Clause, reading: Reading) -> Iterator[tuple[Formula, Clause]]:
 
 
 def _descend(parts: list[Formula], clause: Clause, reading: Reading) -> Iterator[tuple[Formula, Clause]]:
-    first, *rest = _split(parts, clause.hedges, reading)
-    yield conjunction(first), clause
-    for nested, conjuncts in zip(clause.hedges, rest):
+    decides = _split(parts, clause.hedges, reading)
+    yield conjunction(next(decides)), clause
+    for nested, conjuncts in zip(clause.hedges, decides):
         yield from _descend(conjuncts, nested, reading)
 
 
-def _split(active: list[Formula], hedges: Sequence[Clause], reading: Reading) -> list[list[Formula]]:
+def _split(active: list[Formula], hedges: Sequence[Clause], reading: Reading) -> Iterator[list[Formula]]:
     """The conjuncts under which each member of a chain decides: the default first, then the hedges."""
     conditions = [hedge.condition for hedge in hedges if hedge.condition is not None]
-    if reading == "cascade":
-        return [
-            active + conditions[:i] + [Not(following) for following in conditions[i : i + 1]]
-            for i in range(len(conditions) + 1)
-        ]
-    return [
-        active + ([conditions[i - 1]] if i else []) + [Not(later) for later in conditions[i:]]
-        for i in range(len(conditions) + 1)
-    ]
+    for i in range(len(conditions) + 1):
+        if reading == "cascade":
+            yield active + conditions[:i] + [Not(following) for following in conditions[i : i + 1]]
+        else:
+            yield active + ([conditions[i - 1]] if i else []) + [Not(later) for later in conditions[i:]]
 
 
 def conjunction(operands: Sequence[Formula]) -> Formula:
@@ -63,7 +66,7 @@ def conjunction(operands: Sequence[Formula]) -> Formula:
     for operand in operands:
         if isinstance(operand, And):
             flat += operand.operands
-        elif operand != Truth(True):
+        elif not isinstance(operand, Truth) or not operand.value:
             flat.append(operand)
     if not flat:
         return Truth(True)

@@ -4,12 +4,11 @@ and the solver, must find in the situation what the finding says of it."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 
-from sleec_runtime.conflicts import forbidding, has_conflict
-from sleec_runtime.evaluation import Situation, decide, due, holds
-from sleec_runtime.model import READINGS, Context, Never, Rule, Ruleset
-from sleec_verify.cone import Cones, names_in, names_of_rule
+from sleec_runtime.conflicts import has_conflict
+from sleec_runtime.evaluation import Decision, Situation, decide, holds
+from sleec_runtime.model import READINGS, Context
+from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding
 
 
@@ -30,50 +29,44 @@ def replays(cones: Cones, finding: Finding) -> bool:
     context = finding.witness.context()
     assumed = cones.assumptions_that_may_break(context)
     possible = all(holds(assumption.formula, context, cones.ruleset.measures) for assumption in assumed)
-    return possible and _CLAIMS[finding.check](_about(cones, finding), finding, context)
+    return possible and _CLAIMS[finding.check](cones, finding, context)
 
 
-def _about(cones: Cones, finding: Finding) -> Ruleset:
-    """The ruleset with only the rules of the finding, the constraints that can concern what they oblige, and the
-    measures of both. What other rules oblige as well takes no conflict away."""
-    rules = [cones.ruleset.by_label[label] for label in finding.rules]
-    obliged = {o.name for rule in rules for clause in rule.clauses() for o in clause.obligations}
+def _decisions(cones: Cones, finding: Finding, context: Context) -> dict[str, Decision]:
+    """The clauses that decide the rules of the finding. What other rules oblige as well takes no conflict away."""
+    ruleset = cones.ruleset
+    found = (decide(ruleset.by_label[label], context, ruleset.reading, ruleset.measures) for label in finding.rules)
+    return {decision.rule.label: decision for decision in found if decision is not None}
+
+
+def _conflicts(cones: Cones, finding: Finding, context: Context) -> bool:
+    decisions = _decisions(cones, finding, context)
+    decide_so = all(label in decisions and decisions[label].clause == number for label, number in finding.clauses)
+    return decide_so and _has_conflict(cones, finding, context, decisions)
+
+
+def _vacuous(cones: Cones, finding: Finding, context: Context) -> bool:
+    decisions = _decisions(cones, finding, context)
+    return finding.rules[0] in decisions and _has_conflict(cones, finding, context, decisions)
+
+
+def _has_conflict(cones: Cones, finding: Finding, context: Context, decisions: Mapping[str, Decision]) -> bool:
+    """Whether what these decisions oblige conflicts, with the constraints that can concern it."""
+    literals = tuple(dict.fromkeys(literal for one in decisions.values() for literal in one.obligations))
     # Constraints can break by themselves where a NEVER and another leave nothing to do.
-    alone = not finding.clauses
-    constraints = cones.constraints if alone else cones.constraints_about({*obliged, *finding.obligations})
-    named = {name for rule in rules for _, name in names_of_rule(rule)}
-    named.update(n for c in constraints if isinstance(c, Never) for _, n in names_in(c.formula))
-    measures = cones.ruleset.measures
-    kept = tuple(measures[name] for name in sorted(named) if name in measures)
-    return replace(cones.ruleset, statements=(*constraints, *rules), inferred=kept)
+    names = {literal.name for literal in literals}.union(finding.obligations)
+    constraints = cones.constraints_about(names) if finding.clauses else cones.constraints
+    return has_conflict(literals, constraints, Situation(context, cones.ruleset.measures))
 
 
-def _conflicts(ruleset: Ruleset, finding: Finding, context: Context) -> bool:
-    for label, number in finding.clauses:
-        decision = decide(ruleset.by_label[label], context, ruleset.reading, ruleset.measures)
-        if decision is None or decision.clause != number:
-            return False
-    return _has_conflict(ruleset, context)
-
-
-def _vacuous(ruleset: Ruleset, finding: Finding, context: Context) -> bool:
-    rule = ruleset.by_label[finding.rules[0]]
-    return decide(rule, context, ruleset.reading, ruleset.measures) is not None and _has_conflict(ruleset, context)
-
-
-def _has_conflict(ruleset: Ruleset, context: Context) -> bool:
-    literals = due(ruleset, context).literals
-    return has_conflict(literals, forbidding(ruleset), Situation(context, ruleset.measures))
-
-
-def _readings_part(ruleset: Ruleset, finding: Finding, context: Context) -> bool:
-    rule: Rule = ruleset.by_label[finding.rules[0]]
-    decisions = [decide(rule, context, reading, ruleset.measures) for reading in READINGS]
+def _readings_part(cones: Cones, finding: Finding, context: Context) -> bool:
+    rule = cones.ruleset.by_label[finding.rules[0]]
+    decisions = [decide(rule, context, reading, cones.ruleset.measures) for reading in READINGS]
     due = [set(decision.obligations) for decision in decisions if decision is not None]
     return len(due) == len(READINGS) and due[0] != due[1]
 
 
-_CLAIMS: Mapping[str, Callable[[Ruleset, Finding, Context], bool]] = {
+_CLAIMS: Mapping[str, Callable[[Cones, Finding, Context], bool]] = {
     "conflict": _conflicts,
     "vacuous-conflict": _vacuous,
     "reading": _readings_part,

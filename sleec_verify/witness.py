@@ -14,6 +14,7 @@ from sleec_runtime.model import And, Comparison, Formula, Not, Or, Truth, Value,
 from sleec_verify.cnf import Encoder
 from sleec_verify.cone import Cones, Name, names_in
 from sleec_verify.finding import Witness
+from sleec_verify.forced import Impossible, Literals, forced
 from sleec_verify.solver import MiniSat, Solver, Undecided
 
 
@@ -25,20 +26,42 @@ def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = (
 
     Raises `Undecided` where the solver did not decide.
     """
+    valued, assumed = set(valued), _assumed(cones, formula, valued)
+    if not assumed and not valued:
+        try:
+            literals = forced(formula)
+        except Impossible:
+            return None
+        if literals is not None:
+            return _of_literals(literals)
     rails = _Rails(cones)
     rails.encoder.clauses.append([rails.known(formula, True)])
-    valued = set(valued)
     for measure in sorted(valued):
         rails.require_value(measure)
-    if cones.assumptions:
-        named = set(names_in(formula))
-        # A trigger that need not occur makes no situation smaller.
-        occurring = cones.cutting.occurring_with(name for kind, name in named if kind == "trigger")
-        named.update(("condition", measure) for measure in valued)
-        for assumed in cones.cutting.kept_by(named, occurring):
-            rails.encoder.clauses.append([rails.in_completion(assumed)])
+    for assumption in assumed:
+        rails.encoder.clauses.append([rails.in_completion(assumption)])
     rails.encoder.close()
     return rails.smallest()
+
+
+def _assumed(cones: Cones, formula: Formula, valued: Iterable[str]) -> list[Formula]:
+    """The assumptions that a situation of the formula may break, cut to what may have to occur there."""
+    if not cones.assumptions:
+        return []
+    named = set(names_in(formula))
+    # A trigger that need not occur makes no situation smaller.
+    occurring = cones.cutting.occurring_with(name for kind, name in named if kind == "trigger")
+    named.update(("condition", measure) for measure in valued)
+    return cones.cutting.kept_by(named, occurring)
+
+
+def _of_literals(literals: Literals) -> Witness:
+    names = sorted(literals)
+    return Witness(
+        tuple(name for kind, name in names if kind == "trigger" and literals[kind, name]),
+        {name: literals[kind, name] for kind, name in names if kind == "condition"},
+        tuple(name for kind, name in names if kind == "trigger" and not literals[kind, name]),
+    )
 
 
 class _Rails:

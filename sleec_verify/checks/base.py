@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 from sleec_runtime.model import Clause, Formula, Obligation, Rule, Span
 from sleec_verify.cone import Cones, Place
-from sleec_verify.equation import implications
+from sleec_verify.equation import guard
 from sleec_verify.finding import ClauseRef, Finding, Severity, Witness
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def clause_at(cones: Cones, place: Place) -> Clause:
 
 def guard_at(cones: Cones, place: Place) -> Formula:
     """The guard of a clause, written out."""
-    return implications(cones.rules[place.rule], cones.ruleset.reading)[place.number].guard
+    return guard(cones.rules[place.rule], cones.ruleset.reading, place.number)
 
 
 def literals_of(clauses: Iterable[Clause]) -> set[Obligation]:

@@ -44,9 +44,10 @@ def _conflicts(cones: Cones) -> Iterator[Finding]:
     def look(at: tuple[Cause, Clash]) -> tuple[Finding, ...]:
         cause, clash = at
         situation = _situation(cones, cause, clash)
-        if situation is not None and _possible(cones, cause, situation):
-            witness = smallest_situation(cones, situation)
-            assert witness is not None, "the cause is possible"
+        if situation is None or not _possible(cones, cause, situation):
+            return ()
+        witness = smallest_situation(cones, situation)
+        if witness is not None:
             causes.setdefault(cause, []).append((clash, witness))
             if len(causes) >= most:
                 raise Enough(f"the first {most} causes are listed; there may be more")
@@ -141,6 +142,10 @@ def _situation(cones: Cones, cause: Cause, clash: Clash) -> Formula | None:
 
 
 def _possible(cones: Cones, cause: Cause, situation: Formula) -> bool:
+    """Whether the clauses decide together, by a question that can be recorded. Without recorder and assumptions, the
+    search for a smallest situation answers it."""
+    if cones.recorder is None and not cones.assumptions:
+        return True
     with Question(cones) as question:
         for place in cause:
             question.require(question.guards(place.rule)[place.number])

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import NamedTuple
 
-from sleec_runtime.model import Clause, Formula, Not, Obligation, Reading, Rule
+from sleec_runtime.model import Atom, Clause, Formula, Not, Obligation, Reading, Rule, formulas_of
 from sleec_verify.checks.base import Check, FindingKind, clause_name, listed
 from sleec_verify.checks.each import each
 from sleec_verify.cone import Cones
-from sleec_verify.equation import conjunction, disjunction, implications
-from sleec_verify.finding import ClauseRef, Finding
+from sleec_verify.equation import conjunction, disjunction, guard, implications
+from sleec_verify.finding import ClauseRef, Finding, Witness
 from sleec_verify.question import Question
+from sleec_verify.shape import Shape, shape_of
 from sleec_verify.witness import smallest_situation
 
 LONG = 30
@@ -25,13 +27,55 @@ def _readings(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule means the same: some literal is due under one reading and not under the
     other. A model is a situation in which the readings part."""
 
+    known: dict[object, tuple[Shape, _Parted | None]] = {}
+
     def of(position: int) -> Iterator[Finding]:
         if len(cones.clauses[position]) > 2:
-            situations = _parting(cones, position)
-            if situations is not None:
-                yield _finding(cones, position, cones.rules[position], situations)
+            parted = _parted_by_shape(cones, position, known)
+            if parted is not None:
+                yield _finding(cones, position, parted)
 
     yield from each(cones.labelled(), of)
+
+
+class _Parted(NamedTuple):
+    """A smallest situation in which the readings part, and the clause that decides by each."""
+
+    witness: Witness
+    deciding: dict[Reading, int]
+
+
+def _parted_by_shape(cones: Cones, position: int, known: dict[object, tuple[Shape, _Parted | None]]) -> _Parted | None:
+    """Where the readings part, asked once for all rules of one shape. With assumptions, or where each question is
+    recorded, it is asked for each rule."""
+    rule, clauses = cones.rules[position], cones.clauses[position]
+    shape = None
+    if not (cones.assumptions or cones.recorder) and len(clauses) == 1 + len(rule.hedges):
+        shape = shape_of((Atom("trigger", rule.trigger), *formulas_of(rule)), cones.ruleset.measures)
+    if shape is None:
+        return _parted(cones, position)
+    due: dict[Obligation, int] = {}
+    same = tuple(tuple(due.setdefault(one, len(due)) for one in clause.obligations) for clause in clauses)
+    key = rule.guard is None, same, shape.key
+    found = known.get(key)
+    if found is None:
+        found = known[key] = shape, _parted(cones, position)
+    one, parted = found
+    return None if parted is None else parted._replace(witness=shape.renamed(parted.witness, one.names))
+
+
+def _parted(cones: Cones, position: int) -> _Parted | None:
+    situations = _parting(cones, position)
+    if situations is None:
+        return None
+    rule, reading = cones.rules[position], cones.ruleset.reading
+    witness = smallest_situation(cones, situations)
+    assert witness is not None, "the readings part in some situation"
+    with Question(cones) as question:
+        by_reading = {r: question.encoder.guards(rule, r) for r in (reading, OTHER[reading])}
+        question.ask(*question.encoder.assumptions(witness.context()))
+        deciding = {r: next(n for n, g in enumerate(guards) if question.true(g)) for r, guards in by_reading.items()}
+    return _Parted(witness, deciding)
 
 
 def _parting(cones: Cones, position: int) -> Formula | None:
@@ -51,7 +95,7 @@ def _parting(cones: Cones, position: int) -> Formula | None:
         deciding = [next(n for n, guard in enumerate(each) if question.true(guard)) for each in guards]
     if len(rule.hedges) <= LONG:
         return _situations(rule, here)
-    return conjunction([implications(rule, reading)[n].guard for reading, n in zip((here, there), deciding)])
+    return conjunction([guard(rule, reading, n) for reading, n in zip((here, there), deciding)])
 
 
 def _parts_in_chain(cones: Cones, rule: Rule) -> bool:
@@ -97,14 +141,8 @@ def _situations(rule: Rule, here: Reading) -> Formula:
     return disjunction([conjunction([a[o], Not(b[o])]) for a, b in ((one, other), (other, one)) for o in one])
 
 
-def _finding(cones: Cones, position: int, rule: Rule, situations: Formula) -> Finding:
-    reading = cones.ruleset.reading
-    witness = smallest_situation(cones, situations)
-    assert witness is not None, "the readings part in some situation"
-    with Question(cones) as question:
-        by_reading = {r: question.encoder.guards(rule, r) for r in (reading, OTHER[reading])}
-        question.ask(*question.encoder.assumptions(witness.context()))
-        deciding = {r: next(n for n, g in enumerate(guards) if question.true(g)) for r, guards in by_reading.items()}
+def _finding(cones: Cones, position: int, parted: _Parted) -> Finding:
+    rule, reading, (witness, deciding) = cones.rules[position], cones.ruleset.reading, parted
     clauses = cones.clauses[position]
     said = [
         f"read as {r}, {clause_name(rule, n)} decides: {_response(clauses[n], cones.ruleset.syntax == 'dsl')}"

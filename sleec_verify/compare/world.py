@@ -200,7 +200,7 @@ class World:
         found = self._guards.get(key)
         if found is None:
             rule, of = self.rows[row].on(which), self.sides[which]
-            found = [] if rule is None else implications(of.plain(rule), of.stated.reading)
+            found = [] if rule is None else list(implications(of.plain(rule), of.stated.reading))
             self._guards[key] = found
         return found
 
