@@ -1,6 +1,6 @@
 """What becomes due once what is due is done, as a tree: doing an obligation triggers the rules of that name.
 
-The measures stay as they are. Rules with "it happened" and "it is to be done" of one name (docs/semantics.md) are asked
+The measures stay as they are. What is done at once occurs together with the triggers of the situation. Rules with "it happened" and "it is to be done" of one name (docs/semantics.md) are asked
 one after the other: this is the question of its own that their causing each other is.
 """
 
@@ -85,6 +85,12 @@ class _Done(NamedTuple):
     way: _Way
     windows: tuple[tuple[int, int | None], ...]
 
+    @property
+    def is_at_once(self) -> bool:
+        """Whether it is done at the instant of the situation."""
+        ends = [*self.windows, *((link.start, link.end) for link in self.way)]
+        return bool(self.windows) and all(end == (0, 0) for end in ends)
+
 
 class _Forbids(NamedTuple):
     """What forbids an event, in a window after a way."""
@@ -110,7 +116,7 @@ class _Tree:
         self._context = context
         self._windows = Windows(ruleset, context, untimed)
         self._triggers = {rule.trigger for rule in ruleset.rules}
-        self._shown: dict[str, bool] = {}
+        self._shown: dict[tuple[str, bool], bool] = {}
         self._prohibitions: dict[str, list[_Forbids]] = {}
 
     def grow(self, because: tuple[Because, ...]) -> list[_Node]:
@@ -141,12 +147,15 @@ class _Tree:
             return _Node(done, cycle=name in self._triggers)
         if name not in self._triggers:
             return _Node(done)
-        if name in self._shown:
-            return _Node(done, seen=self._shown[name])
+        shown = name, done.is_at_once
+        if shown in self._shown:
+            return _Node(done, seen=self._shown[shown])
         if len(done.way) == DEEPEST:
             return _Node(done, more=True)
-        because = entail(self._ruleset, Context(frozenset({name}), self._context.conditions)).because
-        self._shown[name] = bool(because)
+        others = self._context.triggers if done.is_at_once else ()
+        answer = entail(self._ruleset, Context(frozenset({name, *others}), self._context.conditions))
+        because = [one for one in answer.because if self._ruleset.by_label[one.rule].trigger == name]
+        self._shown[shown] = bool(because)
         ends = [end for _, end in done.windows]
         latest = None if None in ends else max((end for end in ends if end is not None), default=None)
         way = (*done.way, _Link(name, min((start for start, _ in done.windows), default=0), latest))

@@ -65,15 +65,21 @@ def _spliced(kind, last):
     return last.operands if isinstance(last, kind) else (last,)
 
 
-conditions = st.recursive(
-    _leaves,
-    lambda inner: st.one_of(
-        inner.map(Not),
-        st.lists(inner, min_size=2, max_size=3).map(_chain(And)),
-        st.lists(inner, min_size=2, max_size=3).map(_chain(Or)),
-    ),
-    max_leaves=5,
-)
+def _formulas(leaves):
+    return st.recursive(
+        leaves,
+        lambda inner: st.one_of(
+            inner.map(Not),
+            st.lists(inner, min_size=2, max_size=3).map(_chain(And)),
+            st.lists(inner, min_size=2, max_size=3).map(_chain(Or)),
+        ),
+        max_leaves=5,
+    )
+
+
+states = _formulas(_leaves)
+"""What relations say of conditions and measures; rules and claims may name events besides."""
+conditions = _formulas(st.one_of(_leaves, events.map(lambda name: Atom("trigger", name))))
 _units = st.sampled_from(("seconds", "minutes", "hours", "days"))
 _amounts = st.sampled_from((Number(1), Number(60), Number(5, "K"), MeasureRef("x")))
 lengths = st.builds(Length, _amounts, _units)
@@ -117,13 +123,11 @@ def claims_of(draw, kind, label, depth=1):
 
 relations: st.SearchStrategy[Any] = st.one_of(
     st.builds(EventRelation, st.sampled_from(("witness", "equal", "mutualExclusive", "happenBefore")), events, events),
-    st.builds(
-        MeasureRelation, st.sampled_from(("imply", "iff", "mutualExclusive", "opposite")), conditions, conditions
-    ),
-    st.builds(MeasureRelation, st.just("invariant"), conditions),
-    st.builds(Effect, st.sampled_from(("causation", "includes", "forbid")), events, conditions),
-    st.builds(Lasting, events, st.none() | conditions, conditions, events, st.none() | conditions),
-    st.builds(Lasting, events, st.none() | conditions, conditions, duration=lengths),
+    st.builds(MeasureRelation, st.sampled_from(("imply", "iff", "mutualExclusive", "opposite")), states, states),
+    st.builds(MeasureRelation, st.just("invariant"), states),
+    st.builds(Effect, st.sampled_from(("causation", "includes", "forbid")), events, states),
+    st.builds(Lasting, events, st.none() | states, states, events, st.none() | states),
+    st.builds(Lasting, events, st.none() | states, states, duration=lengths),
 )
 
 

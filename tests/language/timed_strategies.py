@@ -75,7 +75,9 @@ class Words:
             st.just(Comparison(MeasureRef("Patience"), ">=", Number(5, "Soon"))),
             st.just(Comparison(MeasureRef("Risk"), "<", ScaleValue("high", 2))),
         )
-        self.conditions = formulas(leaf)
+        self.states = formulas(leaf)
+        event = self.events.map(lambda name: Atom("trigger", name))
+        self.conditions = formulas(st.one_of(leaf, leaf, event))
 
 
 @st.composite
@@ -112,7 +114,7 @@ def claims_of(draw, words, kind, label, depth=1):
 
 
 def relations_of(words: Words) -> st.SearchStrategy[Any]:
-    events, conditions = words.events, words.conditions
+    events, conditions = words.events, words.states
     return st.one_of(
         st.builds(EventRelation, st.sampled_from(_relations), events, events),
         st.builds(

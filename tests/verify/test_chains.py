@@ -43,6 +43,12 @@ def test_a_prohibition_that_a_chain_meets():
     assert tree(text, "A") == ["  B", "    r2: D", "      D (which r1 forbids)"]
 
 
+def test_what_is_done_at_once_occurs_with_the_triggers_of_the_situation():
+    rules = "RULE r1 WHEN A THEN B{}\nRULE r2 WHEN B THEN C UNLESS A IN WHICH CASE D\nRULE r3 WHEN C THEN E"
+    assert tree(rules.format(""), "A") == ["  B", "    r2.hc1: D"]
+    assert tree(rules.format(" WITHIN 5 minutes"), "A") == ["  B", "    r2: C", "      C", "        r3: E"]
+
+
 def test_nothing_is_shown_where_nothing_follows():
     assert tree("RULE r1 WHEN A THEN B", "A") == []
 
