@@ -230,7 +230,7 @@ _FINDING = _record(
         "clauses": _list(_record({"rule": _TEXT, "clause": _INTEGER})),
         "obligations": _TEXTS,
         "span": _SPAN,
-        "witness": _or_null(_record({"triggers": _TEXTS, "conditions": _CONDITIONS})),
+        "witness": _or_null(_record({"triggers": _TEXTS, "conditions": _CONDITIONS, "absent": _TEXTS}, "absent")),
         "timeline": _record({"moments": _list(_MOMENT), "now": _or_null(_INTEGER)}),
         "domains": _TEXTS,
     },

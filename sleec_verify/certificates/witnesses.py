@@ -59,6 +59,8 @@ class Replay:
         absent = tuple(sorted(set(claim.get("absent", ()))))
         if not self._ruleset.triggers.issuperset((*triggers, *absent)):
             raise ValueError("a trigger that the rules do not have")
+        if not set(absent).isdisjoint(triggers):
+            raise ValueError("a trigger that occurs and does not")
         return Witness(triggers, values, absent)
 
     def _value(self, name: str, value: object) -> Value:

@@ -25,7 +25,8 @@ from sleec_verify.cli import run
 from tests.certificates.test_certificates import CONSTRAINED, source, written
 from tests.certificates.test_refused import CONFLICTING, TIMED
 
-TEXTS = {"proved": CONSTRAINED, "refuted": CONFLICTING, "timed": TIMED}
+ABSENT = "RULE a WHEN A THEN X UNLESS B\nRULE b WHEN B THEN Y\nRULE c WHEN C THEN NOT X\n"
+TEXTS = {"proved": CONSTRAINED, "refuted": CONFLICTING, "timed": TIMED, "absent": ABSENT}
 Path_ = tuple[Any, ...]
 
 
@@ -140,7 +141,7 @@ def test_no_key_may_be_missing_added_or_moved(kind: str) -> None:
         if not isinstance(value, dict) or path[-1:] == ("files",) or path[-1:] == ("conditions",):
             continue
         others = [{**value, "more": 1}, {"more": 1, **value}, dict(reversed(value.items()))]
-        others += [{k: v for k, v in value.items() if k != key} for key in value if key != "timeline"]
+        others += [{k: v for k, v in value.items() if k != key} for key in value if key not in ("timeline", "absent")]
         for other in others:
             assert reason(canonical(with_value(whole, path, other) if path else other)) is not None, (path, other)
 
