@@ -1,7 +1,8 @@
 """What becomes due once what is due is done, as a tree: doing an obligation triggers the rules of that name.
 
-The measures stay as they are. What is done at once occurs together with the triggers of the situation. Rules with "it happened" and "it is to be done" of one name (docs/semantics.md) are asked
-one after the other: this is the question of its own that their causing each other is.
+The measures stay as they are. What is done at once occurs together with the triggers of the situation. Rules with "it
+happened" and "it is to be done" of one name (docs/semantics.md) are asked one after the other: this is the question of
+its own that their causing each other is.
 """
 
 from __future__ import annotations

@@ -34,7 +34,7 @@ class World:
         if peaceful:
             self._forbid_conflicts()
         if single:
-            self._at_most_one([self.trigger(name) for name in sorted(cones.by_trigger)])
+            self._at_most_one([self.trigger(name) for name in sorted(cones.ruleset.triggers)])
 
     def trigger(self, name: str) -> int:
         return self.encoder.variable(("trigger", name))

@@ -68,7 +68,9 @@ def _list(names: Sequence[str]) -> str:
 
 def _value(value: Value) -> str:
     text = value_text(value)
-    return _quoted(text) if isinstance(value, str) or "/" in text else text
+    # TOML has integers of 64 bits.
+    is_long = isinstance(value, int) and not -(2**63) <= value < 2**63
+    return _quoted(text) if isinstance(value, str) or "/" in text or is_long else text
 
 
 def json_text(ruleset: Ruleset, criterion: str, found: Cases, path: str | None) -> str:

@@ -189,6 +189,21 @@ def test_what_is_written_is_read(tmp_path_factory, data) -> None:
     assert len(json.loads(json_text(ruleset, "clause", found, None))["cases"]) == len(found.cases)
 
 
+def test_a_single_trigger_is_alone_though_a_hedge_names_another_one() -> None:
+    text = "DOMAIN a WHEN T THEN o UNLESS U IN WHICH CASE p\nDOMAIN b WHEN U THEN o"
+    found = choose_cases(parse(text), "clause", single=True)
+    assert {case.triggers for case in found.cases} == {("T",), ("U",)}
+    assert [(u.name, u.why) for u in found.unreached] == [("rule_1.hc1", "only when other triggers occur as well")]
+
+
+def test_long_integers_are_written_and_read(tmp_path: Path) -> None:
+    ruleset = parse(f"MEASURE n: integer\nRULE r WHEN T AND n > {10**20} THEN o UNLESS n < {2**63} IN WHICH CASE p")
+    found = choose_cases(ruleset, "clause")
+    (tmp_path / "x.cases.toml").write_text(toml(ruleset, "clause", found, None), encoding="utf-8")
+    read = read_cases(tmp_path / "x.cases.toml", ruleset)
+    assert [case.context() for case in read.cases] == [case.context() for case in found.cases]
+
+
 def test_atoms_are_conditions_once_each() -> None:
     (rule,) = parse("RULE r WHEN T AND a THEN o UNLESS a OR b IN WHICH CASE p UNLESS b").rules
     assert conditions_of(rule) == [Atom("condition", "a"), Atom("condition", "b")]
