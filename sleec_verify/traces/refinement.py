@@ -16,8 +16,8 @@ from sleec_verify.traces.templates import Template, templates_of
 MOST_COPIES = 8
 """Further slots for each response that needs several, besides those of templates. Published rulesets need none."""
 
-MOST_TEMPLATES = 400
-"""Templates after which the search gives up."""
+MOST_TEMPLATES = 2_000
+"""Templates after which the search gives up. The budget of a file ends it before."""
 
 
 class Refinement:
@@ -36,7 +36,8 @@ class Refinement:
         """For each template, the literal that leaves only the situations that it does not fit."""
         self._lifted: dict[Template, int] = {}
         """The same, for templates with slots of their own."""
-        self._own = 1 + most_prohibitions(s.index)
+        # A demand, and an instant of a policy for each prohibition in it; or two instants that coincide.
+        self._own = 1 + max(most_prohibitions(s.index), 1)
         self._copies = 0
         self._add(Template())
 

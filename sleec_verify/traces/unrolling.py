@@ -29,6 +29,9 @@ MOST = 30
 MOST_CYCLIC = 8
 """The same where a response can lead back to its trigger."""
 
+MOST_CONFLICTS_CYCLIC = 20_000
+"""Conflicts of the solver after which a question is given up where a response can lead back to its trigger."""
+
 MOST_CLAUSES = 20_000
 """Clauses beyond which no instant is added."""
 
@@ -71,7 +74,7 @@ class Unrolling(ABC):
         self._needs: list[Need] = []
         self._everywhere: list[Callable[[int], None]] = []
         self._in_force: dict[str, int] = {}
-        self._solver = MiniSat()
+        self._solver = MiniSat(budget=MOST_CONFLICTS_CYCLIC if index.is_cyclic else None)
         self._sent = 0
         self._core: set[int] = set()
         self._asked: tuple[Sequence[int], Collection[str] | None] = (), None
