@@ -33,6 +33,7 @@ from sleec_verify.budget import Undecided
 if TYPE_CHECKING:
     from sleec_verify.clashes import Clashes
     from sleec_verify.cutting import Cutting
+    from sleec_verify.shape import Shape
     from sleec_verify.solver import Recorder
     from sleec_verify.timed.program import Program
 
@@ -89,6 +90,7 @@ class Cones:
         self.ruleset = ruleset
         self.rules = ruleset.rules
         self.recorder = recorder
+        self._shapes: dict[int, Shape | None] = {}
 
     @cached_property
     def program(self) -> Program:
@@ -105,6 +107,17 @@ class Cones:
     def labelled(self) -> Iterator[tuple[str, int]]:
         """The label of each rule, with its position."""
         return ((rule.label, position) for position, rule in enumerate(self.rules))
+
+    def shape(self, position: int) -> Shape | None:
+        """The shape of the rule at `position`, if what is asked about it alone has the same answer for all rules of its
+        shape. None where assumptions may tell them apart, and where every question is recorded."""
+        if self.assumptions or self.recorder is not None:
+            return None
+        if position not in self._shapes:
+            from sleec_verify.shape import shape_of_rule
+
+            self._shapes[position] = shape_of_rule(self.rules[position], self.ruleset.measures)
+        return self._shapes[position]
 
     @cached_property
     def by_trigger(self) -> dict[str, list[int]]:

@@ -8,8 +8,22 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from sleec_runtime.model import And, Atom, Comparison, Formula, Measure, MeasureRef, Not, Number, Or, ScaleValue, Term
-from sleec_verify.cone import Name
+from sleec_runtime.model import (
+    And,
+    Atom,
+    Comparison,
+    Formula,
+    Measure,
+    MeasureRef,
+    Not,
+    Number,
+    Obligation,
+    Or,
+    Rule,
+    ScaleValue,
+    Term,
+    formulas_of,
+)
 from sleec_verify.finding import Witness
 
 LARGEST = 100
@@ -22,9 +36,9 @@ class Shape(NamedTuple):
     """The shape of some formulas, as a key, and their names in the order of the shape."""
 
     key: Key
-    names: tuple[Name, ...]
+    names: tuple[tuple[str, str], ...]
 
-    def renamed(self, witness: Witness, names: tuple[Name, ...]) -> Witness:
+    def renamed(self, witness: Witness, names: tuple[tuple[str, str], ...]) -> Witness:
         """A situation of these formulas, from that of formulas with the same shape and these names."""
         new = {old: name for old, (_, name) in zip(names, self.names)}
         return Witness(
@@ -48,6 +62,20 @@ def shape_of(formulas: Iterable[Formula], measures: Mapping[str, Measure]) -> Sh
     return Shape((tuple(tops), ranks, *found.nodes), names)
 
 
+def shape_of_rule(rule: Rule, measures: Mapping[str, Measure]) -> Shape | None:
+    """The shape of a rule: of its conditions, and of which clauses oblige the same. None where `shape_of` has none, and
+    for a rule with chains inside its chain, or with times."""
+    clauses = (rule.default, *rule.hedges)
+    due: dict[Obligation, int] = {}
+    same = []
+    for clause in clauses:
+        if clause.hedges or any(obligation.timing is not None for obligation in clause.obligations):
+            return None
+        same.append(tuple(due.setdefault(obligation, len(due)) for obligation in clause.obligations))
+    shape = shape_of((Atom("trigger", rule.trigger), *formulas_of(rule)), measures)
+    return None if shape is None else shape._replace(key=(rule.guard is None, tuple(same), *shape.key))
+
+
 class _Unshaped(Exception):
     """There is no shape."""
 
@@ -59,7 +87,7 @@ class _Nodes:
     def __init__(self, measures: Mapping[str, Measure]) -> None:
         self._measures = measures
         self._places: dict[int, int] = {}
-        self.names: dict[Name, int] = {}
+        self.names: dict[tuple[str, str], int] = {}
         self.nodes: list[Key] = []
 
     def node(self, formula: Formula) -> int:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TypeVar
 
 from sleec_verify.budget import Undecided, begin, share
+from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding
 
 _Asked = TypeVar("_Asked")
@@ -31,6 +32,27 @@ def each(asked: Iterable[tuple[str, _Asked]], question: Callable[[_Asked], Itera
         yield from found
     if why:
         raise Undecided("; ".join(f"{_named(names)}: {reason}" for reason, names in why.items()))
+
+
+def once_for_each_shape(
+    cones: Cones, question: Callable[[int], Iterable[Finding]], alone: Callable[[int], bool] = lambda position: True
+) -> Callable[[int], Iterator[Finding]]:
+    """The question about the rule at a position, not asked again of a rule that has the shape of one of which nothing
+    was found. `alone` says whether it concerns only the rule itself."""
+    nothing_found: set[object] = set()
+
+    def of(position: int) -> Iterator[Finding]:
+        shape = cones.shape(position) if alone(position) else None
+        if shape is not None and shape.key in nothing_found:
+            return
+        found = False
+        for finding in question(position):
+            found = True
+            yield finding
+        if shape is not None and not found:
+            nothing_found.add(shape.key)
+
+    return of
 
 
 def _named(names: list[str]) -> str:

@@ -6,14 +6,14 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from sleec_runtime.model import Atom, Clause, Formula, Not, Obligation, Reading, Rule, formulas_of
+from sleec_runtime.model import Clause, Formula, Not, Obligation, Reading, Rule
 from sleec_verify.checks.base import Check, FindingKind, clause_name, listed
 from sleec_verify.checks.each import each
 from sleec_verify.cone import Cones
 from sleec_verify.equation import conjunction, disjunction, guard, implications
 from sleec_verify.finding import ClauseRef, Finding, Witness
 from sleec_verify.question import Question
-from sleec_verify.shape import Shape, shape_of
+from sleec_verify.shape import Shape
 from sleec_verify.witness import smallest_situation
 
 LONG = 30
@@ -46,20 +46,13 @@ class _Parted(NamedTuple):
 
 
 def _parted_by_shape(cones: Cones, position: int, known: dict[object, tuple[Shape, _Parted | None]]) -> _Parted | None:
-    """Where the readings part, asked once for all rules of one shape. With assumptions, or where each question is
-    recorded, it is asked for each rule."""
-    rule, clauses = cones.rules[position], cones.clauses[position]
-    shape = None
-    if not (cones.assumptions or cones.recorder) and len(clauses) == 1 + len(rule.hedges):
-        shape = shape_of((Atom("trigger", rule.trigger), *formulas_of(rule)), cones.ruleset.measures)
+    """Where the readings part, asked once for all rules of one shape."""
+    shape = cones.shape(position)
     if shape is None:
         return _parted(cones, position)
-    due: dict[Obligation, int] = {}
-    same = tuple(tuple(due.setdefault(one, len(due)) for one in clause.obligations) for clause in clauses)
-    key = rule.guard is None, same, shape.key
-    found = known.get(key)
+    found = known.get(shape.key)
     if found is None:
-        found = known[key] = shape, _parted(cones, position)
+        found = known[shape.key] = shape, _parted(cones, position)
     one, parted = found
     return None if parted is None else parted._replace(witness=shape.renamed(parted.witness, one.names))
 
