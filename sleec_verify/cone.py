@@ -91,6 +91,7 @@ class Cones:
         self.rules = ruleset.rules
         self.recorder = recorder
         self._shapes: dict[int, Shape | None] = {}
+        self._rivals: dict[int, list[int]] = {}
 
     @cached_property
     def program(self) -> Program:
@@ -328,6 +329,12 @@ class Cones:
     def rivals(self, position: int) -> list[int]:
         """The other rules that may oblige what the rule at `position` obliges, in situations that trigger it. In the
         order of the text."""
+        found = self._rivals.get(position)
+        if found is None:
+            found = self._rivals[position] = self._rivals_of(position)
+        return found
+
+    def _rivals_of(self, position: int) -> list[int]:
         rule = self.rules[position]
         literals = {literal for clause in self.clauses[position] for literal in clause.obligations}
         found = {place.rule for literal in literals for place in self.by_obligation[literal]} - {position}

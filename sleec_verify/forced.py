@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from sleec_runtime.model import And, Atom, Comparison, Formula, Not, Or, Truth
-from sleec_verify.cone import Name
+from sleec_verify.cone import Name, names_in
 
 Literals = dict[Name, bool]
 _Part = tuple[Formula, bool]
@@ -13,12 +15,27 @@ class Impossible(Exception):
     """No situation makes the formula true."""
 
 
-def forced(formula: Formula) -> Literals | None:
-    """The literals that make `formula` true and that each situation must name in which it is known to be true. None
-    where some are not forced, or the formula compares measures.
+class Forced(NamedTuple):
+    """The literals that each situation must name in which a formula is known to be true, and the parts of the formula
+    that they leave open: disjunctions, and comparisons of measures."""
 
-    Raises Impossible for a formula that is never true. O(size of the formula) for each round of propagation.
-    """
+    literals: Literals
+    open_parts: list[Formula]
+
+    def least(self) -> int:
+        """How many names such a situation has at least: one for each open part that shares none with another."""
+        seen: set[Name] = set()
+        parts = 0
+        for part in self.open_parts:
+            names = set(names_in(part)) - self.literals.keys()
+            parts += seen.isdisjoint(names)
+            seen |= names
+        return len(self.literals) + parts
+
+
+def forced(formula: Formula) -> Forced:
+    """What the formula forces. Raises Impossible for one that is never true. O(size of the formula) for each round of
+    propagation."""
     known: Literals = {}
     open_: list[_Part] = [(formula, True)]
     waiting: list[_Part] = []
@@ -27,15 +44,13 @@ def forced(formula: Formula) -> Literals | None:
         open_ = []
         still: list[_Part] = []
         for part, value in waiting:
-            if isinstance(part, Comparison):
-                return None
-            left = _left(part, value, known)
+            left = [] if isinstance(part, Comparison) else _left(part, value, known)
             if len(left) == 1:
                 open_ += ((operand, value) for operand in left)
-            elif left:
+            elif left or isinstance(part, Comparison):
                 still.append((part, value))
         waiting = still
-    return None if waiting else known
+    return Forced(known, [part for part, _ in waiting])
 
 
 def _split(open_: list[_Part], known: Literals) -> list[_Part]:

@@ -27,13 +27,15 @@ def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = (
     Raises `Undecided` where the solver did not decide.
     """
     valued, assumed = set(valued), _assumed(cones, formula, valued)
+    least = 0
     if not assumed and not valued:
         try:
-            literals = forced(formula)
+            found = forced(formula)
         except Impossible:
             return None
-        if literals is not None:
-            return _of_literals(literals)
+        if not found.open_parts:
+            return _of_literals(found.literals)
+        least = found.least()
     rails = _Rails(cones)
     rails.encoder.clauses.append([rails.known(formula, True)])
     for measure in sorted(valued):
@@ -41,7 +43,7 @@ def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = (
     for assumption in assumed:
         rails.encoder.clauses.append([rails.in_completion(assumption)])
     rails.encoder.close()
-    return rails.smallest()
+    return rails.smallest(least)
 
 
 def _assumed(cones: Cones, formula: Formula, valued: Iterable[str]) -> list[Formula]:
@@ -131,16 +133,19 @@ class _Rails:
             return self.encoder.true() if formula.value else -self.encoder.true()
         return self._rails_of((formula.kind, formula.name))[0]
 
-    def smallest(self) -> Witness | None:
+    def smallest(self, least: int) -> Witness | None:
+        """The situation; `least` names are in any."""
         names = sorted(self._mentioned)
         with MiniSat(self.encoder.clauses) as solver:
             values = self._solve(solver)
             if values is None:
                 return None
             situation, size = self._situation(solver, values)
+            if size <= least:
+                return situation
             counter = _Counter(self.encoder, [self._mentioned[name] for name in names], size)
             solver.add(counter.clauses)
-            while size:
+            while size > least:
                 solver.add([[-counter.at_least[size]]])
                 values = self._solve(solver)
                 if values is None:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from sleec_runtime.model import Clause, Rule, in_text_order
 from sleec_verify.checks.base import Check, FindingKind, clause_name
-from sleec_verify.checks.each import each, once_for_each_shape
+from sleec_verify.checks.each import each_shape
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
 from sleec_verify.question import Question
@@ -27,7 +27,7 @@ def _dead_rules(cones: Cones) -> Iterator[Finding]:
                     help="look at its guard and at the assumptions, or remove it",
                 )
 
-    yield from each(cones.labelled(), once_for_each_shape(cones, of))
+    yield from each_shape(cones, of)
 
 
 def _dead_hedges(cones: Cones) -> Iterator[Finding]:
@@ -64,7 +64,7 @@ def _dead_hedges(cones: Cones) -> Iterator[Finding]:
                         help="mend its condition, or remove it",
                     )
 
-    yield from each(cones.labelled(), once_for_each_shape(cones, of))
+    yield from each_shape(cones, of)
 
 
 def _response_name(rule: Rule, number: int) -> str:

@@ -34,25 +34,32 @@ def each(asked: Iterable[tuple[str, _Asked]], question: Callable[[_Asked], Itera
         raise Undecided("; ".join(f"{_named(names)}: {reason}" for reason, names in why.items()))
 
 
-def once_for_each_shape(
+def each_shape(
     cones: Cones, question: Callable[[int], Iterable[Finding]], alone: Callable[[int], bool] = lambda position: True
-) -> Callable[[int], Iterator[Finding]]:
-    """The question about the rule at a position, not asked again of a rule that has the shape of one of which nothing
-    was found. `alone` says whether it concerns only the rule itself."""
+) -> Iterator[Finding]:
+    """The findings for all rules, by their positions. The question is not asked of a rule that has the shape of one of
+    which nothing was found. `alone` says whether it concerns only the rule itself."""
     nothing_found: set[object] = set()
 
-    def of(position: int) -> Iterator[Finding]:
+    def shape_of(position: int) -> object:
         shape = cones.shape(position) if alone(position) else None
-        if shape is not None and shape.key in nothing_found:
-            return
+        return None if shape is None else shape.key
+
+    def of(position: int) -> Iterator[Finding]:
         found = False
         for finding in question(position):
             found = True
             yield finding
-        if shape is not None and not found:
-            nothing_found.add(shape.key)
+        if not found:
+            nothing_found.add(shape_of(position))
 
-    return of
+    def asked() -> Iterator[tuple[str, int]]:
+        for label, position in cones.labelled():
+            key = shape_of(position)
+            if key is None or key not in nothing_found:
+                yield label, position
+
+    return each(asked(), of)
 
 
 def _named(names: list[str]) -> str:

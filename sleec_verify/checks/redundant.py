@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from sleec_runtime.model import Clause, Obligation, Rule
 from sleec_verify.checks.base import Check, FindingKind, clause_name, listed, literals_of
-from sleec_verify.checks.each import each, once_for_each_shape
+from sleec_verify.checks.each import each_shape
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
 from sleec_verify.question import Question
@@ -53,7 +53,7 @@ def _redundant_rules(cones: Cones) -> Iterator[Finding]:
             else "it obliges nothing in any situation",
         )
 
-    yield from each(cones.labelled(), once_for_each_shape(cones, of, lambda position: not cones.rivals(position)))
+    yield from each_shape(cones, of, lambda position: not cones.rivals(position))
 
 
 def _makes_a_difference(cones: Cones, position: int, others: Sequence[int]) -> bool:
@@ -121,7 +121,7 @@ def _redundant_hedges(cones: Cones) -> Iterator[Finding]:
                 help=what_to_do(clauses[number]),
             )
 
-    yield from each(cones.labelled(), once_for_each_shape(cones, of, lambda position: not cones.rivals(position)))
+    yield from each_shape(cones, of, lambda position: not cones.rivals(position))
 
 
 def what_to_do(hedge: Clause) -> str:

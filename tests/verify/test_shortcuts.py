@@ -8,13 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from benchmarks import checking
 from benchmarks.random_rules import random_rules
 from sleec_runtime.language import parse
 from sleec_runtime.model import And, Atom, Comparison, MeasureRef, Not, Number, Or, Rule, Truth
 from sleec_verify import witness
 from sleec_verify.checks import reading, run_checks
 from sleec_verify.cone import Cones
-from sleec_verify.forced import Impossible, forced
+from sleec_verify.forced import Forced, Impossible, forced
 from sleec_verify.shape import LARGEST, shape_of
 from sleec_verify.witness import smallest_situation
 from tests.verify.small import small_rulesets
@@ -35,32 +36,44 @@ CONES = Cones(parse("MEASURE x: number\nWHEN t AND x < 3 THEN o\n"))
 @settings(max_examples=600)
 @given(FORMULAS)
 def test_forced_literals_are_the_smallest_situation(formula) -> None:
-    def not_forced(_: object) -> None:
-        return None
-
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(witness, "forced", not_forced)
+        patch.setattr(witness, "forced", nothing_forced)
         searched = smallest_situation(CONES, formula)
     assert smallest_situation(CONES, formula) == searched
     try:
-        literals = forced(formula)
+        found = forced(formula)
     except Impossible:
         assert searched is None
     else:
-        assert literals is None or searched is not None
+        if searched is not None:
+            assert found.least() <= len(searched.triggers) + len(searched.absent) + len(searched.conditions)
+
+
+class NothingForced(Forced):
+    def least(self) -> int:
+        return 0
+
+
+def nothing_forced(formula) -> Forced:
+    return NothingForced({}, [formula])
 
 
 @pytest.mark.parametrize(
-    ("formula", "literals"),
+    ("formula", "literals", "least"),
     [
-        (And((_ATOMS[0], Or((Not(_ATOMS[0]), Not(_ATOMS[2]))))), {("trigger", "t"): True, ("condition", "a"): False}),
-        (And((_ATOMS[2], Or((_ATOMS[2], _ATOMS[3])))), {("condition", "a"): True}),
-        (Or((_ATOMS[2], _ATOMS[3])), None),
-        (Comparison(MeasureRef("x"), "<", Number(3)), None),
+        (
+            And((_ATOMS[0], Or((Not(_ATOMS[0]), Not(_ATOMS[2]))))),
+            {("trigger", "t"): True, ("condition", "a"): False},
+            2,
+        ),
+        (And((_ATOMS[2], Or((_ATOMS[2], _ATOMS[3])))), {("condition", "a"): True}, 1),
+        (Or((_ATOMS[2], _ATOMS[3])), {}, 1),
+        (And((Or((_ATOMS[2], _ATOMS[3])), Or((_ATOMS[3], _ATOMS[4])), Or((_ATOMS[0], _ATOMS[1])))), {}, 2),
+        (Comparison(MeasureRef("x"), "<", Number(3)), {}, 1),
     ],
 )
-def test_what_is_forced(formula, literals) -> None:
-    assert forced(formula) == literals
+def test_what_is_forced(formula, literals, least) -> None:
+    assert (forced(formula).literals, forced(formula).least()) == (literals, least)
 
 
 @settings(max_examples=100)
@@ -106,6 +119,15 @@ def test_random_rules_are_found_the_same_with_and_without(monkeypatch: pytest.Mo
         return [finding for result in run_checks(ruleset) for finding in result.findings]
 
     quick = found()
-    monkeypatch.setattr(witness, "forced", lambda formula: None)
+    monkeypatch.setattr(witness, "forced", nothing_forced)
     monkeypatch.setattr(Cones, "shape", lambda cones, position: None)
     assert found() == quick
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("rules", "bound"), [(checking.FEW, checking.BOUND_FEW), (checking.MANY, checking.BOUND_MANY)], ids=["few", "many"]
+)
+def test_a_check_takes_a_few_times_as_long_as_parsing(rules: tuple[int, float], bound: int) -> None:
+    # Another process on the same core disturbs one measurement, and hardly three.
+    assert any(checking.ratio(*rules, rounds=2)[0] <= bound for _ in range(3))
