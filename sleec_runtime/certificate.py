@@ -47,11 +47,12 @@ def read_manifest(folder: str | Path, key: str | Path | None = None) -> Manifest
 
 class Use(NamedTuple):
     """How rules are used. `domain` is None where they are used in each of their domains by itself; `untimed` is when a
-    response without a window is due, in rules with time."""
+    response without a window is due, in rules with time. `chains` is whether what is done triggers rules."""
 
     reading: str
     domain: str | None = None
     untimed: str = "at"
+    chains: bool = True
 
 
 class Uncovered(NamedTuple):
@@ -96,6 +97,15 @@ def uncovered(manifest: Manifest, ruleset: Ruleset, use: Use) -> Iterator[Uncove
             " a response without a window is due at another time",
             f"certify the rules with --untimed {use.untimed}, or use them with --untimed {manifest.untimed}",
         )
+    if manifest.chains != use.chains and _chains_matter(ruleset, use.domain, use.chains):
+        yield Uncovered(
+            "chains",
+            "the certificate counts that what is done triggers rules, and this use does not"
+            if manifest.chains
+            else "the certificate does not count that what is done triggers rules, and this use does",
+            f"load the rules with chains={manifest.chains}, or certify them {'with' if manifest.chains else 'without'}"
+            " --no-chains",
+        )
 
 
 def _in_words(domain: str | None, ruleset: Ruleset) -> str:
@@ -133,7 +143,7 @@ class Demand:
 
     def _problems(self, ruleset: Ruleset, domain: str | None) -> Iterator[Uncovered]:
         # A response without a window is executed at its trigger.
-        found = list(uncovered(self._manifest, ruleset, Use(ruleset.reading, domain, "at")))
+        found = list(uncovered(self._manifest, ruleset, Use(ruleset.reading, domain, "at", self._chains)))
         yield from found
         if any(one.reason == "ruleset-changed" for one in found):
             return
@@ -148,14 +158,6 @@ class Demand:
                 "domain",
                 f"the certificate is for each of the domains {listed(ruleset.domains)} by itself",
                 "load the rules with domain=",
-            )
-        if self._manifest.chains != self._chains and _chains_matter(ruleset, domain, self._chains):
-            yield Uncovered(
-                "chains",
-                "the certificate counts that what is done triggers rules, and the runtime does not"
-                if self._manifest.chains
-                else "the certificate does not count that what is done triggers rules, and the runtime does",
-                f"load the rules with chains={self._manifest.chains}",
             )
         verdicts = {name: self._manifest.verdicts.get(name, "missing") for name in DEMANDED}
         open_checks = [f"{name} is {verdict}" for name, verdict in verdicts.items() if verdict != "proved"]

@@ -104,8 +104,6 @@ def _strict(data: bytes, whole: Mapping[str, Any]) -> Manifest:
     verdicts = {check["name"]: check["verdict"] for check in whole["checks"]}
     if len(verdicts) < len(whole["checks"]):
         raise _Malformed("a check has two entries")
-    if whole["chains"] != (whole["untimed"] is not None):
-        raise _Malformed("chains and untimed do not fit each other")
     taken = {key: whole[key] for key in ("ruleset", "reading", "domain", "untimed", "chains", "files")}
     return Manifest(required=Required(**whole["required"]), verdicts=verdicts, whole=whole, **taken)
 

@@ -45,9 +45,6 @@ Value = Union[bool, int, "Fraction", str]
 """What a condition or measure may be worth: a truth value, an exact number, or a value of a scale."""
 
 
-# Formulas -------------------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, slots=True)
 class Truth:
     """The constants ``true`` and ``false``."""
@@ -158,9 +155,6 @@ def names_of(formula: Formula) -> Iterator[str]:
             yield from measures_of(leaf)
 
 
-# Rules ----------------------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, slots=True)
 class Comments:
     """Comments of one line of rules, each without its marker: those on lines of their own above it, and the one
@@ -243,9 +237,6 @@ def in_text_order(clause: Clause) -> Iterator[Clause]:
     yield clause
     for hedge in clause.hedges:
         yield from in_text_order(hedge)
-
-
-# What else a ruleset holds --------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,8 +25,8 @@ from sleec_verify.temporary import put_in_place
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset, Value
-    from sleec_verify.timed.scope import Untimed
-    from sleec_verify.timed.timeline import Timeline
+    from sleec_verify.scope import Untimed
+    from sleec_verify.timeline import Timeline
 
 VARIABLE = "SLEEC_VERIFY_CACHE"
 OFF = "off"
@@ -60,9 +60,11 @@ class Cache:
         folder = named or _users()
         return None if folder is None else cls(folder, tell, chosen=bool(named))
 
-    def kept(self, ruleset: Ruleset, domain: str | None, untimed: Untimed) -> tuple[CheckResult, ...] | None:
+    def kept(
+        self, ruleset: Ruleset, domain: str | None, untimed: Untimed, chains: bool = True
+    ) -> tuple[CheckResult, ...] | None:
         """The results for a ruleset, if they are kept. O(their size)."""
-        path = self._path(ruleset, domain, untimed)
+        path = self._path(ruleset, domain, untimed, chains)
         # What is no file is no entry, and reading it might never end.
         if path is None or not os.path.isfile(path):
             return None
@@ -77,9 +79,16 @@ class Cache:
         self._tell(f"the cache entry {path} is broken; what it held is decided anew")
         return None
 
-    def keep(self, ruleset: Ruleset, domain: str | None, untimed: Untimed, results: tuple[CheckResult, ...]) -> None:
+    def keep(
+        self,
+        ruleset: Ruleset,
+        domain: str | None,
+        untimed: Untimed,
+        results: tuple[CheckResult, ...],
+        chains: bool = True,
+    ) -> None:
         """Keep the results for a ruleset, unless one of them is unknown. That it cannot be done is no failure."""
-        path = self._path(ruleset, domain, untimed)
+        path = self._path(ruleset, domain, untimed, chains)
         if path is None or any(isinstance(result.verdict, Unknown) for result in results):
             return
         body = _encoded(results)
@@ -89,14 +98,14 @@ class Cache:
             if self._chosen:
                 self._tell(f"nothing can be kept in {self._folder}: {error.strerror}")
 
-    def _path(self, ruleset: Ruleset, domain: str | None, untimed: Untimed) -> str | None:
+    def _path(self, ruleset: Ruleset, domain: str | None, untimed: Untimed, chains: bool) -> str | None:
         """Where the results for a ruleset are kept. None for one that was made without a text."""
         text = ruleset.source.sha256
         if text is None:
             return None
         if self._program is None:
             self._program = _program()
-        asked = (domain, untimed)
+        asked = (domain, untimed, chains)
         read = (ruleset.syntax, ruleset.dialect, ruleset.reading)
         key = sha256(ascii((_FORMAT, __version__, self._program, text, read, asked)).encode()).hexdigest()
         return os.path.join(self._folder, key[:2], key[2:])
@@ -212,7 +221,7 @@ def _plain(finding: Finding) -> dict[str, Any]:
             {
                 **vars(moment),
                 "conditions": _plain_values(moment.conditions),
-                "due": [{**vars(due), "law": None if due.law is None else tuple(due.law)} for due in moment.due],
+                "due": [vars(due) for due in moment.due],
             }
             for moment in finding.timeline.moments
         ]
@@ -235,14 +244,11 @@ def _finding(fields: dict[str, Any]) -> Finding:
 
 
 def _timeline(moments: list[dict[str, Any]], now: int | None) -> Timeline:
-    from sleec_runtime.model import Span
-    from sleec_verify.timed.timeline import Due, Moment, Timeline
+    from sleec_verify.timeline import Due, Moment, Timeline
 
     for moment in moments:
         moment["conditions"] = _values(moment["conditions"])
-        moment["due"] = tuple(
-            Due(**{**due, "law": None if due["law"] is None else Span(*due["law"])}) for due in moment["due"]
-        )
+        moment["due"] = tuple(Due(**due) for due in moment["due"])
     return Timeline(tuple(Moment(**moment) for moment in moments), now)
 
 

@@ -20,7 +20,7 @@ def calculations(ruleset: Ruleset) -> list[Calculated]:
     formulas: list[Formula] = [formula for rule in ruleset.rules for formula in formulas_of(rule)]
     formulas += [c.formula for c in ruleset.constraints if isinstance(c, (Never, Assume))]
     if ruleset.is_timed:
-        from sleec_verify.timed.names import beside_rules
+        from sleec_verify.beside_rules import beside_rules
 
         formulas += beside_rules(ruleset)[1]
     return list(dict.fromkeys(one for formula in formulas for one in calculations_in(formula)))
@@ -30,7 +30,7 @@ def calculated_lengths(ruleset: Ruleset) -> list[Calculated]:
     """What a ruleset calculates how long something takes by, in the order of the text."""
     if not ruleset.is_timed:
         return []
-    from sleec_verify.timed.names import beside_rules
+    from sleec_verify.beside_rules import beside_rules
 
     return [length.amount for length in beside_rules(ruleset)[2] if isinstance(length.amount, Calculated)]
 

@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 from sleec_runtime.model import Context, Ruleset
 from sleec_verify.entailment import Because, Entailment, entail
-from sleec_verify.timed.scope import Untimed, speaks_of_traces
-from sleec_verify.timed.windowed import Windowed, Windows
+from sleec_verify.scope import Untimed, speaks_of_traces
+from sleec_verify.windowed import Windowed, Windows
 
 DEEPEST = 100
 """Steps one below the other that are shown."""

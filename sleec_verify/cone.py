@@ -33,9 +33,11 @@ from sleec_verify.budget import Undecided
 if TYPE_CHECKING:
     from sleec_verify.clashes import Clashes
     from sleec_verify.cutting import Cutting
+    from sleec_verify.parts import Parts
+    from sleec_verify.scope import Untimed
     from sleec_verify.shape import Shape
     from sleec_verify.solver import Recorder
-    from sleec_verify.timed.program import Program
+    from sleec_verify.traces.index import Index
 
 Name = tuple[str, str]
 """A trigger (``("trigger", name)``), or a condition or measure (``("condition", name)``)."""
@@ -85,20 +87,32 @@ def names_of_rule(rule: Rule) -> Iterator[Name]:
 class Cones:
     """The indices of one ruleset, each made once, in time linear in the ruleset, when it is first asked for."""
 
-    def __init__(self, ruleset: Ruleset, recorder: Recorder | None = None) -> None:
-        """`recorder` is told of every question about the ruleset."""
+    def __init__(
+        self, ruleset: Ruleset, recorder: Recorder | None = None, untimed: Untimed = "at", chains: bool = True
+    ) -> None:
+        """`recorder` is told of every question about the ruleset. `untimed` is what a response without a window means
+        in rules with time; with `chains`, doing an obligation triggers the rules of that name."""
         self.ruleset = ruleset
         self.rules = ruleset.rules
         self.recorder = recorder
         self._shapes: dict[int, Shape | None] = {}
         self._rivals: dict[int, list[int]] = {}
+        self.untimed = untimed
+        self.chains = chains
 
     @cached_property
-    def program(self) -> Program:
-        """The rules as courses of events are asked about them."""
-        from sleec_verify.timed.program import Program
+    def index(self) -> Index:
+        """The rules for questions about traces."""
+        from sleec_verify.traces.index import Index
 
-        return Program(self.ruleset)
+        return Index(self.ruleset, self.untimed, self.recorder)
+
+    @cached_property
+    def parts(self) -> Parts:
+        """What is asked about situations, and what is asked about traces."""
+        from sleec_verify.parts import parts
+
+        return parts(self)
 
     @cached_property
     def clauses(self) -> list[tuple[Clause, ...]]:

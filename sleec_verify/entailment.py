@@ -161,7 +161,7 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     stated = {rule.label: rule for rule in ruleset.rules if rule.trigger in context.triggers}
     related: list[tuple[Relation, Formula]] = []
     if ruleset.is_timed:
-        from sleec_verify.timed.untimed import of_one_instant, untimed
+        from sleec_verify.one_instant import of_one_instant, untimed
 
         related = list(of_one_instant(ruleset))
         ruleset = untimed(ruleset)

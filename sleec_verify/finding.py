@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, Union
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Source, Span, Value
     from sleec_verify.games.realizability import Strategy
-    from sleec_verify.timed.timeline import Timeline
+    from sleec_verify.timeline import Timeline
 
 Severity = Literal["error", "warning", "note"]
 SEVERITIES: tuple[Severity, ...] = ("error", "warning", "note")

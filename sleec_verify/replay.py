@@ -16,16 +16,14 @@ def replays(cones: Cones, finding: Finding) -> bool:
     """Whether the evaluator agrees. A finding without a witness has nothing to replay."""
     if finding.witness is None:
         return True
-    if finding.timeline is not None:
-        from sleec_verify.timed.replay import plays
-        from sleec_verify.timed.traces import Traces
+    if finding.check == "concern" or (finding.check == "conflict" and any(map(cones.parts.of_traces, finding.rules))):
+        from sleec_verify.traces.replay import replays as is_lawful_trace
 
-        assert isinstance(cones, Traces), "only the checks of traces make timelines"
-        return plays(cones, finding)
+        return is_lawful_trace(cones, finding)
     if finding.strategy is not None:
         from sleec_verify.games.replay import plays as is_lawful
 
-        return is_lawful(cones.program, finding)
+        return is_lawful(cones.index, finding)
     context = finding.witness.context()
     assumed = cones.assumptions_that_may_break(context)
     possible = all(holds(assumption.formula, context, cones.ruleset.measures) for assumption in assumed)

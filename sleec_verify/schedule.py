@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Context, Ruleset
-from sleec_verify.timed.scope import Untimed, speaks_of_traces
-from sleec_verify.timed.windowed import Windows
+from sleec_verify.scope import Untimed, speaks_of_traces
+from sleec_verify.windowed import Windows
 
 if TYPE_CHECKING:
     from sleec_verify.chains import Step

@@ -52,7 +52,7 @@ def _triggers(ruleset: Ruleset) -> frozenset[str]:
     if not ruleset.is_timed:
         return ruleset.triggers
     from sleec_runtime.model import Atom, leaves
-    from sleec_verify.timed.names import beside_rules
+    from sleec_verify.beside_rules import beside_rules
 
     events, formulas, _ = beside_rules(ruleset)
     named = (leaf for formula in formulas for leaf in leaves(formula))
@@ -64,7 +64,7 @@ def _conditions(ruleset: Ruleset) -> frozenset[str]:
     if not ruleset.is_timed:
         return ruleset.conditions
     from sleec_runtime.model import Atom, leaves
-    from sleec_verify.timed.names import beside_rules
+    from sleec_verify.beside_rules import beside_rules
 
     named = (leaf for formula in beside_rules(ruleset)[1] for leaf in leaves(formula))
     return ruleset.conditions | {leaf.name for leaf in named if isinstance(leaf, Atom) and leaf.kind == "condition"}

@@ -12,12 +12,11 @@ from typing import Any
 
 from sleec_runtime.language import parse
 from sleec_runtime.model_time import claims
-from sleec_runtime.trace import broken, broken_so_far, claim_holds
+from sleec_runtime.trace import broken, claim_holds
 from sleec_verify.solver import Undecided
-from sleec_verify.timed.conflicts import conflict
-from sleec_verify.timed.program import Program
-from sleec_verify.timed.questions import breaking, coming_about, triggering
-from sleec_verify.timed.replay import as_trace
+from sleec_verify.traces.index import Index
+from sleec_verify.traces.questions import breaking, coming_about, triggering
+from sleec_verify.traces.replay import as_trace
 from tests import timed_oracle as oracle
 from tests.timed_english import timed_english
 from tests.timed_strategies import timed_ruleset
@@ -40,10 +39,10 @@ def answered(question):
 
 def compare(ruleset, untimed):
     """How many questions were answered; fails where the two methods differ."""
-    program = Program(ruleset, untimed)
+    index = Index(ruleset, untimed)
     count = 0
     for rule in ruleset.rules:
-        answer = answered(lambda: breaking(program, rule))  # noqa: B023
+        answer = answered(lambda: breaking(index, rule))  # noqa: B023
         if answer is not None:
             count += 1
             if answer.trace is not None:
@@ -51,7 +50,7 @@ def compare(ruleset, untimed):
                 assert found, "the trace breaks the rule"
                 assert {b.statement for b in found} == {rule}
             assert_same(answer.trace is None, lambda n: oracle.redundant(ruleset, rule.label, n, untimed))  # noqa: B023
-        answer = answered(lambda: triggering(program, rule))  # noqa: B023
+        answer = answered(lambda: triggering(index, rule))  # noqa: B023
         if answer is not None:
             count += 1
             if answer.trace is not None:
@@ -60,28 +59,9 @@ def compare(ruleset, untimed):
             # The table asks besides whether the guard can hold at all, which is the check dead-rule here.
             assert answer.trace is None or not theirs.found
             assert answer.trace is not None or theirs.moments is None
-        history = answered(lambda: (conflict(program, rule),))  # noqa: B023
-        if history is not None:
-            count += 1
-            if history[0] is not None:
-                assert broken_so_far(ruleset, as_trace(history[0].timeline), untimed, apart=rule) == ()
-                assert rule.label in history[0].matter
-            # A conflict that takes more instants before now is looked for among as many.
-            past = 2 if history[0] is None else max(2, len(history[0].instants) - 1)
-            assert_same(
-                history[0] is not None,
-                lambda n: oracle.conflict(
-                    ruleset,
-                    rule.label,  # noqa: B023
-                    past=2 if n == 4 else past,  # noqa: B023
-                    later=n - 2,
-                    longest=n,
-                    untimed=untimed,
-                ),
-            )
     for kind in ("concern", "purpose"):
         for claim in claims(ruleset, kind):
-            answer = answered(lambda: coming_about(program, claim))  # noqa: B023
+            answer = answered(lambda: coming_about(index, claim))  # noqa: B023
             if answer is not None:
                 count += 1
                 if answer.trace is not None:

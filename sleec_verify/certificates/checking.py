@@ -18,14 +18,14 @@ from sleec_verify.certificates.making import NOTHING_REQUIRED, Rebuilt, rebuild
 from sleec_verify.certificates.manifest import check_json, manifest
 from sleec_verify.certificates.tying import NotTied, Tied, tie
 from sleec_verify.certificates.witnesses import KEYS, Replay, same
-from sleec_verify.timed.scope import speaks_of_traces
+from sleec_verify.scope import speaks_of_traces
 
 if TYPE_CHECKING:
     from sleec_runtime.manifest import Manifest, Required
     from sleec_runtime.model import Reading, Ruleset
     from sleec_verify.certificates.checker import Checker
     from sleec_verify.certificates.manifest import Shown
-    from sleec_verify.timed.scope import Untimed
+    from sleec_verify.scope import Untimed
 
 
 class Problem(NamedTuple):
@@ -75,7 +75,7 @@ def check_certificate(
     if (required.proved or claimed.required.proved) and not judge.proved:
         problems.append(Problem("not-proved", f"the proofs are judged by {judge.name}, which is not proved correct"))
     tied: list[Tied] = []
-    for one in () if problems else tie(examined.shown, read, claimed.domain, oracle):
+    for one in () if problems else tie(examined.shown, read, claimed.domain, oracle, claimed.chains):
         if isinstance(one, NotTied):
             problems.append(Problem("theory", str(one)))
         elif not one.proved and (required.tied or claimed.required.tied):
@@ -147,7 +147,7 @@ class _Examined:
         claimed, ruleset = self._claimed, self._ruleset
         untimed = cast("Untimed", claimed.untimed or "at")
         said = {check["name"]: check for check in claimed.whole["checks"]}
-        for rebuilt in rebuild(ruleset, claimed.domain, untimed, progress, examining=True):
+        for rebuilt in rebuild(ruleset, claimed.domain, untimed, progress, examining=True, chains=claimed.chains):
             one = rebuilt.shown()
             self.shown.append(one)
             yield from self._formulas(rebuilt)
@@ -157,7 +157,8 @@ class _Examined:
             else:
                 yield from self._entry(one, entry)
         digests = {name: claimed.files.get(name, "") for one in self.shown for name in one.files}
-        expected = manifest(ruleset, claimed.domain, claimed.untimed, claimed.required, self.shown, digests)
+        use = (claimed.domain, claimed.untimed, claimed.chains)
+        expected = manifest(ruleset, *use, claimed.required, self.shown, digests)
         for key in expected:
             if key not in ("checks", "tool") and not same(expected[key], claimed.whole[key]):
                 yield Problem("manifest", f"what the {MANIFEST} says under {key!r} is not what the rules give")

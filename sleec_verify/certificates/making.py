@@ -15,14 +15,14 @@ from sleec_verify.certificates.refutation import Disjunction, disjunctions
 from sleec_verify.certificates.whole import conflict_free
 from sleec_verify.checks import Checking, checks_for
 from sleec_verify.finding import Proved, Unknown
-from sleec_verify.timed.scope import speaks_of_traces
+from sleec_verify.scope import speaks_of_traces
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
     from sleec_verify.cone import Cones
     from sleec_verify.finding import CheckResult
     from sleec_verify.report.json import Json
-    from sleec_verify.timed.scope import Untimed
+    from sleec_verify.scope import Untimed
 
 
 NOTHING_REQUIRED = Required()
@@ -74,6 +74,7 @@ def certify(
     untimed: Untimed = "at",
     progress: Callable[[str, int, int], None] | None = None,
     required: Required = NOTHING_REQUIRED,
+    chains: bool = True,
 ) -> Certificate:
     """Run every check that there is for the ruleset, as `run_checks` does, and refute again, with a proof, what a
     solver answered with no. A `domain` counts for rules that have any. That what is `required` is so is written here,
@@ -81,15 +82,15 @@ def certify(
     if not ruleset.domains:
         domain = None
     shown, files = [], {}
-    for rebuilt in rebuild(ruleset, domain, untimed, progress):
+    for rebuilt in rebuild(ruleset, domain, untimed, progress, chains=chains):
         shown.append(rebuilt.shown())
         for name, formula in rebuilt.formulas.items():
             files[f"{name}.cnf"] = rebuilt.dimacs(name)
             files[f"{name}.lrat"] = formula.lrat()
     digests = {name: sha256(text.encode()).hexdigest() for name, text in files.items()}
     told = untimed if speaks_of_traces(ruleset) else None
-    whole = manifest(ruleset, domain, told, required, shown, digests)
-    return Certificate(Use(ruleset.reading, domain, untimed), required, tuple(shown), whole, files)
+    whole = manifest(ruleset, domain, told, chains, required, shown, digests)
+    return Certificate(Use(ruleset.reading, domain, untimed, chains), required, tuple(shown), whole, files)
 
 
 def rebuild(
@@ -98,11 +99,12 @@ def rebuild(
     untimed: Untimed,
     progress: Callable[[str, int, int], None] | None = None,
     examining: bool = False,
+    chains: bool = True,
 ) -> Iterator[Rebuilt]:
     """The verdicts, computed from the text of the rules, with the formulas to be refuted. `examining` has every model
     that a solver shows looked at."""
     recorder = Recorder(examining)
-    checking = Checking(ruleset, domain, untimed, recorder)
+    checking = Checking(ruleset, domain, untimed, recorder, chains=chains)
     for cones in (checking.whole, *checking.by_domain.values()):
         _ask_what_is_possible(cones)
     assumed, models = recorder.take()
@@ -115,7 +117,7 @@ def rebuild(
         if name == "assumptions":
             asked, found = assumed + asked, models + found
         if name == "conflict":
-            asked = _conflict(checking, recorder, result, asked, speaks_of_traces(ruleset))
+            asked = _conflict(checking, recorder, result, asked)
         if isinstance(result.verdict, Unknown):
             asked = []
         yield Rebuilt(result, found, _named(name, asked, name == "conflict" and isinstance(result.verdict, Proved)))
@@ -126,15 +128,13 @@ def _ask_what_is_possible(cones: Cones) -> bool:
     return not cones.assumptions or cones.possible
 
 
-def _conflict(
-    checking: Checking, recorder: Recorder, result: CheckResult, asked: list[Asked], traces: bool
-) -> list[Asked]:
+def _conflict(checking: Checking, recorder: Recorder, result: CheckResult, asked: list[Asked]) -> list[Asked]:
     if not isinstance(result.verdict, Proved):
         # Its findings have witnesses, and that there are no further causes is not claimed.
         return []
-    if traces:
+    if any(cones.parts.traces is not None for cones in checking.by_domain.values()):
         return asked
-    free = [conflict_free(cones) for cones in checking.by_domain.values()]
+    free = [conflict_free(cones.parts.situations) for cones in checking.by_domain.values()]
     assert all(free), "no cause of a conflict was found"
     return recorder.take()[0]
 

@@ -49,11 +49,12 @@ def manifest(
     ruleset: Ruleset,
     domain: str | None,
     untimed: str | None,
+    chains: bool,
     required: Required,
     shown: Sequence[Shown],
     files: Mapping[str, str],
 ) -> dict[str, Json]:
-    """The manifest. `untimed` is None for rules that are not about traces: there, what is done triggers no rule.
+    """The manifest. `untimed` is None for rules without time. `chains` is whether what is done triggers rules.
     `files` are the names of all other files with their SHA-256."""
     checks: list[Json] = [check_json(one, ruleset) for one in shown]
     return {
@@ -69,7 +70,7 @@ def manifest(
         "reading": ruleset.reading,
         "domain": domain,
         "untimed": untimed,
-        "chains": untimed is not None,
+        "chains": chains,
         "required": dict(required._asdict()),
         "checks": checks,
         "files": dict(files),

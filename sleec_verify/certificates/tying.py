@@ -57,7 +57,9 @@ RESTING: Mapping[str, tuple[type, ...]] = {
 so it may rest on some where it is proved. All others say what situations or the text show."""
 
 
-def tie(shown: Iterable[Shown], ruleset: Ruleset, domain: str | None, oracle: Path | None) -> Iterator[Tied | NotTied]:
+def tie(
+    shown: Iterable[Shown], ruleset: Ruleset, domain: str | None, oracle: Path | None, chains: bool = True
+) -> Iterator[Tied | NotTied]:
     """Have the oracle prove the verdicts that rest on refutations, in each domain: for each such check how it went.
     Of verdicts that are refuted, the findings are proved."""
     results = [
@@ -73,7 +75,7 @@ def tie(shown: Iterable[Shown], ruleset: Ruleset, domain: str | None, oracle: Pa
     if results:
         domains = ruleset.domains if domain is None else (domain,)
         parts = {name: ruleset.in_domain(name) for name in domains} or {"": ruleset}
-        found = [_in_one_domain(results, name, part, oracle) for name, part in parts.items()]
+        found = [_in_one_domain(results, name, part, oracle, chains) for name, part in parts.items()]
         for result in results:
             # What is refused in one domain is refused, what is not looked at in one is not proved.
             each = [one[result.name] for one in found]
@@ -81,12 +83,12 @@ def tie(shown: Iterable[Shown], ruleset: Ruleset, domain: str | None, oracle: Pa
 
 
 def _in_one_domain(
-    results: Sequence[CheckResult], domain: str, ruleset: Ruleset, oracle: Path
+    results: Sequence[CheckResult], domain: str, ruleset: Ruleset, oracle: Path, chains: bool
 ) -> dict[str, Tied | NotTied]:
     from sleec_verify.theory.found import FOUND, questions
     from sleec_verify.theory.proving import Theory, not_modelled
 
-    reason = not_modelled(ruleset)
+    reason = not_modelled(ruleset, chains)
     if reason is not None:
         return {result.name: Tied(result.name, False, reason) for result in results}
     found: dict[str, Tied | NotTied] = {}

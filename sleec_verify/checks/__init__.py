@@ -12,8 +12,9 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.budget import Undecided, for_file, share
 from sleec_verify.checks.assumptions import ASSUMPTIONS
 from sleec_verify.checks.base import Check, FindingKind
+from sleec_verify.checks.causes import Enough
 from sleec_verify.checks.claims import CONCERN, PURPOSE
-from sleec_verify.checks.conflict import CONFLICT, Enough
+from sleec_verify.checks.conflict import CONFLICT
 from sleec_verify.checks.confusable import CONFUSABLE
 from sleec_verify.checks.constant import CONSTANT_CONDITION
 from sleec_verify.checks.dead import DEAD_HEDGE, DEAD_RULE
@@ -29,8 +30,8 @@ from sleec_verify.checks.windows import BARE_PROHIBITION, ZERO_WINDOW
 from sleec_verify.cone import Cones
 from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
 from sleec_verify.replay import replays
+from sleec_verify.scope import Untimed, speaks_of_traces
 from sleec_verify.solver import Recorder
-from sleec_verify.timed.scope import Untimed, speaks_of_traces
 
 __all__ = ["CHECKS", "Check", "Checking", "FindingKind", "checks_for", "run_checks"]
 
@@ -99,7 +100,7 @@ def checks_for(ruleset: Ruleset) -> list[str]:
     if ruleset.dialect != "sleec-tk":
         left_out.add(BARE_PROHIBITION.name)
     if speaks_of_traces(ruleset):
-        # There, what is done happens, and triggers what it triggers.
+        # Nobody expects a response to be another thing than the event of that name there.
         left_out.add(TRIGGER_OBLIGATION.name)
     else:
         left_out |= {CONCERN.name, PURPOSE.name}
@@ -115,16 +116,18 @@ def run_checks(
     progress: Progress | None = None,
     untimed: Untimed = "at",
     realizable: int | None = None,
+    chains: bool = True,
 ) -> tuple[CheckResult, ...]:
     """The verdicts of the checks (all, or those of `names`), in their own order.
 
     A ruleset is checked in each of its domains, with the rules that apply everywhere; `domain` picks one. A finding
     says in which domains it holds. `untimed` is what a response without a window means, in rules that speak of time.
+    Without `chains`, what is done triggers no rules (the paper's one-step reading).
     `realizable` adds that check, for an environment that acts up to so many times. Unless the work has a budget
     (`sleec_verify.budget`), it is given that of one file; what is not decided within it is unknown. Raises KeyError for
     an unknown check.
     """
-    checking = Checking(ruleset, domain, untimed, realizable=1 if realizable is None else realizable)
+    checking = Checking(ruleset, domain, untimed, realizable=1 if realizable is None else realizable, chains=chains)
     chosen = list(dict.fromkeys(checks_for(ruleset) if names is None else names))
     if realizable is not None:
         chosen.append(REALIZABILITY.name)
@@ -145,16 +148,12 @@ class Checking:
         untimed: Untimed = "at",
         recorder: Recorder | None = None,
         realizable: int = 1,
+        chains: bool = True,
     ) -> None:
-        """`realizable` is how often the environment acts in that check."""
+        """`realizable` is how often the environment acts in that check. Without `chains`, what is done triggers no
+        rules."""
         self._checks: Mapping[str, Check] = {**CHECKS, REALIZABILITY.name: realizability(realizable)}
-        known: Callable[[Ruleset], Cones] = partial(Cones, recorder=recorder)
-        if speaks_of_traces(ruleset):
-            from sleec_verify.checks.timed import TIMED
-            from sleec_verify.timed.traces import Traces
-
-            self._checks = {**self._checks, **TIMED}
-            known = partial(Traces, untimed=untimed, recorder=recorder)
+        known: Callable[[Ruleset], Cones] = partial(Cones, recorder=recorder, untimed=untimed, chains=chains)
         domains = ruleset.domains if domain is None else (domain,)
         self.whole = known(ruleset)
         self.by_domain = {d: known(ruleset.in_domain(d)) for d in domains} or {"": self.whole}

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from sleec_runtime.model_time import MeasureRelation
 from sleec_verify.budget import Undecided
 from sleec_verify.checks.base import Check, FindingKind, listed
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding
+from sleec_verify.parts import without
 from sleec_verify.question import Question
 
 
 def _contradictory(cones: Cones) -> Iterator[Finding]:
-    """Unsatisfiable exactly when no situation is possible: the assumptions. A model is a possible situation."""
+    """Unsatisfiable exactly when no situation is possible: the assumptions, and the relations between measures. A model
+    is a possible situation."""
+    if any(isinstance(statement, MeasureRelation) for statement in cones.ruleset.statements):
+        cones = without(cones, cones.rules, ())
     if not cones.assumptions or cones.possible:
         return
     needed, minimal = _at_odds(cones)

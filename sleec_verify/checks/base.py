@@ -13,7 +13,7 @@ from sleec_verify.finding import ClauseRef, Finding, Severity, Witness
 
 if TYPE_CHECKING:
     from sleec_verify.games.realizability import Strategy
-    from sleec_verify.timed.timeline import Timeline
+    from sleec_verify.timeline import Timeline
 
 Scope = Literal["some domain", "every domain", "text"]
 """Where a finding must hold to count: in some domain, in every domain in which its first rule applies, or whatever

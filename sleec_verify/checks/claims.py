@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from sleec_verify.checks.base import Check, FindingKind, listed
 from sleec_verify.checks.each import each
+from sleec_verify.checks.matter import in_words, rules_in
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding, Witness
 
@@ -17,13 +18,10 @@ if TYPE_CHECKING:
 def _concerns(cones: Cones) -> Iterator[Finding]:
     """A finding for each concern that comes about in some trace that keeps all."""
     from sleec_runtime.model_time import claims
-    from sleec_verify.checks.timed.matter import traces
-    from sleec_verify.timed.questions import coming_about
-
-    known = traces(cones)
+    from sleec_verify.traces.questions import coming_about
 
     def of(claim: Claim) -> Iterator[Finding]:
-        answer = coming_about(known.program, claim)
+        answer = coming_about(cones.index, claim)
         if answer.trace is None:
             return
         moment = next(m for m in answer.trace.moments if claim.event in m.events)
@@ -37,26 +35,23 @@ def _concerns(cones: Cones) -> Iterator[Finding]:
             help="add a rule that prevents it, or a hedge to the one that leads to it",
         )
 
-    yield from each(((claim.label, claim) for claim in claims(known.ruleset, "concern")), of)
+    yield from each(((claim.label, claim) for claim in claims(cones.ruleset, "concern")), of)
 
 
 def _purposes(cones: Cones) -> Iterator[Finding]:
     """A finding for each purpose that comes about in no trace that keeps all."""
     from sleec_runtime.model_time import claims
-    from sleec_verify.checks.timed.matter import in_words, rules_in, traces
-    from sleec_verify.timed.questions import coming_about
-
-    known = traces(cones)
+    from sleec_verify.traces.questions import coming_about
 
     def of(claim: Claim) -> Iterator[Finding]:
-        answer = coming_about(known.program, claim)
+        answer = coming_about(cones.index, claim)
         if answer.trace is not None:
             return
-        blocking = in_words(known, answer.matter)
+        blocking = in_words(cones.index, answer.matter)
         yield PURPOSE.finding(
             f"the purpose {claim.label} cannot come about",
             claim.label_span,
-            rules=rules_in(known, answer.matter),
+            rules=rules_in(cones.index, answer.matter),
             obligations=(claim.label,),
             note=f"{listed(blocking)} {'blocks' if len(blocking) == 1 else 'block'} it"
             if blocking
@@ -64,7 +59,7 @@ def _purposes(cones: Cones) -> Iterator[Finding]:
             help="give the rules that block it a hedge for this case, or drop the purpose",
         )
 
-    yield from each(((claim.label, claim) for claim in claims(known.ruleset, "purpose")), of)
+    yield from each(((claim.label, claim) for claim in claims(cones.ruleset, "purpose")), of)
 
 
 _EVENTS = "def_start\n  event UserCalls\n  event Answer\n  event Ring\n  measure asleep: boolean\ndef_end\n"

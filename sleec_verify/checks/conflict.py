@@ -1,156 +1,60 @@
-"""Situations in which what is due cannot all be done: every distinct cause, each in a smallest situation."""
+"""Situations in which what is due cannot all be done: every distinct cause, each in a smallest situation.
+
+Rules without time, relations and chains are asked about situations (`sleec_verify.checks.causes`), the others about
+traces (`sleec_verify.traces.conflicts`). Both give the same findings in the same words.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from itertools import chain
-from math import prod
+from typing import TYPE_CHECKING, NamedTuple
 
-from sleec_runtime.model import Exclusive, Formula, Not, Obligation, Rule, Span
-from sleec_verify.budget import spend
-from sleec_verify.checks.base import Check, FindingKind, clause_at, clause_name, guard_at, listed
+from sleec_runtime.model import Formula, Obligation, Rule, Span, literals
+from sleec_verify.checks.base import Check, FindingKind, clause_at, clause_name, listed
+from sleec_verify.checks.causes import Cause, causes
 from sleec_verify.checks.each import each
-from sleec_verify.clashes import Clash, Clashes, Exclusion, opposite
+from sleec_verify.checks.matter import kind_of, relation_in_words
+from sleec_verify.clashes import Clash, Clashes, opposite
 from sleec_verify.cone import Cones, Place
-from sleec_verify.equation import conjunction
 from sleec_verify.finding import ClauseRef, Finding, Witness
-from sleec_verify.question import Question
-from sleec_verify.witness import smallest_situation
+from sleec_verify.parts import without
+from sleec_verify.scope import responses_of
 
-MOST, MOST_PER_RULE = 1_000, 3
-"""How many causes are listed: so many, and so many more for each rule. Contradicting clauses multiply, and a ruleset
-with more has one problem, not millions."""
-
-MANY_WAYS = 16
-"""Ways to oblige the literals of a clash with which it is asked first whether any of them is possible."""
-
-PER_ATTEMPT = 8
-"""Steps of a budget for one attempt to complete a cause."""
-
-Cause = tuple[Place, ...]
-"""A minimal set of clauses that clash, in the order of the text."""
-
-
-class Enough(Exception):
-    """As many causes are found as are listed, and there may be more."""
+if TYPE_CHECKING:
+    from sleec_verify.timeline import Timeline
+    from sleec_verify.traces.conflicts import Conflict
+    from sleec_verify.traces.index import Index
+    from sleec_verify.traces.relations import Relation
 
 
 def _conflicts(cones: Cones) -> Iterator[Finding]:
-    """Unsatisfiable exactly when a set of clauses is no cause: the guards of the clauses, and the situation in which
-    their literals clash. A model is a conflicting context."""
-    causes: dict[Cause, list[tuple[Clash, Witness]]] = {}
-    most = MOST + MOST_PER_RULE * len(cones.rules)
+    """A finding for each distinct conflict."""
+    index = cones.parts.traces
+    if index is None:
+        yield from _of_situations(cones.parts.situations)
+        return
+    from sleec_verify.traces.components import components, needs_traces
 
-    def look(at: tuple[Cause, Clash]) -> tuple[Finding, ...]:
-        cause, clash = at
-        situation = _situation(cones, cause, clash)
-        if situation is None or not _possible(cones, cause, situation):
-            return ()
-        witness = smallest_situation(cones, situation)
-        if witness is not None:
-            causes.setdefault(cause, []).append((clash, witness))
-            if len(causes) >= most:
-                raise Enough(f"the first {most} causes are listed; there may be more")
-        return ()
+    # A component of these rules in which nothing takes time is about situations, too.
+    found = [component for component in components(index) if needs_traces(component)]
+    rest = without(cones, (rule for component in found for rule in component.rules), ())
+    named = [(listed(rule.label for rule in component.rules), component) for component in found]
 
-    try:
-        yield from each(_candidates(cones), look)
-    finally:
-        yield from (_finding(cones, cause, shown) for cause, shown in sorted(causes.items()))
+    def of(component: Index | None) -> Iterator[Finding]:
+        return _of_situations(rest) if component is None else _of_traces(index, component)
+
+    yield from each([("the rules without time", None), *named], of)
 
 
-def _candidates(cones: Cones) -> Iterator[tuple[str, tuple[Cause, Clash]]]:
-    """The clashes, each with every set of clauses that may be its cause, and the rules of these."""
-    found = cones.clashes
-    pairs = (pair for exclusion in found.exclusions for pair in _due_together(cones, exclusion))
-    for clash in chain(found.listed, pairs):
-        ways = prod(len(cones.by_obligation[literal]) for literal in clash.literals)
-        if ways > MANY_WAYS and not _all_due(cones, clash):
-            continue
-        for cause in _covers(cones, clash):
-            rules = dict.fromkeys(cones.rules[place.rule].label for place in cause)
-            yield listed(rules) if rules else "the constraints", (cause, clash)
+def _of_situations(cones: Cones) -> Iterator[Finding]:
+    yield from (_finding(cones, cause, shown) for cause, shown in causes(cones))
 
 
-def _all_due(cones: Cones, clash: Clash) -> bool:
-    """Whether all literals of a clash are due in some situation."""
-    rules = {place.rule for literal in clash.literals for place in cones.by_obligation[literal]}
-    with Question(cones) as question:
-        return question.ask(*question.due(sorted(rules), clash.literals).values())
+def _of_traces(whole: Index, component: Index) -> Iterator[Finding]:
+    from sleec_verify.traces.conflicts import ConflictSearch
 
-
-def _due_together(cones: Cones, exclusion: Exclusion) -> Iterator[Clash]:
-    """The pairs of an exclusion that may be due in some situation: all pairs of a literal that is due with another one.
-    One formula, satisfiable exactly when there is a further such literal. A model shows one."""
-    rules = {place.rule for literal in exclusion.literals for place in cones.by_obligation[literal]}
-    with Question(cones) as question:
-        encoder = question.encoder
-        due = question.due(sorted(rules), set(exclusion.literals))
-        counting = {literal: encoder.fresh() for literal in due}
-        several = encoder.at_least_two([encoder.both(due[literal], counting[literal]) for literal in due])
-        while question.ask(several):
-            one = next(
-                literal for literal in counting if question.true(due[literal]) and question.true(counting[literal])
-            )
-            question.exclude(counting.pop(one))
-            yield from (exclusion.clash(one, other) for other in counting)
-
-
-def _covers(cones: Cones, clash: Clash) -> Iterator[Cause]:
-    """The minimal sets of clauses, one at most of each rule, that oblige every literal of the clash."""
-    literals = sorted(clash.literals, key=str)
-    seen: set[Cause] = set()
-
-    def extend(chosen: tuple[Place, ...], covered: frozenset[Obligation]) -> Iterator[tuple[Place, ...]]:
-        spend(PER_ATTEMPT)
-        missing = next((literal for literal in literals if literal not in covered), None)
-        if missing is None:
-            yield chosen
-            return
-        for place in cones.by_obligation[missing]:
-            # Two clauses of one rule never decide together.
-            if all(place.rule != other.rule for other in chosen):
-                yield from extend((*chosen, place), covered.union(clause_at(cones, place).obligations))
-
-    for chosen in extend((), frozenset()):
-        cause = tuple(sorted(chosen))
-        if cause not in seen and _minimal(cones, cause, clash.literals):
-            seen.add(cause)
-            yield cause
-
-
-def _minimal(cones: Cones, cause: Cause, literals: frozenset[Obligation]) -> bool:
-    return not any(literals <= _obliged(cones, (other for other in cause if other != place)) for place in cause)
-
-
-def _obliged(cones: Cones, places: Iterable[Place]) -> set[Obligation]:
-    return set(chain.from_iterable(clause_at(cones, place).obligations for place in places))
-
-
-def _situation(cones: Cones, cause: Cause, clash: Clash) -> Formula | None:
-    """Where the clauses decide together and clash, and no part of them clashes already. None if a part always does."""
-    conjuncts = [guard_at(cones, place) for place in cause]
-    if clash.labels:
-        conjuncts.append(clash.situation)
-    for place in cause:
-        for smaller in cones.clashes.among(_obliged(cones, (other for other in cause if other != place))):
-            if not smaller.labels:
-                return None
-            if smaller != clash:
-                conjuncts.append(Not(smaller.situation))
-    return conjunction(list(dict.fromkeys(conjuncts)))
-
-
-def _possible(cones: Cones, cause: Cause, situation: Formula) -> bool:
-    """Whether the clauses decide together, by a question that can be recorded. Without recorder and assumptions, the
-    search for a smallest situation answers it."""
-    if cones.recorder is None and not cones.assumptions:
-        return True
-    with Question(cones) as question:
-        for place in cause:
-            question.require(question.guards(place.rule)[place.number])
-        question.require_formula(situation)
-        return question.ask()
+    for conflict in ConflictSearch(component).find():
+        yield _of_trace(whole, conflict)
 
 
 def conflict_in(
@@ -172,28 +76,157 @@ def conflict_in(
         yield _finding(cones, cause, shown)
 
 
+class _Deciding(NamedTuple):
+    """A clause of a conflict: its rule and number, what it is called, and where it stands."""
+
+    rule: Rule
+    number: int
+    name: str
+    span: Span
+
+    @property
+    def obligations(self) -> tuple[Obligation, ...]:
+        return list(self.rule.clauses())[self.number].obligations
+
+
 def _finding(cones: Cones, cause: Cause, shown: list[tuple[Clash, Witness]]) -> Finding:
-    rules = [cones.rules[place.rule] for place in cause]
-    at_odds = sorted({literal.name for clash, _ in shown for literal in clash.literals})
+    clauses = [
+        _Deciding(rule, place.number, clause_name(rule, place.number), clause_at(cones, place).span)
+        for place in cause
+        for rule in [cones.rules[place.rule]]
+    ]
     origins = [origin for clash, _ in shown for origin in clash.origins]
-    names = [clause_name(rule, place.number) for rule, place in zip(rules, cause)]
-    spans = [clause_at(cones, place).span for place in cause] + [origin.span for origin in origins]
-    notes = [f"{name}: {listed(str(o) for o in clause_at(cones, p).obligations)}" for name, p in zip(names, cause)]
-    witness = min((witness for _, witness in shown), key=lambda w: len(w.triggers) + len(w.conditions))
+    return _conflict(
+        clauses,
+        "; ".join(dict.fromkeys(_reason(cones, clash) for clash, _ in shown)),
+        sorted({literal.name for clash, _ in shown for literal in clash.literals}),
+        [(origin.span, "the constraint") for origin in origins],
+        min((witness for _, witness in shown), key=lambda w: len(w.triggers) + len(w.conditions)),
+    )
+
+
+def _of_trace(index: Index, conflict: Conflict) -> Finding:
+    from sleec_verify.traces.conflicts import LATER
+    from sleec_verify.traces.timeline import timeline_of
+
+    rules = index.ruleset.by_label
+    now = conflict.now
+    clauses = []
+    # A rule that is triggered now comes first.
+    for pair in sorted(conflict.pairs, key=lambda pair: rules[pair.rule].trigger not in now.events):
+        rule = rules[pair.rule]
+        if pair.clause == LATER:
+            clauses.append(_Deciding(rule, LATER, rule.label, rule.label_span if rule.labelled else rule.span))
+        else:
+            span = list(rule.clauses())[pair.clause].span
+            clauses.append(_Deciding(rule, pair.clause, clause_name(rule, pair.clause), span))
+    relations = [index.relation_by_key[key] for key in conflict.relations]
+    required, forbidden = _sides(index, conflict)
+    is_instant = not conflict.history and not any(one.number == LATER for one in clauses)
+    is_instant = is_instant and all(_is_immediate(index, one) for one in clauses)
+    labels = [one.rule.label for one in clauses]
+    return _conflict(
+        clauses,
+        _reason_of_trace(index, relations, required, forbidden, now.events, is_instant),
+        sorted(_at_odds(relations, required, forbidden, now.events)),
+        [(relation.span, f"the {kind_of(relation)}") for relation in relations],
+        Witness(tuple(sorted(now.events)), now.conditions),
+        path=_path(index, conflict),
+        timeline=None if is_instant else timeline_of(index, [*conflict.history, now], len(conflict.history), labels),
+    )
+
+
+def _is_immediate(index: Index, clause: _Deciding) -> bool:
+    """Whether a clause demands something of the instant of its trigger only."""
+    return all(atom.is_immediate for atom in index.atoms(clause.obligations))
+
+
+def _sides(index: Index, conflict: Conflict) -> tuple[set[str], set[str]]:
+    """The events that the clauses of a conflict oblige, and those that they forbid."""
+    from sleec_verify.traces.conflicts import LATER
+
+    sides: dict[bool, set[str]] = {False: set(), True: set()}
+    for pair in conflict.pairs:
+        clauses = list(index.ruleset.by_label[pair.rule].clauses())
+        for clause in clauses if pair.clause == LATER else [clauses[pair.clause]]:
+            for response in literals(clause):
+                sides[response.negated].add(response.name)
+    return sides[False], sides[True]
+
+
+def _at_odds(
+    relations: Sequence[Relation], required: set[str], forbidden: set[str], given: Collection[str]
+) -> set[str]:
+    from sleec_verify.traces.relations import events_of
+
+    related = {event for relation in relations for event in events_of(relation)}
+    at_odds = (required | forbidden) & related if relations else forbidden & (required | set(given))
+    return at_odds or required
+
+
+def _reason_of_trace(
+    index: Index,
+    relations: Sequence[Relation],
+    required: set[str],
+    forbidden: set[str],
+    given: Collection[str],
+    is_instant: bool,
+) -> str:
+    at_odds = _at_odds(relations, required, forbidden, given)
+    if relations:
+        due = _sides_in_words(sorted(at_odds & required), sorted(at_odds & forbidden))
+        return _ruled_out(due, [relation_in_words(index.ruleset, relation) for relation in relations])
+    names = sorted(at_odds & forbidden & required)
+    if names:
+        return (
+            f"{listed(names)} {'is' if len(names) == 1 else 'are'} due and forbidden{' at once' if is_instant else ''}"
+        )
+    names = sorted(at_odds & forbidden)
+    if names:
+        return f"{listed(names)} {'occurs and is' if len(names) == 1 else 'occur and are'} forbidden"
+    return f"{listed(sorted(required))} would have to occur again and again"
+
+
+def _path(index: Index, conflict: Conflict) -> str:
+    """How the response triggers rules of the conflict: ``through TurnOnLight, which triggers dark_rooms``."""
+    rules = [index.ruleset.by_label[label] for label in conflict.rules]
+    occurred = {event for moment in (*conflict.history, conflict.now) for event in moment.events}
+    steps = [
+        f"{rule.trigger}, which triggers {rule.label}"
+        for rule in rules
+        if rule.trigger not in occurred
+        and any(o.name == rule.trigger and not o.negated for other in rules for o in responses_of(other))
+    ]
+    return f", through {listed(steps)}" if steps else ""
+
+
+def _conflict(
+    clauses: Sequence[_Deciding],
+    reason: str,
+    at_odds: Sequence[str],
+    origins: Sequence[tuple[Span, str]],
+    witness: Witness,
+    path: str = "",
+    timeline: Timeline | None = None,
+) -> Finding:
+    spans = [*((one.span, one.name) for one in clauses), *origins]
+    notes = [f"{one.name}: {listed(map(str, one.obligations))}" for one in clauses if one.number >= 0]
+    rules = list(dict.fromkeys(one.rule.label for one in clauses))
     return CONFLICT.finding(
-        f"{_subject(names)}: {'; '.join(dict.fromkeys(_reason(cones, clash) for clash, _ in shown))}",
-        spans[0],
-        rules=tuple(dict.fromkeys(rule.label for rule in rules)),
-        clauses=tuple(ClauseRef(rule.label, place.number) for rule, place in zip(rules, cause)),
+        f"{_subject([one.name for one in clauses])}{path}: {reason}",
+        spans[0][0],
+        rules=tuple(rules),
+        clauses=tuple(ClauseRef(one.rule.label, one.number) for one in clauses if one.number >= 0),
         obligations=tuple(at_odds),
         witness=witness,
         note="; ".join(notes) or None,
         help=_help(rules),
-        related=tuple(_related(spans[1:], cause, names, origins)),
+        related=tuple(spans[1:]),
+        timeline=timeline,
     )
 
 
-def _help(rules: list[Rule]) -> str:
+def _help(rules: Sequence[str]) -> str:
     if not rules:
         return "mend the constraints, or ASSUME that the situation cannot be"
     if len(rules) == 1:
@@ -201,7 +234,7 @@ def _help(rules: list[Rule]) -> str:
     return "decide which should give way, and say so with a hedge; or ASSUME that the situation cannot be"
 
 
-def _subject(names: list[str]) -> str:
+def _subject(names: Sequence[str]) -> str:
     if not names:
         return "the constraints cannot all be kept"
     if len(names) == 1:
@@ -214,23 +247,20 @@ def _reason(cones: Cones, clash: Clash) -> str:
     negative = sorted(o.name for o in clash.literals if o.negated)
     if not clash.origins:
         return f"{positive[0]} is due and forbidden at once"
+    return _ruled_out(
+        _sides_in_words(positive, negative), [relation_in_words(cones.ruleset, one) for one in clash.origins]
+    )
+
+
+def _sides_in_words(positive: Sequence[str], negative: Sequence[str]) -> str:
     due = [f"{listed(positive)} {'is' if len(positive) == 1 else 'are'} due"] if positive else []
     due += [f"{listed(negative)} {'is' if len(negative) == 1 else 'are'} forbidden"] if negative else []
-    place = cones.ruleset.source.place
-    lines = [
-        f"the {'EXCLUSIVE' if isinstance(origin, Exclusive) else 'NEVER'} of line {place(origin.span).line}"
-        for origin in clash.origins
-    ]
-    rule = "rules" if len(lines) == 1 else "rule"
-    return f"{' and '.join(due)}, and {listed(lines)} {rule} that out" if due else f"{listed(lines)} {rule} out any way"
+    return " and ".join(due)
 
 
-def _related(
-    spans: list[Span], cause: Cause, names: list[str], origins: Sequence[object]
-) -> Iterator[tuple[Span, str]]:
-    words = names[1:] if cause else []
-    words += ["the constraint"] * (len(spans) - len(words))
-    yield from zip(spans, words)
+def _ruled_out(due: str, relations: Sequence[str]) -> str:
+    rule = "rules" if len(relations) == 1 else "rule"
+    return f"{due}, and {listed(relations)} {rule} that out" if due else f"{listed(relations)} {rule} out any way"
 
 
 CONFLICT = Check(

@@ -126,14 +126,14 @@ def _places(ruleset: Ruleset) -> Iterator[_Place]:
 
 def _beside_rules(ruleset: Ruleset) -> Iterator[_Place]:
     from sleec_runtime.model_time import RELATIONS, Claim
-    from sleec_verify.timed.program import formulas_of_law
+    from sleec_verify.traces.relations import formulas_of_relation
 
     for statement in ruleset.statements:
         if isinstance(statement, Claim):
             yield from _in_claim(statement, ruleset.reading)
         elif isinstance(statement, RELATIONS):
             advice = "mend it, or look whether the relation is needed"
-            yield from (_Place(formula, (), advice, advice) for formula in formulas_of_law(statement))
+            yield from (_Place(formula, (), advice, advice) for formula in formulas_of_relation(statement))
 
 
 def _in_claim(claim: Claim, reading: Reading) -> Iterator[_Place]:

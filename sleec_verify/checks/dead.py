@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Clause, Rule, in_text_order
+from sleec_runtime.model_time import RELATIONS
 from sleec_verify.checks.base import Check, FindingKind, clause_name
-from sleec_verify.checks.each import each_shape
+from sleec_verify.checks.each import each, each_shape, in_both_parts
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
 from sleec_verify.question import Question
+
+if TYPE_CHECKING:
+    from sleec_verify.traces.index import Index
 
 
 def _dead_rules(cones: Cones) -> Iterator[Finding]:
@@ -31,6 +36,40 @@ def _dead_rules(cones: Cones) -> Iterator[Finding]:
 
 
 def _dead_hedges(cones: Cones) -> Iterator[Finding]:
+    """A finding for each hedge that decides nowhere."""
+    if any(isinstance(statement, RELATIONS) for statement in cones.ruleset.statements):
+        yield from in_both_parts(cones, _hedges_in_situations, _hedges_in_traces)
+    else:
+        yield from _hedges_in_situations(cones)
+
+
+def _hedges_in_traces(index: Index) -> Iterator[Finding]:
+    """A finding for each hedge that decides at no instant that the relations allow, whether or not rules are kept."""
+    from sleec_verify.traces.questions import deciding
+
+    def of(place: tuple[Rule, int]) -> Iterator[Finding]:
+        rule, number = place
+        if deciding(index, rule, number).trace is None:
+            yield DEAD_HEDGE.finding(
+                f"{clause_name(rule, number)} decides in no situation",
+                list(rule.clauses())[number].span,
+                rules=(rule.label,),
+                clauses=(ClauseRef(rule.label, number),),
+                help="look at its condition and at the relations, or remove it",
+            )
+
+    yield from each(places_of_hedges(index.rules), of)
+
+
+def places_of_hedges(rules: Iterable[Rule]) -> Iterator[tuple[str, tuple[Rule, int]]]:
+    """Every hedge of some rules by its name, as the rule and the number of the clause."""
+    for rule in rules:
+        for number, _ in enumerate(rule.clauses()):
+            if number:
+                yield clause_name(rule, number), (rule, number)
+
+
+def _hedges_in_situations(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the hedge is dead: its guard. A model is a situation in which it decides."""
 
     def of(position: int) -> Iterator[Finding]:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from sleec_verify.budget import Undecided, begin, share
-from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding
+
+if TYPE_CHECKING:
+    from sleec_verify.cone import Cones
+    from sleec_verify.traces.index import Index
 
 _Asked = TypeVar("_Asked")
 
@@ -60,6 +63,25 @@ def each_shape(
                 yield label, position
 
     return each(asked(), of)
+
+
+def in_both_parts(
+    cones: Cones, situations: Callable[[Cones], Iterable[Finding]], traces: Callable[[Index], Iterable[Finding]]
+) -> Iterator[Finding]:
+    """The findings about both parts of a ruleset. Raises Undecided, after all of them, where one of the parts does."""
+    parts = cones.parts
+    why: list[str] = []
+    try:
+        yield from situations(parts.situations)
+    except Undecided as error:
+        why.append(str(error))
+    if parts.traces is not None:
+        try:
+            yield from traces(parts.traces)
+        except Undecided as error:
+            why.append(str(error))
+    if why:
+        raise Undecided("; ".join(why))
 
 
 def _named(names: list[str]) -> str:

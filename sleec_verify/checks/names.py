@@ -54,7 +54,7 @@ def _beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Lengt
     """The events and formulas of concerns, purposes and relations, and what the lengths of all windows are."""
     if not ruleset.is_timed:
         return set(), [], []
-    from sleec_verify.timed.names import beside_rules
+    from sleec_verify.beside_rules import beside_rules
 
     return beside_rules(ruleset)
 

@@ -25,7 +25,7 @@ def _losses(cones: Cones, steps: int) -> Iterator[Finding]:
     from sleec_verify.solver import Undecided
 
     unknown: dict[str, None] = {}
-    for part, question in losses(cones.program, steps):
+    for part, question in losses(cones.index, steps):
         try:
             loss = question()
         except Undecided as error:

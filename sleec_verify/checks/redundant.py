@@ -4,14 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Clause, Obligation, Rule
 from sleec_verify.checks.base import Check, FindingKind, clause_name, listed, literals_of
-from sleec_verify.checks.each import each_shape
+from sleec_verify.checks.dead import places_of_hedges
+from sleec_verify.checks.each import each, each_shape, in_both_parts
+from sleec_verify.checks.matter import in_words, rules_in
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
 from sleec_verify.question import Question
 from sleec_verify.solver import Undecided
+
+if TYPE_CHECKING:
+    from sleec_verify.traces.index import Index
 
 
 def with_others(findings: Iterator[Finding]) -> Iterator[Finding]:
@@ -35,6 +41,32 @@ def with_others(findings: Iterator[Finding]) -> Iterator[Finding]:
 
 
 def _redundant_rules(cones: Cones) -> Iterator[Finding]:
+    """A finding for each rule that changes nothing."""
+    yield from with_others(in_both_parts(cones, _rules_in_situations, _rules_in_traces))
+
+
+def _rules_in_traces(index: Index) -> Iterator[Finding]:
+    """A finding for each rule that no trace breaks which satisfies all the others."""
+    from sleec_verify.traces.questions import breaking
+
+    def of(rule: Rule) -> Iterator[Finding]:
+        answer = breaking(index, rule)
+        if answer.trace is not None:
+            return
+        others = in_words(index, answer.matter)
+        yield REDUNDANT_RULE.finding(
+            f"{rule.label} can be removed: without it the same is allowed and called for",
+            rule.label_span if rule.labelled else rule.span,
+            rules=(rule.label, *rules_in(index, answer.matter)),
+            note=f"it is kept wherever {listed(others)} {'is' if len(others) == 1 else 'are'} kept"
+            if others
+            else "nothing can break it",
+        )
+
+    yield from each(((rule.label, rule) for rule in index.rules), of)
+
+
+def _rules_in_situations(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule is redundant: it obliges a literal that no other rule obliges. A model is a
     situation in which the rule makes a difference."""
 
@@ -99,6 +131,33 @@ def _needed(cones: Cones, position: int, others: Sequence[int]) -> list[int]:
 
 
 def _redundant_hedges(cones: Cones) -> Iterator[Finding]:
+    """A finding for each hedge that changes nothing."""
+    yield from in_both_parts(cones, _hedges_in_situations, _hedges_in_traces)
+
+
+def _hedges_in_traces(index: Index) -> Iterator[Finding]:
+    """A finding for each hedge without which the same traces satisfy all: none breaks the rule and satisfies it without
+    the hedge, and none breaks that and satisfies the rule."""
+    from sleec_verify.traces.questions import exchanging
+
+    def of(place: tuple[Rule, int]) -> Iterator[Finding]:
+        rule, number = place
+        less = without_hedge(rule, number)
+        if exchanging(index, rule, less).trace is not None or exchanging(index, less, rule).trace is not None:
+            return
+        hedge = list(rule.clauses())[number]
+        yield REDUNDANT_HEDGE.finding(
+            f"{clause_name(rule, number)} can be removed: without it the same is allowed and called for",
+            hedge.span,
+            rules=(rule.label,),
+            clauses=(ClauseRef(rule.label, number),),
+            help=what_to_do(hedge),
+        )
+
+    yield from each(places_of_hedges(index.rules), of)
+
+
+def _hedges_in_situations(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the hedge is redundant: some literal is due with it and not without it, or without
     it and not with it, and no other rule obliges it. A model is a situation in which the hedge makes a difference."""
 
@@ -184,7 +243,7 @@ REDUNDANT_RULE = Check(
             "RULE answer_kindly\nWHEN UserCalls THEN Answer AND Smile\n",
         ),
     ),
-    lambda cones: with_others(_redundant_rules(cones)),
+    _redundant_rules,
     scope="every domain",
 )
 

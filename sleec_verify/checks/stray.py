@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def _stray(cones: Cones) -> Iterator[Finding]:
     from sleec_runtime.language.suggest import nearest
     from sleec_runtime.model_time import RELATIONS, Claim
-    from sleec_verify.timed.program import events_of
+    from sleec_verify.traces.relations import events_of
 
     ruleset = cones.ruleset
     known = events_of_rules(ruleset)

@@ -92,7 +92,9 @@ def _two_kinds(cones: Cones) -> Iterator[Finding]:
             span,
             rules=rules,
             obligations=(name,),
-            note="that it happened and that it is to be done are kept apart: doing it triggers nothing here",
+            note="doing it triggers the rules of that name; with --no-chains it triggers nothing"
+            if cones.chains
+            else "doing it triggers nothing here, because of --no-chains",
         )
 
 
@@ -188,11 +190,10 @@ TRIGGER_OBLIGATION = Check(
             "SLEEC504",
             "note",
             "a name that is a trigger and an obligation",
-            "The response of one rule bears the name of the trigger of another. That is allowed, and the two are kept "
-            "apart: that it happened, and that it is to be done. Whether doing it sets off the other rule is a "
-            "question of its own.",
-            "If the two are different things, give them different names. If doing the one is the other, leave it: "
-            "`explain` shows what becomes due then.",
+            "The response of one rule has the name of the trigger of another. So the response triggers that rule, and "
+            "`check` counts what follows. With `--no-chains` it triggers nothing.",
+            "If the two are different things, give them different names. If they are the same, leave them: `explain` "
+            "shows what follows.",
             "WHEN SmokeDetected THEN SoundAlarm\nWHEN SoundAlarm THEN CallOperator\n",
             "WHEN SmokeDetected THEN SoundAlarm\nWHEN AlarmHeard THEN CallOperator\n",
         ),

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack
+from functools import partial
+from typing import TYPE_CHECKING
 
-from sleec_runtime.model import Atom, Never
+from sleec_runtime.model import Atom, Never, Rule
+from sleec_verify.budget import OutOfBudget, Undecided
 from sleec_verify.checks.base import Check, FindingKind, listed, literals_of
-from sleec_verify.checks.each import each
+from sleec_verify.checks.each import each, in_both_parts
+from sleec_verify.checks.matter import in_words, rules_in
 from sleec_verify.clashes import Clashes
 from sleec_verify.cone import Cones, names_in, names_of_rule
 from sleec_verify.equation import conjunction
@@ -15,8 +19,16 @@ from sleec_verify.finding import Finding
 from sleec_verify.question import Question
 from sleec_verify.witness import smallest_situation
 
+if TYPE_CHECKING:
+    from sleec_verify.traces.index import Index
+
 
 def _vacuous(cones: Cones) -> Iterator[Finding]:
+    """A finding for each rule that is triggered only where the rules conflict."""
+    yield from in_both_parts(cones, _in_situations, partial(_in_traces, cones))
+
+
+def _in_situations(cones: Cones) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule is vacuous: it is triggered, and nothing that is due clashes. A model is a
     situation in which the rule can be kept."""
     if not cones.clashes:
@@ -36,6 +48,47 @@ def _vacuous(cones: Cones) -> Iterator[Finding]:
                 yield _finding(cones, position, others)
 
         yield from each(_by_trigger(cones), of)
+
+
+def _in_traces(cones: Cones, index: Index) -> Iterator[Finding]:
+    """A finding for each rule that no trace triggers, though its condition can hold."""
+    from sleec_verify.traces.questions import triggering
+
+    def of(rule: Rule) -> Iterator[Finding]:
+        answer = triggering(index, rule)
+        if answer.trace is not None or not _is_triggered_by_itself(cones, rule):
+            return
+        matter = [key for key in answer.matter if key != rule.label]
+        others = in_words(index, matter)
+        yield VACUOUS_CONFLICT.finding(
+            f"{rule.label} can be triggered, but never without a conflict",
+            rule.label_span if rule.labelled else rule.span,
+            rules=(rule.label, *rules_in(index, matter)),
+            note=f"it always meets {listed(others)}" if others else _alone(index, rule),
+            help="no course of events is left in which it is triggered and all is kept; mend it, or what it meets",
+        )
+
+    yield from each(((rule.label, rule) for rule in index.rules), of)
+
+
+def _alone(index: Index, rule: Rule) -> str:
+    """Why a rule that meets no other cannot be kept."""
+    from sleec_verify.traces.model import TraceModel
+
+    model = TraceModel(index.part([rule], ()))
+    try:
+        contradicts = not model.ask(model.instants[model.instant(model.formula.true)].event(rule.trigger))
+    except OutOfBudget:
+        raise
+    except Undecided:
+        contradicts = False
+    return "it contradicts itself" if contradicts else "what it calls for never comes to an end"
+
+
+def _is_triggered_by_itself(cones: Cones, rule: Rule) -> bool:
+    """Whether some situation triggers the rule, whatever relations say of it; else it is a dead rule."""
+    with Question(cones) as question:
+        return question.ask(question.encoder.any_of(question.guards_of(rule)))
 
 
 def _by_trigger(cones: Cones) -> Iterator[tuple[str, int]]:

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from sleec_verify.cache import Cache
     from sleec_verify.checks import Progress
     from sleec_verify.finding import CheckResult
-    from sleec_verify.timed.scope import Untimed
+    from sleec_verify.scope import Untimed
 
 
 def cache_of_environment() -> Cache | None:
@@ -21,15 +21,20 @@ def cache_of_environment() -> Cache | None:
 
 
 def results(
-    ruleset: Ruleset, domain: str | None, untimed: Untimed, cache: Cache | None, progress: Progress | None = None
+    ruleset: Ruleset,
+    domain: str | None,
+    untimed: Untimed,
+    cache: Cache | None,
+    progress: Progress | None = None,
+    chains: bool = True,
 ) -> tuple[CheckResult, ...]:
     """The results of the checks of a ruleset. What decides is imported only where none are kept."""
-    kept = None if cache is None else cache.kept(ruleset, domain, untimed)
+    kept = None if cache is None else cache.kept(ruleset, domain, untimed, chains)
     if kept is not None:
         return kept
     from sleec_verify.checks import run_checks
 
-    found = run_checks(ruleset, None, domain, progress, untimed)
+    found = run_checks(ruleset, None, domain, progress, untimed, chains=chains)
     if cache is not None:
-        cache.keep(ruleset, domain, untimed, found)
+        cache.keep(ruleset, domain, untimed, found, chains)
     return found

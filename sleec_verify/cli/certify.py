@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset
     from sleec_verify.certificates.making import Certificate
     from sleec_verify.finding import CheckResult
-    from sleec_verify.timed.scope import Untimed
+    from sleec_verify.scope import Untimed
 
 
 @click.command(
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 @options.reading
 @options.domain
 @options.untimed
+@options.chains
 @click.option(
     "--fail-level",
     type=click.Choice(SEVERITIES),
@@ -65,6 +66,7 @@ def command(
     reading: Reading | None,
     domain: str | None,
     untimed: Untimed,
+    chains: bool,
     fail_level: Severity,
     private: str | None,
     public: str | None,
@@ -89,9 +91,9 @@ def command(
 
     required = Required(require_proved, require_tied)
     if output is not None:
-        return _write(path, output, reading, domain, untimed, fail_level, private, force, required, form)
+        return _write(path, output, reading, domain, untimed, chains, fail_level, private, force, required, form)
     assert checked is not None
-    return _check(path, checked, reading, domain, untimed, fail_level, public, checker, required, form)
+    return _check(path, checked, reading, domain, untimed, chains, fail_level, public, checker, required, form)
 
 
 def _refuse_stray(context: click.Context, names: tuple[str, ...]) -> None:
@@ -109,6 +111,7 @@ def _write(
     reading: Reading | None,
     domain: str | None,
     untimed: Untimed,
+    chains: bool,
     fail_level: Severity,
     private: str | None,
     force: bool,
@@ -123,7 +126,7 @@ def _write(
     check_free(output, force)
     ruleset = one_ruleset(path, reading, domain)
     with Progress() as progress:
-        made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path), required)
+        made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path), required, chains)
         save(made, ruleset, output, private, force)
     write(told(form, ruleset, output, made.manifest, made.shown, None))
     return _exit_code(made.results, fail_level)
@@ -158,6 +161,7 @@ def _check(
     reading: Reading | None,
     domain: str | None,
     untimed: Untimed,
+    chains: bool,
     fail_level: Severity,
     public: str | None,
     checker: str | None,
@@ -181,7 +185,7 @@ def _check(
                 ruleset,
                 checked,
                 judge,
-                Use(reading or ruleset.reading, domain, untimed),
+                Use(reading or ruleset.reading, domain, untimed, chains),
                 required,
                 key=public,
                 oracle=built(),

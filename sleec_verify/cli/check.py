@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from sleec_verify.cache import Cache
     from sleec_verify.cli.progress import Progress
     from sleec_verify.finding import CheckResult
-    from sleec_verify.timed.scope import Untimed
+    from sleec_verify.scope import Untimed
 
 
 @click.command(
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 @options.reading
 @options.domain
 @options.untimed
+@options.chains
 @click.option(
     "--realizable",
     metavar="N",
@@ -58,6 +59,7 @@ def command(
     reading: Reading | None,
     domain: str | None,
     untimed: Untimed,
+    chains: bool,
     realizable: int | None,
     fail_level: Severity,
     form: str,
@@ -97,7 +99,9 @@ def command(
         if certificate is not None and len(found) > 1:
             raise click.UsageError("a certificate is of one ruleset: name one file")
         with nullcontext() if timeout is None else limited(timeout):
-            outcomes = _outcomes(found, domain, untimed, realizable, cache, certificate, (require_proved, require_tied))
+            outcomes = _outcomes(
+                found, domain, untimed, chains, realizable, cache, certificate, (require_proved, require_tied)
+            )
         report(outcomes, form, output)
         return _exit_code(outcomes, fail_level)
 
@@ -112,13 +116,14 @@ def _outcomes(
     found: Sequence[Ruleset | Unusable],
     domain: str | None,
     untimed: Untimed,
+    chains: bool,
     realizable: int | None,
     cache: Cache | None,
     certificate: str | None,
     required: tuple[bool, bool],
 ) -> list[Outcome]:
     from sleec_verify.cli.progress import Progress
-    from sleec_verify.timed.scope import speaks_of_traces
+    from sleec_verify.scope import speaks_of_traces
 
     outcomes: list[Outcome] = []
     with Progress() as progress:
@@ -131,9 +136,9 @@ def _outcomes(
                 try:
                     with internal_errors_of(path):
                         if certificate is None:
-                            results = kept_or_new(ruleset, domain, untimed, cache, progress.on(path))
+                            results = kept_or_new(ruleset, domain, untimed, cache, progress.on(path), chains)
                         else:
-                            results = _certified(ruleset, domain, untimed, certificate, required, progress)
+                            results = _certified(ruleset, domain, untimed, chains, certificate, required, progress)
                         if realizable is not None:
                             # A strategy is no refutation, of which certificates speak.
                             results += _realizability(ruleset, domain, untimed, realizable, progress)
@@ -148,6 +153,7 @@ def _certified(
     ruleset: Ruleset,
     domain: str | None,
     untimed: Untimed,
+    chains: bool,
     certificate: str,
     required: tuple[bool, bool],
     progress: Progress,
@@ -156,7 +162,7 @@ def _certified(
     from sleec_verify.certificates.making import certify
     from sleec_verify.cli.certify import save
 
-    made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path), Required(*required))
+    made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path), Required(*required), chains)
     save(made, ruleset, certificate)
     return made.results
 

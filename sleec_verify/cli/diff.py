@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from sleec_verify.compare import Difference
     from sleec_verify.report.difference import Compared, Report
     from sleec_verify.revisions import Place, Versions
-    from sleec_verify.timed.scope import Untimed
+    from sleec_verify.scope import Untimed
 
 FailOn = Literal["change", "loss", "conflict", "nothing"]
 _READINGS = click.Choice(("cascade", "priority"))

@@ -15,7 +15,7 @@ from sleec_verify.cli.output import write
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Reading, Ruleset
     from sleec_verify.entailment import Entailment
-    from sleec_verify.timed.scope import Untimed
+    from sleec_verify.scope import Untimed
 
 
 @click.command(

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from sleec_verify.gate.result import Gated
     from sleec_verify.gate.settings import Settings
     from sleec_verify.repository import Repository
-    from sleec_verify.timed.scope import Untimed
+    from sleec_verify.scope import Untimed
 
 STEP_SUMMARY = "GITHUB_STEP_SUMMARY"
 

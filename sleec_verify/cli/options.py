@@ -42,6 +42,14 @@ untimed = click.option(
     help="When a response without a window is due, in rules with time: at the moment of its trigger, as LEGOS-SLEEC "
     "has it, or at some time from then on, as SLEEC-TK has it.",
 )
+chains = click.option(
+    "--no-chains",
+    "chains",
+    flag_value=False,
+    type=bool,
+    default=True,
+    help="In rules without time, let a response trigger no rule: the one-step reading of the paper.",
+)
 when = click.option(
     "--when", metavar="TRIGGERS", multiple=True, help="What occurs, separated by commas: --when Fall,Night"
 )

@@ -34,7 +34,7 @@ from sleec_verify.compare.result import (
 from sleec_verify.compare.sides import condition_names, over_time
 from sleec_verify.compare.situations import situation_changes
 from sleec_verify.compare.world import SIDES, Which, World, other
-from sleec_verify.timed.scope import Untimed, speaks_of_traces
+from sleec_verify.scope import Untimed, speaks_of_traces
 
 __all__ = [
     "Change",

@@ -9,7 +9,7 @@ from itertools import product
 from sleec_runtime.model import Clause, Formula, Obligation, Reading, Truth
 from sleec_verify.compare.times import asks_for_nothing
 from sleec_verify.equation import chain, conjunction
-from sleec_verify.timed.scope import Untimed
+from sleec_verify.scope import Untimed
 
 
 def plainly(obligation: Obligation, reading: Reading, untimed: Untimed) -> Iterator[tuple[Formula, Obligation]]:

@@ -18,8 +18,8 @@ from sleec_verify.solver import Undecided
 if TYPE_CHECKING:
     from sleec_runtime.model import Rational
     from sleec_runtime.model_time import Timing, Window
-    from sleec_verify.timed.responses import Demand, Occurs
-    from sleec_verify.timed.scope import Untimed
+    from sleec_verify.scope import Untimed
+    from sleec_verify.traces.demands import Demand, Occurs
 
 MOST_WAYS = 10_000
 """Ways to keep one response, times ways to break another, that are looked at."""
@@ -80,7 +80,7 @@ def _follows(one: Obligation | None, other: Obligation, untimed: Untimed) -> boo
 
 
 def _demand(obligation: Obligation, untimed: Untimed, kept: bool = True) -> Demand:
-    from sleec_verify.timed.responses import Responses
+    from sleec_verify.traces.demands import Responses
 
     # What is due in place of a response has no hedges here, so that it decides.
     return Responses(untimed).of((obligation,), lambda clause: [_DECIDES], kept)
@@ -91,7 +91,7 @@ _DECIDES = 1
 
 def _ways(demand: Demand) -> list[list[Occurs]]:
     """The ways to meet a demand, each as what has to occur and what must not."""
-    from sleec_verify.timed.responses import Every, Some
+    from sleec_verify.traces.demands import Every, Some
 
     if isinstance(demand, int):
         return [[]] if demand == _DECIDES else []

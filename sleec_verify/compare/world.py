@@ -32,7 +32,7 @@ from sleec_verify.compare.times import implies
 from sleec_verify.cone import Cones, Name, names_in, names_of_rule
 from sleec_verify.cutting import Cutting
 from sleec_verify.equation import Implication, conjunction, disjunction, implications
-from sleec_verify.timed.scope import Untimed
+from sleec_verify.scope import Untimed
 
 Which = Literal["old", "new"]
 SIDES: tuple[Which, Which] = ("old", "new")

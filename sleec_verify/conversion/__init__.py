@@ -26,7 +26,7 @@ from sleec_runtime.model import (
 from sleec_verify.checks.names import names_used
 from sleec_verify.conversion.readings import reread
 from sleec_verify.report.words import listed
-from sleec_verify.timed.scope import speaks_of_traces
+from sleec_verify.scope import speaks_of_traces
 
 Target = Literal["english", "dsl", "legos"]
 TARGETS: tuple[Target, ...] = ("english", "dsl", "legos")
@@ -115,7 +115,7 @@ def _of_chains(before: Ruleset, after: Ruleset) -> Iterator[str]:
     traces = speaks_of_traces(after)
     if traces == speaks_of_traces(before):
         return
-    from sleec_verify.timed.program import responses_of
+    from sleec_verify.scope import responses_of
 
     triggers = {rule.trigger for rule in after.rules}
     responses = (response for rule in after.rules for response in responses_of(rule))

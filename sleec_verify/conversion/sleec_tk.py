@@ -16,7 +16,7 @@ from sleec_runtime.model import (
 from sleec_runtime.model_time import RELATIONS, Claim
 from sleec_verify.calculations import refuse_unsayable_calculations
 from sleec_verify.conversion.to_dsl import defined_by, refuse
-from sleec_verify.timed.program import responses_of
+from sleec_verify.scope import responses_of
 
 
 def refuse_unsayable(ruleset: Ruleset, statements: Iterable[Statement]) -> None:

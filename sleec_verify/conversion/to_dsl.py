@@ -33,10 +33,10 @@ from sleec_runtime.model import (
     leaves,
 )
 from sleec_runtime.model_time import RELATIONS, Claim
+from sleec_verify.beside_rules import beside_rules
 from sleec_verify.conversion.parts import with_formulas
 from sleec_verify.conversion.rules import narrow, split
 from sleec_verify.report.words import listed
-from sleec_verify.timed.names import beside_rules
 
 _RENAME = "rename it first, everywhere in the rules"
 _NAME = re.compile(r"[^\W\d]\w*")

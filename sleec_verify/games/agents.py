@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping
 
 from sleec_runtime.model import Agent
 from sleec_runtime.model_time import EventRelation, Lasting
-from sleec_verify.timed.program import Law, events_of
+from sleec_verify.traces.relations import Relation, events_of
 
 
-def is_environments(law: Law, whose: Mapping[str, Agent]) -> bool:
+def is_environments(law: Relation, whose: Mapping[str, Agent]) -> bool:
     """Whether it is the environment that keeps a relation or constraint, so that it may be relied on.
 
     That is where no event of the robot has a part in it, and where the robot cannot help it: what is so for some time

@@ -6,13 +6,15 @@ speaks of it, and what it triggers is of the same kind.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from sleec_runtime.model import Atom, Exclusive, Formula, Rule, formulas_of, leaves, measures_of
-from sleec_runtime.model_time import EventRelation, Lasting, MeasureRelation
-from sleec_verify.timed.program import Law, Program, events_in_conditions, events_of
-from sleec_verify.timed.responses import Occurs
+from sleec_runtime.model import Atom, Formula, Rule, formulas_of, leaves, measures_of
+from sleec_verify.traces.demands import Occurs
+from sleec_verify.traces.index import Index
+from sleec_verify.traces.naming import named_atoms
+from sleec_verify.traces.relations import Relation, events_of, formulas_of_relation
+from sleec_verify.union_find import UnionFind
 
 
 @dataclass(frozen=True)
@@ -21,23 +23,21 @@ class Part:
     the labels of the rules what they call for and forbid."""
 
     rules: tuple[Rule, ...]
-    laws: tuple[Law, ...]
+    laws: tuple[Relation, ...]
     events: tuple[str, ...]
     windows: Mapping[str, tuple[Occurs, ...]]
 
 
-def free_events(program: Program) -> frozenset[str]:
+def free_events(index: Index) -> frozenset[str]:
     """What the robot can do at any time without consequence. Linear in the size of the rules, but for those that call
     for something later which leads back to them."""
-    tied = {name for law in program.laws for name in events_of(law)}
-    tied |= {name for rule in program.rules for name in events_in_conditions(rule)}
-    windows = {rule.label: program.windows(rule) for rule in program.rules}
+    tied = {name for law in index.relations for name in events_of(law)}
+    tied |= {name for rule in index.rules for name in named_atoms(rule)}
+    windows = {rule.label: index.windows(rule) for rule in index.rules}
     bound = {window.event for found in windows.values() for window in found if window.negated}
-    bound |= (
-        {name for name, agent in program.agents.items() if agent != "system"} | tied | set(_endless(program, windows))
-    )
+    bound |= {name for name, agent in index.agents.items() if agent != "system"} | tied | set(_endless(index, windows))
     calling: dict[str, set[str]] = {}
-    for rule in program.rules:
+    for rule in index.rules:
         for window in windows[rule.label]:
             if window.negated:
                 bound.add(rule.trigger)
@@ -48,12 +48,12 @@ def free_events(program: Program) -> frozenset[str]:
             if trigger not in bound:
                 bound.add(trigger)
                 ahead.append(trigger)
-    return frozenset(program.agents) - bound
+    return frozenset(index.agents) - bound
 
 
-def _endless(program: Program, windows: Mapping[str, list[Occurs]]) -> Iterator[str]:
+def _endless(index: Index, windows: Mapping[str, list[Occurs]]) -> Iterator[str]:
     """Events that call for others which are due strictly later and lead back to them."""
-    for rule in program.rules:
+    for rule in index.rules:
         for window in windows[rule.label]:
             if window.start is not None and window.start > 0:
                 seen: set[str] = set()
@@ -62,23 +62,23 @@ def _endless(program: Program, windows: Mapping[str, list[Occurs]]) -> Iterator[
                     event = ahead.pop()
                     if event not in seen:
                         seen.add(event)
-                        for other in program.by_trigger.get(event, ()):
+                        for other in index.by_trigger.get(event, ()):
                             ahead += (w.event for w in windows[other.label] if not w.negated)
                 if rule.trigger in seen:
                     yield rule.trigger
 
 
-def parts(program: Program) -> Iterator[Part]:
+def parts(index: Index) -> Iterator[Part]:
     """The parts of a ruleset, in the order of their first rules and laws. O(size of the rules).
 
     Rules that share an event belong together, and so do those that a law ties. What a law says of measures only holds
     in every part that looks at one of them; they share the measures, which are the environment's to choose in each.
     """
-    free = free_events(program)
-    windows = {r.label: tuple(w for w in program.windows(r) if w.event not in free) for r in program.rules}
-    contested = [rule for rule in program.rules if windows[rule.label]]
-    union = _Union()
-    laws = [(law, list(events_of(law)), set(_facts(formulas_of_law(law)))) for law in program.laws]
+    free = free_events(index)
+    windows = {r.label: tuple(w for w in index.windows(r) if w.event not in free) for r in index.rules}
+    contested = [rule for rule in index.rules if windows[rule.label]]
+    union = UnionFind()
+    laws = [(law, list(events_of(law)), set(_facts(formulas_of_relation(law)))) for law in index.relations]
     users: dict[str, str] = {}
     for _, events, facts in laws:
         if events:
@@ -88,7 +88,7 @@ def parts(program: Program) -> Iterator[Part]:
     for rule in contested:
         for window in windows[rule.label]:
             union.join(rule.trigger, window.event)
-        for event in events_in_conditions(rule):
+        for event in named_atoms(rule):
             union.join(rule.trigger, event)
         for fact in _facts(formulas_of(rule)):
             if fact in tied:
@@ -99,11 +99,11 @@ def parts(program: Program) -> Iterator[Part]:
         if events:
             for fact in facts:
                 union.join(events[0], users[fact])
-    found: dict[str, tuple[list[Rule], list[Law], set[str]]] = {}
+    found: dict[Hashable, tuple[list[Rule], list[Relation], set[str]]] = {}
     for rule in contested:
         part = found.setdefault(union.root(rule.trigger), ([], [], set()))
         part[0].append(rule)
-        part[2].update([rule.trigger, *(window.event for window in windows[rule.label]), *events_in_conditions(rule)])
+        part[2].update([rule.trigger, *(window.event for window in windows[rule.label]), *named_atoms(rule)])
     for law, events, _ in laws:
         if events:
             part = found.setdefault(union.root(events[0]), ([], [], set()))
@@ -112,15 +112,15 @@ def parts(program: Program) -> Iterator[Part]:
     of_measures = [(law, facts) for law, events, facts in laws if not events]
     for rules, own, events_here in found.values():
         facts = {fact for rule in rules for fact in _facts(formulas_of(rule))}
-        facts.update(fact for law in own for fact in _facts(formulas_of_law(law)))
+        facts.update(fact for law in own for fact in _facts(formulas_of_relation(law)))
         joined = [law for law, about in _reached(of_measures, facts)]
         own_windows = {rule.label: windows[rule.label] for rule in rules}
         yield Part(tuple(rules), (*own, *joined), tuple(sorted(events_here)), own_windows)
 
 
-def _reached(laws: list[tuple[Law, set[str]]], facts: set[str]) -> list[tuple[Law, set[str]]]:
+def _reached(laws: list[tuple[Relation, set[str]]], facts: set[str]) -> list[tuple[Relation, set[str]]]:
     """The laws that have to do with some facts, by way of others."""
-    found: list[tuple[Law, set[str]]] = []
+    found: list[tuple[Relation, set[str]]] = []
     left = laws
     grew = True
     while grew:
@@ -140,34 +140,3 @@ def _facts(formulas: Iterable[Formula]) -> Iterator[str]:
                 yield from measures_of(leaf)
             elif leaf.kind == "condition":
                 yield leaf.name
-
-
-def formulas_of_law(law: Law) -> Iterator[Formula]:
-    """The formulas of a law."""
-    found: tuple[Formula | None, ...] = ()
-    if isinstance(law, MeasureRelation):
-        found = (law.left, law.right)
-    elif isinstance(law, Lasting):
-        found = (law.condition, law.formula, law.end_condition)
-    elif not isinstance(law, (EventRelation, Exclusive)):
-        found = (law.formula,)
-    yield from (formula for formula in found if formula is not None)
-
-
-class _Union:
-    """Sets of names that grow together."""
-
-    def __init__(self) -> None:
-        self._above: dict[str, str] = {}
-
-    def root(self, name: str) -> str:
-        path = []
-        while (above := self._above.get(name, name)) != name:
-            path.append(name)
-            name = above
-        for passed in path:
-            self._above[passed] = name
-        return name
-
-    def join(self, a: str, b: str) -> None:
-        self._above[self.root(a)] = self.root(b)

@@ -18,10 +18,12 @@ from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRela
 from sleec_verify.games.agents import is_environments
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
 from sleec_verify.games.grid import Grid
-from sleec_verify.games.parts import Part, formulas_of_law
+from sleec_verify.games.parts import Part
 from sleec_verify.games.values import Scales, Values
-from sleec_verify.timed.program import Law, Program, events_in_conditions, events_of, excluding
-from sleec_verify.timed.responses import Demand, Every, Occurs, seconds
+from sleec_verify.traces.demands import Demand, Every, Occurs, seconds
+from sleec_verify.traces.index import Index
+from sleec_verify.traces.naming import named_atoms
+from sleec_verify.traces.relations import Relation, events_of, exclusions, formulas_of_relation
 
 
 class Act(NamedTuple):
@@ -84,7 +86,7 @@ class Play:
 
     def __init__(
         self,
-        program: Program,
+        index: Index,
         part: Part,
         steps: int,
         spare: int,
@@ -96,24 +98,24 @@ class Play:
         that only asks more of the robot; who wins is the same. It says with its first act which events of `pressed`
         the robot must not do then, as if by what was before. Raises Undecided for what games do not know."""
         self.circuit = circuit = Circuit()
-        self._program = program
+        self._index = index
         self._laws = part.laws
         self._events = frozenset(part.events)
         self._rules = part.rules
-        self._reading = program.ruleset.reading
+        self._reading = index.ruleset.reading
         formulas = [formula for rule in part.rules for formula in formulas_of(rule)]
-        formulas += [formula for law in part.laws for formula in formulas_of_law(law)]
-        scales = Scales(program.ruleset.measures, formulas)
+        formulas += [formula for law in part.laws for formula in formulas_of_relation(law)]
+        scales = Scales(index.ruleset.measures, formulas)
         self.grid = Grid(lengths(part), steps * (1 + spare), (1 + spare) * 2 ** (steps - 1))
         tied = {name for law in part.laws for name in events_of(law)}
-        tied |= {name for rule in part.rules for name in events_in_conditions(rule)}
+        tied |= {name for rule in part.rules for name in named_atoms(rule)}
         answers = {w.event for rule in part.rules for w in part.windows[rule.label]}
         called_for = {w.event for rule in part.rules for w in part.windows[rule.label] if not w.negated}
         # What nothing calls for, the robot does not do.
         robots = [
-            name for name in part.events if program.agents.get(name) == "system" and name in (called_for | tied) - never
+            name for name in part.events if index.agents.get(name) == "system" and name in (called_for | tied) - never
         ]
-        others = [name for name in part.events if program.agents.get(name) != "system"]
+        others = [name for name in part.events if index.agents.get(name) != "system"]
         always = [name for name in others if eager and name not in tied | answers]
         self._robots = frozenset(robots)
         mine = sorted({*robots, *others} - {*always})
@@ -201,7 +203,7 @@ class Play:
 
     def _lawful(self, course: _Course) -> int:
         """That the environment has kept what it has to."""
-        laws = [law for law in self._laws if is_environments(law, self._program.agents)]
+        laws = [law for law in self._laws if is_environments(law, self._index.agents)]
         return self.circuit.every(
             self._lasting(law, *course[number], course, later=law.event in self._robots)
             if isinstance(law, Lasting)
@@ -255,7 +257,7 @@ class Play:
         kept = []
         for clause, decides in zip(rule.clauses(), instant.values.guards(rule, trigger, self._reading)):
             if clause.obligations:
-                demand = self._program.responses.of(
+                demand = self._index.responses.of(
                     clause.obligations, lambda chain: instant.values.chain(chain, self._reading)
                 )
                 kept.append(self.circuit.implies(decides, self._demand(demand, instant, course)))
@@ -283,7 +285,7 @@ class Play:
             if what.event in other.events
         )
 
-    def _law(self, law: Law, number: int, course: _Course) -> int:
+    def _law(self, law: Relation, number: int, course: _Course) -> int:
         """That a law is kept where one instant is concerned."""
         circuit = self.circuit
         instant, there = course[number]
@@ -318,7 +320,7 @@ class Play:
             else:
                 kept = -circuit.both(left, holds(law.right))
         elif isinstance(law, Exclusive):
-            kept = circuit.every(-circuit.both(event(one), event(other)) for one, other in excluding(law))
+            kept = circuit.every(-circuit.both(event(one), event(other)) for one, other in exclusions(law))
         else:
             kept = holds(law.formula) if isinstance(law, Assume) else -holds(law.formula)
         return circuit.implies(there, kept)

@@ -17,9 +17,10 @@ from sleec_verify.games.parts import Part, parts
 from sleec_verify.games.play import Play
 from sleec_verify.games.quantified import Move, winning
 from sleec_verify.solver import Undecided
-from sleec_verify.timed.endless import endless
-from sleec_verify.timed.program import Law, Program
-from sleec_verify.timed.responses import Occurs
+from sleec_verify.traces.demands import Occurs
+from sleec_verify.traces.index import Index
+from sleec_verify.traces.induction import impossible_events
+from sleec_verify.traces.relations import Relation
 
 MOST_PLANNED = 4
 """Instants of a plan that are tried."""
@@ -69,31 +70,31 @@ class Loss:
     strategy: Strategy
 
 
-def losses(program: Program, steps: int) -> Iterator[tuple[Sequence[Rule], Callable[[], Loss | None]]]:
+def losses(index: Index, steps: int) -> Iterator[tuple[Sequence[Rule], Callable[[], Loss | None]]]:
     """The parts of the rules, each with the question whether the environment wins against it within `steps` acts.
 
     A question raises Undecided past the bounds of what is tried, as does the first step where a measure says how long
     a window is.
     """
-    for part in parts(program):
-        yield part.rules, partial(_loss, _Contest(program, part), steps)
+    for part in parts(index):
+        yield part.rules, partial(_loss, _Contest(index, part), steps)
 
 
 class _Contest:
     """A part of the rules, and the games about it."""
 
-    def __init__(self, program: Program, part: Part) -> None:
-        self.program = program
+    def __init__(self, index: Index, part: Part) -> None:
+        self.index = index
         self.part = part
 
     def play(self, steps: int, spare: int, eager: bool = True, pressed: Sequence[str] = ()) -> Play:
         never = self._never if self.has_memory else frozenset()
-        return Play(self.program, self.part, steps, spare, never, eager, pressed)
+        return Play(self.index, self.part, steps, spare, never, eager, pressed)
 
     def only(self, rules: Sequence[Rule]) -> _Contest:
         """The same with fewer rules."""
         windows = {rule.label: self.part.windows[rule.label] for rule in rules}
-        return _Contest(self.program, replace(self.part, rules=tuple(rules), windows=windows))
+        return _Contest(self.index, replace(self.part, rules=tuple(rules), windows=windows))
 
     @cached_property
     def has_memory(self) -> bool:
@@ -116,11 +117,11 @@ class _Contest:
         """Events that the robot never does, because what they call for comes to no end."""
         if self._whole(frozenset()) is not None:
             return frozenset()
-        others = frozenset(rule.label for rule in self.program.rules) - self.part.windows.keys()
-        return endless(self.program, others)
+        counting = [*self.part.windows, *self.index.relation_by_key]
+        return impossible_events(self.index, counting, self.part.events)
 
     def _whole(self, never: frozenset[str]) -> int | None:
-        return _Costs(self.program, self.part, never).of_rules(self.part.rules)
+        return _Costs(self.index, self.part, never).of_rules(self.part.rules)
 
     def _windows(self) -> Iterator[Occurs]:
         for rule in self.part.rules:
@@ -130,8 +131,8 @@ class _Contest:
 class _Costs:
     """How many instants may come to be called for, where some events never occur."""
 
-    def __init__(self, program: Program, part: Part, never: frozenset[str]) -> None:
-        self._program = program
+    def __init__(self, index: Index, part: Part, never: frozenset[str]) -> None:
+        self._index = index
         self._part = part
         self._never = never
         self._known: dict[str, int | None] = {}
@@ -156,7 +157,7 @@ class _Costs:
             rules: dict[str, Rule] = {}
             ahead = [event]
             while ahead:
-                for rule in self._program.by_trigger.get(ahead.pop(), ()):
+                for rule in self._index.by_trigger.get(ahead.pop(), ()):
                     if rule.label in self._part.windows and rule.label not in rules:
                         rules[rule.label] = rule
                         ahead += (w.event for w in self._part.windows[rule.label] if not w.negated)
@@ -168,11 +169,11 @@ def _is_delayed(window: Occurs) -> bool:
     return not window.start == window.end == 0
 
 
-def _looks_back(law: Law) -> bool:
+def _looks_back(law: Relation) -> bool:
     return isinstance(law, EventRelation) and law.relation == "happenBefore"
 
 
-def _remembers(law: Law) -> bool:
+def _remembers(law: Relation) -> bool:
     return isinstance(law, Lasting) or _looks_back(law)
 
 

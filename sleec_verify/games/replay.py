@@ -11,19 +11,19 @@ from sleec_runtime.trace import Instant, Trace, Untimed, broken
 from sleec_verify.finding import Finding
 from sleec_verify.games.agents import is_environments
 from sleec_verify.games.realizability import Act, Strategy
-from sleec_verify.timed.program import Program
+from sleec_verify.traces.index import Index
 
 
-def plays(program: Program, finding: Finding) -> bool:
+def plays(index: Index, finding: Finding) -> bool:
     """Whether the evaluator agrees with a strategy."""
     assert finding.strategy is not None, "only strategies are replayed here"
-    whole = program.ruleset
+    whole = index.ruleset
     rules = tuple(whole.by_label[label] for label in finding.rules)
     measures = tuple(whole.measures.values())
-    robots = replace(whole, statements=(*program.laws, *rules), inferred=measures)
-    lawful = tuple(law for law in program.laws if is_environments(law, program.agents))
+    robots = replace(whole, statements=(*index.relations, *rules), inferred=measures)
+    lawful = tuple(law for law in index.relations if is_environments(law, index.agents))
     environments = replace(whole, statements=lawful, inferred=measures)
-    return _plays(finding.strategy, robots, environments, (), program.untimed)
+    return _plays(finding.strategy, robots, environments, (), index.untimed)
 
 
 def _plays(

@@ -21,7 +21,7 @@ from sleec_verify.gate.result import Block, Examined, Gated
 from sleec_verify.gate.targets import conform
 from sleec_verify.internal_error import internal_errors_of
 from sleec_verify.renames import with_renames
-from sleec_verify.timed.scope import Untimed
+from sleec_verify.scope import Untimed
 
 if TYPE_CHECKING:
     from sleec_verify.gate.keys import Policy, Target

@@ -9,7 +9,7 @@ from sleec_runtime.errors import SleecError
 from sleec_runtime.manifest import Manifest, Required
 from sleec_runtime.model import Ruleset
 from sleec_verify.gate.keys import Policy
-from sleec_verify.timed.scope import Untimed
+from sleec_verify.scope import Untimed
 
 SUFFIX = ".certificate"
 

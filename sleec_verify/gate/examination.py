@@ -17,7 +17,7 @@ from sleec_verify.gate.keys import Policy
 from sleec_verify.gate.result import Examined
 from sleec_verify.gate.suppressions import Suppression, new_suppressions, suppressions
 from sleec_verify.internal_error import InternalError, internal_errors_of
-from sleec_verify.timed.scope import Untimed
+from sleec_verify.scope import Untimed
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import Problem

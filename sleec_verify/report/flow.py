@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from sleec_runtime.model import Formula, Ruleset, Source, Span, Value
     from sleec_verify.finding import Finding
     from sleec_verify.games.realizability import Strategy
-    from sleec_verify.timed.timeline import Moment
+    from sleec_verify.timeline import Moment
 
 
 class Step(NamedTuple):
@@ -61,7 +61,7 @@ def _of_moment(ruleset: Ruleset, finding: Finding, moment: Moment, number: int) 
     for step in _happening(ruleset, finding, moment.events, told):
         yield step._replace(words=when + step.words, moment=number)
     for due in moment.due:
-        span = due.law or list(ruleset.by_label[due.rule].clauses())[due.clause].span
+        span = list(ruleset.by_label[due.rule].clauses())[due.clause].span
         if due.overdue:
             words = f"after {duration(due.start)}, in place of {due.instead_of}, {says(due)}"
             yield Step(ruleset.source, span, words, {}, number)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from sleec_runtime.model import Source
     from sleec_verify.finding import Finding
     from sleec_verify.report.palette import Palette
-    from sleec_verify.timed.scope import Untimed
+    from sleec_verify.scope import Untimed
 
 
 @as_text

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from sleec_verify.finding import CheckResult, Finding, Witness
     from sleec_verify.games.realizability import Strategy
     from sleec_verify.report.palette import Palette
-    from sleec_verify.timed.timeline import Timeline
+    from sleec_verify.timeline import Timeline
 
 Json = Union[None, bool, int, float, str, "list[Json]", "dict[str, Json]"]
 
@@ -85,7 +85,7 @@ def finding_json(finding: Finding, source: Source) -> dict[str, Json]:
         "obligations": list(finding.obligations),
         "span": span_json(finding.span, source),
         "witness": None if finding.witness is None else witness_json(finding.witness),
-        **({} if finding.timeline is None else {"timeline": _timeline(finding.timeline, source)}),
+        **({} if finding.timeline is None else {"timeline": _timeline(finding.timeline)}),
         **({} if finding.strategy is None else {"strategy": _strategy(finding.strategy)}),
         "domains": list(finding.domains),
         "related": [{"span": span_json(span, source), "message": word} for span, word in finding.related],
@@ -119,9 +119,8 @@ def witness_json(witness: Witness) -> Json:
     return {"triggers": list(witness.triggers), "conditions": values_json(witness.conditions), **absent}
 
 
-def _timeline(timeline: Timeline, source: Source) -> Json:
-    """Times are seconds from the first moment; `now` is the moment after which all is open, or null. What a relation or
-    constraint calls for has no rule and no clause, but the place of that `law`."""
+def _timeline(timeline: Timeline) -> Json:
+    """Times are seconds from the first moment; `now` is the moment after which all is open, or null."""
     moments: list[Json] = [
         {
             "time": moment.time,
@@ -129,9 +128,10 @@ def _timeline(timeline: Timeline, source: Source) -> Json:
             "conditions": values_json(moment.conditions),
             "due": [
                 {
-                    "rule": due.rule if due.law is None else None,
-                    "clause": due.clause if due.law is None else None,
-                    "law": None if due.law is None else span_json(due.law, source),
+                    "rule": due.rule,
+                    "clause": due.clause,
+                    # Kept for programs that read it: relations and constraints stand in `related` of the finding.
+                    "law": None,
                     "response": due.words,
                     "event": due.event,
                     "negated": due.negated,

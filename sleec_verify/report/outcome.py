@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Ruleset
     from sleec_verify.finding import CheckResult, Finding, Severity
-    from sleec_verify.timed.scope import Untimed
+    from sleec_verify.scope import Untimed
 
 
 class Checked(NamedTuple):

@@ -60,7 +60,7 @@ def _by(entry: Entry) -> str:
 
 def chart(entries: Sequence[Entry], context: Context) -> list[str]:
     """The windows that count from the situation, with a column for each time at which one opens or closes."""
-    from sleec_verify.timed.timeline import Due, Moment, Timeline
+    from sleec_verify.timeline import Due, Moment, Timeline
 
     now = [entry for entry in entries if entry.after is None and entry.start is not None]
     dues = tuple(

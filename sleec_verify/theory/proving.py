@@ -16,18 +16,18 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.calculations import calculations, named
 from sleec_verify.certificates.elaboration import NotFollowing
 from sleec_verify.certificates.refutation import refute
+from sleec_verify.scope import has_chains, speaks_of_traces
 from sleec_verify.theory.boolean import Boolean
 from sleec_verify.theory.numbered import Numbered
 from sleec_verify.theory.oracle import NoAnswer, NotRefuted, Oracle
-from sleec_verify.timed.scope import speaks_of_traces
 
 Step = tuple[int, tuple[int, ...], tuple[int, ...]]
 """The number of a clause, its literals, and the clauses that it follows from."""
 
 
-def not_modelled(ruleset: Ruleset) -> str | None:
-    """Why the theory does not speak of a ruleset, or None."""
-    if speaks_of_traces(ruleset):
+def not_modelled(ruleset: Ruleset, chains: bool = True) -> str | None:
+    """Why the theory does not speak of a ruleset, or None. `chains` is whether what is done triggers rules."""
+    if speaks_of_traces(ruleset) or (chains and has_chains(ruleset)):
         return "the theory has no times, and nothing that is done happens in it"
     if calculated := calculations(ruleset):
         return f"the theory does not calculate, as in {named(calculated)}"

@@ -11,30 +11,18 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from sleec_runtime.model import Obligation, Rule, formulas_of, literals, names_of
+from sleec_runtime.model_time import RELATIONS, MeasureRelation
 from sleec_verify.solver import Undecided
 from sleec_verify.traces.index import Index
+from sleec_verify.traces.naming import is_of_state
 from sleec_verify.traces.relations import Relation, events_of, formulas_of_relation
-
-
-class _Union:
-    """Union-find over names."""
-
-    def __init__(self) -> None:
-        self._parent: dict[object, object] = {}
-
-    def root(self, item: object) -> object:
-        while self._parent.setdefault(item, item) != item:
-            self._parent[item] = self._parent[self._parent[item]]
-            item = self._parent[item]
-        return item
-
-    def join(self, one: object, other: object) -> None:
-        self._parent[self.root(one)] = self.root(other)
+from sleec_verify.union_find import UnionFind
 
 
 def components(index: Index) -> list[Index]:
     """The components with more than one side to an event or with relations, in the order of the text."""
-    union = _Union()
+    index = index.stated
+    union = UnionFind()
     contested = {rule.label: list(_contested(index, rule)) for rule in index.ruleset.rules}
     obliging: dict[str, list[str]] = {}
     about: dict[str, list[str]] = {}
@@ -69,13 +57,13 @@ def components(index: Index) -> list[Index]:
     for key, relation in index.relation_by_key.items():
         relations.setdefault(union.root(key), []).append(relation)
     return [
-        _part(index, group, [r for root in _roots(union, root, group) for r in relations.get(root, ())])
+        index.part(group, [r for root in _roots(union, root, group) for r in relations.get(root, ())])
         for root, group in rules.items()
         if root in relations or _has_sides([(rule, contested[rule.label]) for rule in group])
     ]
 
 
-def _roots(union: _Union, root: object, rules: list[Rule]) -> list[object]:
+def _roots(union: UnionFind, root: object, rules: list[Rule]) -> list[object]:
     """The groups of relations that bind rules: through events, or through the measures that the rules read."""
     measures = (name for rule in rules for formula in formulas_of(rule) for name in names_of(formula))
     return list(dict.fromkeys([root, *(union.root(("measure", name)) for name in measures)]))
@@ -99,8 +87,15 @@ def _has_sides(rules: list[tuple[Rule, list[Obligation]]]) -> bool:
     return bool(required & forbidden or required & triggers or forbidden & triggers)
 
 
-def _part(index: Index, rules: list[Rule], relations: list[Relation]) -> Index:
-    kept = sorted((*rules, *relations), key=lambda statement: statement.span)
-    measures = tuple(index.ruleset.measures.values())
-    ruleset = replace(index.ruleset, statements=tuple(kept), inferred=measures)
-    return Index(ruleset, index.untimed, index.recorder, index)
+def needs_traces(component: Index) -> bool:
+    """Whether a conflict of a component can need more than one instant, a chain, or a relation between events."""
+    for relation in component.relations:
+        if isinstance(relation, RELATIONS) and not isinstance(relation, MeasureRelation) and not is_of_state(relation):
+            return True
+    for rule in component.rules:
+        for response in _contested(component, rule):
+            if response.timing is not None or component.untimed == "eventually":
+                return True
+            if response.name in component.by_trigger:
+                return True
+    return False

@@ -16,11 +16,12 @@ from sleec_runtime.model import Rule, Value
 from sleec_verify.budget import OutOfBudget, Undecided
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import minimal_rules, weakest, without_slots
-from sleec_verify.traces.histories import Histories, Moment
+from sleec_verify.traces.histories import Histories
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.naming import event_of, is_of_state, named_atoms
 from sleec_verify.traces.refinement import Refinement
 from sleec_verify.traces.situations import Fact, Situations
+from sleec_verify.traces.timeline import Moment
 from sleec_verify.traces.witness import needed_relations, needed_values
 
 MOST_UNDECIDED = 4
@@ -61,7 +62,7 @@ class ConflictSearch:
     """The conflicts of one component of a ruleset."""
 
     def __init__(self, index: Index) -> None:
-        self._index = index
+        self._index = index = index.stated
         self._found: list[Conflict] = []
         self._undecided: list[Undecided] = []
 

@@ -11,15 +11,12 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import chain as chained
 from itertools import product
 from math import ceil, floor
-from typing import Literal, NamedTuple, Union
+from typing import NamedTuple, Union
 
 from sleec_runtime.model import Clause, Obligation, Rational, in_text_order
 from sleec_runtime.model_time import Length, Window
+from sleec_verify.scope import Untimed
 from sleec_verify.solver import Undecided
-
-Untimed = Literal["at", "eventually"]
-"""What a response without a window means: at the instant of its trigger (LEGOS), or at some time from then on
-(SLEEC-TK)."""
 
 
 class Occurs(NamedTuple):

@@ -6,23 +6,16 @@ trace model in which all instants come before now, and a demand whose window is 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from typing import NamedTuple
+from collections.abc import Collection, Iterable, Sequence
 
-from sleec_runtime.model import Rule, Value
+from sleec_runtime.model import Rule
 from sleec_runtime.model_time import Lasting
+from sleec_verify.budget import OutOfBudget, Undecided
 from sleec_verify.traces.demands import Demand, Every, Occurs
 from sleec_verify.traces.model import TraceModel
 from sleec_verify.traces.pending import Slot
 from sleec_verify.traces.situations import Fact, Situations
-
-
-class Moment(NamedTuple):
-    """One instant of a history: its time in seconds, its events, and the conditions and measures that count."""
-
-    time: int
-    events: frozenset[str]
-    conditions: Mapping[str, Value]
+from sleec_verify.traces.timeline import Moment
 
 
 class Histories(TraceModel):
@@ -31,7 +24,7 @@ class Histories(TraceModel):
     With `strict`, the slots of the facts are all that the history leaves pending of `rules`."""
 
     def __init__(self, situations: Situations, facts: Iterable[Fact], rules: Collection[str]) -> None:
-        super().__init__(situations.index)
+        super().__init__(situations.index.surroundings)
         self.strict = self.formula.fresh()
         self._situations = situations
         self._of = frozenset(rules)
@@ -168,6 +161,19 @@ class Histories(TraceModel):
         self._mode = [self.strict] if strict else []
         return self.ask(*self.facts.values(), *self._mode)
 
+    def _occurrences(self) -> list[int]:
+        """The literals of the events of the last answer, which was yes."""
+        events = (literal for instant in self.instants.values() for literal in instant.events().values())
+        return [literal for literal in events if self.true(literal)]
+
+    def _exists_without(self, absent: Sequence[int]) -> bool:
+        try:
+            return self.ask(*self.facts.values(), *self._mode, *absent)
+        except OutOfBudget:
+            raise
+        except Undecided:
+            return False
+
     def refuted(self) -> list[Fact]:
         """The facts that the last answer, which was no, rests on."""
         return [fact for fact, literal in self.facts.items() if literal in self.core]
@@ -184,9 +190,19 @@ class Histories(TraceModel):
         return times[self._nodes[b]] - times[self._nodes[a]]
 
     def history(self) -> tuple[list[Moment], int]:
-        """The instants of the history of the last answer, which was yes, and the time of now; the first is at 0."""
+        """A history without events that can be left out, after the answer yes: its instants and the time of now; the
+        first is at 0."""
+        absent: list[int] = []
+        needed: set[int] = set()
+        while left := [literal for literal in self._occurrences() if literal not in needed]:
+            if self._exists_without([*absent, -left[0]]):
+                absent.append(-left[0])
+            else:
+                needed.add(left[0])
+                found = self._exists_without(absent)
+                assert found, "what was left out can be left out"
         times, _ = self.schedule()
-        nodes = sorted((n for n in self.used() if n in self.instants), key=lambda n: times[n])
+        nodes = sorted((n for n in self.used() if n in self.instants and self.events(n)), key=lambda n: times[n])
         begin = min((times[node] for node in nodes), default=times[self.now])
         moments = [Moment(times[n] - begin, self.events(n), dict(sorted(self.values(n).items()))) for n in nodes]
         return moments, times[self.now] - begin

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from typing import TypeVar
@@ -17,13 +18,14 @@ from sleec_runtime.model import (
     Obligation,
     Rule,
     Ruleset,
-    literals,
+    in_text_order,
 )
 from sleec_runtime.model_time import RELATIONS
+from sleec_verify.scope import Untimed, responses_of
 from sleec_verify.solver import Recorder
-from sleec_verify.traces.demands import Responses, Untimed
+from sleec_verify.traces.demands import Occurs, Responses, occurrences
 from sleec_verify.traces.naming import named_events, with_states
-from sleec_verify.traces.relations import Relation, events_of, relation_key, required_events
+from sleec_verify.traces.relations import Name, Relation, events_of, names_of_relation, relation_key, required_events
 
 _Indexed = TypeVar("_Indexed", Rule, Relation)
 
@@ -43,13 +45,53 @@ class Index:
         if whole is not None:
             self.mere_inputs = whole.mere_inputs
             self.free = whole.free
-        else:
-            self.ruleset = with_states(ruleset, self.mere_inputs)
+        self._whole = whole
+        self.ruleset = ruleset
         self.untimed = untimed
         self.recorder = recorder
         self.responses = Responses(untimed)
+        self._windows: dict[str, list[Occurs]] = {}
         self.impossible: dict[frozenset[str], frozenset[str]] = {}
         """The events that never occur, by the rules and relations that count (`sleec_verify.traces.induction`)."""
+
+    @cached_property
+    def stated(self) -> Index:
+        """The same with states in place of the inputs that conditions name (`sleec_verify.traces.naming`)."""
+        ruleset = with_states(self.ruleset, self.mere_inputs)
+        return self if ruleset is self.ruleset else Index(ruleset, self.untimed, self.recorder)
+
+    def part(self, rules: Iterable[Rule], relations: Iterable[Relation]) -> Index:
+        """Some of the rules and relations, in which events keep what they are in the whole."""
+        kept = sorted((*rules, *relations), key=lambda statement: statement.span)
+        measures = tuple(self.ruleset.measures.values())
+        ruleset = replace(self.ruleset, statements=tuple(kept), inferred=measures)
+        return Index(ruleset, self.untimed, self.recorder, self)
+
+    @property
+    def rules(self) -> tuple[Rule, ...]:
+        return self.ruleset.rules
+
+    def windows(self, rule: Rule) -> list[Occurs]:
+        """Every atom that a rule can demand. Raises Undecided for a window whose length a measure gives."""
+        found = self._windows.get(rule.label)
+        if found is None:
+            found = self._windows[rule.label] = [
+                atom for clause in rule.clauses() for atom in self.atoms(clause.obligations)
+            ]
+        return found
+
+    def atoms(self, obligations: tuple[Obligation, ...]) -> Iterator[Occurs]:
+        """Every atom that obligations can demand. Raises Undecided for a window whose length a measure gives."""
+        return occurrences(self.responses.of(obligations, lambda inner: [1] * _members(inner)))
+
+    @cached_property
+    def surroundings(self) -> Index:
+        """The part of the whole that the events of this part can lead to: a history has to satisfy it, too."""
+        from sleec_verify.traces.cone import cone
+
+        if self._whole is None:
+            return self
+        return cone(self._whole.surroundings, self.by_trigger, ())
 
     @cached_property
     def relations(self) -> list[Relation]:
@@ -103,6 +145,15 @@ class Index:
         )
 
     @cached_property
+    def relations_of_name(self) -> dict[Name, list[tuple[str, Relation]]]:
+        """The relations that mention an event, condition or measure, with their keys."""
+        found: dict[Name, list[tuple[str, Relation]]] = {}
+        for key, relation in self.relation_by_key.items():
+            for name in dict.fromkeys(names_of_relation(relation)):
+                found.setdefault(name, []).append((key, relation))
+        return found
+
+    @cached_property
     def relations_of_event(self) -> dict[str, list[Relation]]:
         return _index((event, relation) for relation in self.relations for event in events_of(relation))
 
@@ -145,10 +196,8 @@ class Index:
         return frozenset(event for event, agent in self.agents.items() if agent == "environment")
 
 
-def responses_of(rule: Rule) -> Iterator[Obligation]:
-    """Every response of a rule at any depth, in the order of the text."""
-    for clause in rule.clauses():
-        yield from literals(clause)
+def _members(clause: Clause) -> int:
+    return sum(1 for _ in in_text_order(clause))
 
 
 def _index(pairs: Iterable[tuple[str, _Indexed]]) -> dict[str, list[_Indexed]]:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from itertools import combinations
 from typing import Union
 
-from sleec_runtime.model import Assume, Atom, Exclusive, Formula, Never, leaves
+from sleec_runtime.model import And, Assume, Atom, Exclusive, Formula, Never, Not, Or, Truth, leaves, measures_of
 from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
 from sleec_runtime.model_time import Relation as TimedRelation
 from sleec_verify.traces.instant import Instant
@@ -51,6 +51,51 @@ def formulas_of_relation(relation: Relation) -> Iterator[Formula]:
     else:
         candidates = ()
     yield from (formula for formula in candidates if formula is not None)
+
+
+Name = tuple[str, str]
+"""``("event", name)``, or ``("measure", name)`` for a condition or measure."""
+
+
+def names_in(formula: Formula) -> Iterator[Name]:
+    """The events, conditions and measures of a formula."""
+    for leaf in leaves(formula):
+        if isinstance(leaf, Atom):
+            yield "measure" if leaf.kind == "condition" else "event", leaf.name
+        else:
+            yield from (("measure", measure) for measure in measures_of(leaf))
+
+
+def names_of_relation(relation: Relation) -> Iterator[Name]:
+    """The events, conditions and measures that a relation mentions."""
+    yield from (("event", event) for event in events_of(relation))
+    for formula in formulas_of_relation(relation):
+        yield from names_in(formula)
+
+
+def may_require(relation: Relation) -> bool:
+    """Whether a relation can require an event at an instant at which none of its events occurs."""
+    if isinstance(relation, Effect):
+        return relation.relation == "causation"
+    if not isinstance(relation, (Assume, Never)):
+        return False
+    # Three-valued: with all events false, and conditions and measures unknown.
+    value = _value(relation.formula)
+    return value is not isinstance(relation, Assume) and any(events_of(relation))
+
+
+def _value(formula: Formula) -> bool | None:
+    """The value of a formula where no event occurs, in Kleene's logic; None for unknown."""
+    if isinstance(formula, Truth):
+        return formula.value
+    if isinstance(formula, Not):
+        value = _value(formula.operand)
+        return None if value is None else not value
+    if isinstance(formula, (And, Or)):
+        values = [_value(operand) for operand in formula.operands]
+        absorbing = isinstance(formula, Or)
+        return absorbing if absorbing in values else None if None in values else not absorbing
+    return False if isinstance(formula, Atom) and formula.kind != "condition" else None
 
 
 def exclusions(relation: Relation) -> Iterator[tuple[str, str]]:

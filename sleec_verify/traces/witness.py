@@ -42,15 +42,18 @@ def needed_values(
     formula = Formula()
     instant = Instant(formula, index.ruleset.measures, formula.true)
     guards = [
-        instant.guards(index.ruleset.by_label[label], index.ruleset.reading)[number] for label, number in deciding
+        instant.guards(index.ruleset.by_label[label], index.ruleset.reading, formula.true)[number]
+        for label, number in deciding
     ]
     formula.clauses.append([-guard for guard in guards])
-    named = {fact: names_of_key(instant, fact[1]) for fact in facts}  # type: ignore[arg-type]
-    literals = {
-        fact: (instant.variables[fact[1]] if fact[-1] else -instant.variables[fact[1]])
-        for fact in facts
-        if fact[1] in instant.variables
-    }
+    named: dict[Fact, frozenset[str]] = {}
+    literals: dict[Fact, int] = {}
+    for fact in facts:
+        key = fact[1]
+        assert isinstance(key, tuple), "the key of a variable"
+        named[fact] = names_of_key(instant, key)
+        if key in instant.variables:
+            literals[fact] = instant.variables[key] if fact[-1] else -instant.variables[key]
     instant.settle()
     kept = {name for names in named.values() for name in names}
     with MiniSat(formula.clauses) as solver:

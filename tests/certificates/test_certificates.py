@@ -26,7 +26,7 @@ from sleec_verify.checks import run_checks
 from sleec_verify.checks.conflict import CONFLICT
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Proved
-from sleec_verify.timed.scope import Untimed
+from sleec_verify.scope import Untimed
 from tests.strategies import rulesets
 from tests.timed_strategies import timed_ruleset
 from tests.verify.small import small_rulesets
@@ -109,7 +109,7 @@ def test_the_manifest(tmp_path: Path) -> None:
         "domains": ["night", "day"],
     }
     assert (manifest["reading"], manifest["domain"]) == ("cascade", None)
-    assert (manifest["untimed"], manifest["chains"]) == (None, False)
+    assert (manifest["untimed"], manifest["chains"]) == (None, True)
     assert of(manifest, "conflict") == ("proved", "proof")
     assert manifest["checks"][0]["files"] == ["conflict.cnf", "conflict.lrat"]
     assert of(manifest, "dead-rule") == ("refuted", "proof")

@@ -151,8 +151,6 @@ def test_no_key_may_be_missing_added_or_moved(kind: str) -> None:
     [
         (("format",), True),
         (("reading",), "backwards"),
-        (("untimed",), "at"),
-        (("chains",), True),
         (("tool", "name"), "other"),
         (("tool", "version"), "1\n2"),
         (("ruleset", "syntax"), "prolog"),

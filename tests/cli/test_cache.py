@@ -47,9 +47,9 @@ def solves(monkeypatch: pytest.MonkeyPatch) -> Callable[[], int]:
     """How often rules were checked since it was asked last."""
     calls: list[None] = []
 
-    def counted(*arguments: object) -> tuple[CheckResult, ...]:
+    def counted(*arguments: object, **named: object) -> tuple[CheckResult, ...]:
         calls.append(None)
-        return run_checks(*arguments)  # type: ignore[arg-type]
+        return run_checks(*arguments, **named)  # type: ignore[arg-type]
 
     monkeypatch.setattr("sleec_verify.checks.run_checks", counted)
 
@@ -323,7 +323,9 @@ def test_any_result_is_kept_as_it_was(ruleset: Ruleset) -> None:
 
 def test_unknown_is_asked_again(folder: Path, cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     answers: list[Verdict] = [Unknown("the solver gave up"), Proved()]
-    monkeypatch.setattr("sleec_verify.checks.run_checks", lambda *_: (CheckResult("conflict", answers.pop(0), 0.0),))
+    monkeypatch.setattr(
+        "sleec_verify.checks.run_checks", lambda *_, **__: (CheckResult("conflict", answers.pop(0), 0.0),)
+    )
     assert cli("check", "a.sleec", files={"a.sleec": "WHEN Rung THEN Open\n"}).code == 3
     assert entries(folder) == []
     assert cli("check", "a.sleec").code == 0
@@ -342,7 +344,7 @@ def test_rules_without_a_text_are_not_kept(tmp_path: Path) -> None:
 def test_the_oldest_make_room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sleec_verify.cache._MOST", 3)
     cache = Cache(str(tmp_path), told)
-    monkeypatch.setattr(Cache, "_path", lambda self, r, d, u: str(tmp_path / "aa" / str(d)))
+    monkeypatch.setattr(Cache, "_path", lambda self, r, d, u, c: str(tmp_path / "aa" / str(d)))
     ruleset = parse(CLASH)
     results = run_checks(ruleset)
     for number in range(5):

@@ -46,7 +46,7 @@ def test_what_is_told(cli: Cli) -> None:
     out = cli("certify", "clean.sleec", "-o", "new/place", files=FILES).out
     assert "conflict            proved    1 question refuted: conflict.cnf, conflict.lrat\n" in out
     held = cli("certify", "--check", "new/place", "clean.sleec").out
-    assert held.startswith("new/place: the certificate holds of clean.sleec (reading cascade; without chains)\n")
+    assert held.startswith("new/place: the certificate holds of clean.sleec (reading cascade; with chains)\n")
     *_, judged, tied = held.splitlines()
     assert judged.startswith("proofs checked by ")
     assert tied.startswith("conflict: ")
@@ -245,12 +245,12 @@ def test_what_a_certificate_is_for_is_printed(cli: Cli) -> None:
 
     files = {**FILES, "domains.sleec": DOMAINS, "day.sleec": "DOMAIN day\nRULE a WHEN A THEN X\n"}
     cli("check", "clean.sleec", files=files)
-    plain = {"reading": "cascade", "domain": None, "untimed": None, "chains": False}
+    plain = {"reading": "cascade", "domain": None, "untimed": None, "chains": True}
     timed = {"reading": "cascade", "domain": None, "untimed": "at", "chains": True}
-    assert printed("clean.sleec") == ("reading cascade; without chains", plain)
+    assert printed("clean.sleec") == ("reading cascade; with chains", plain)
     made = cli("certify", "clean.sleec", "-o", "c", "--force", "--domain", "day", "--format", "json")
     assert json.loads(made.out)["domain"] is None
-    assert printed("day.sleec") == ("reading cascade; domain day; without chains", plain)
+    assert printed("day.sleec") == ("reading cascade; domain day; with chains", plain)
     words = "reading cascade; each of the domains day, night; untimed at; with chains"
     assert printed("domains.sleec") == (words, timed)
     options = ("--domain", "night", "--reading", "priority", "--untimed", "eventually")

@@ -301,7 +301,7 @@ def test_an_error_of_the_runtime_is_a_line(text: str) -> None:
 
 
 def test_a_traceback_is_escaped(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(*_: object) -> None:
+    def fail(*_: object, **__: object) -> None:
         raise ZeroDivisionError("\x1b[2J\n::stop-commands::x")
 
     monkeypatch.setattr("sleec_verify.checks.run_checks", fail)

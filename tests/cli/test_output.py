@@ -44,7 +44,7 @@ def test_what_fails_leaves_all_as_it_was(
     if old is not None:
         (tmp_path / "report.sarif").write_text(old)
 
-    def fail(*_: object) -> None:
+    def fail(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("os.replace", fail)
@@ -59,7 +59,7 @@ def test_what_fails_leaves_all_as_it_was(
 def test_an_interruption_writes_nothing(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "report.sarif").write_text("old")
 
-    def interrupt(*_: object) -> None:
+    def interrupt(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr("sleec_verify.checks.run_checks", interrupt)
@@ -98,7 +98,7 @@ def test_what_is_no_file_is_written_to(tmp_path: Path) -> None:
 def test_what_the_output_may_not_be(
     output: str, message: str, cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("sleec_verify.checks.run_checks", lambda *_: pytest.fail("this is told before any work"))
+    monkeypatch.setattr("sleec_verify.checks.run_checks", lambda *_, **__: pytest.fail("this is told before any work"))
     ran = cli("check", "a.sleec", "rules", "-o", output, files={"a.sleec": CLASH, "rules/b.sleec": CLASH})
     assert ran.code == 2
     assert message in ran.err

@@ -116,7 +116,7 @@ def test_stream_that_cannot_say_a_character(tmp_path: Path) -> None:
 
 
 def test_interruption_shows_no_traceback(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupt(*_: object) -> None:
+    def interrupt(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr("sleec_verify.checks.run_checks", interrupt)
@@ -126,7 +126,7 @@ def test_interruption_shows_no_traceback(cli: Cli, monkeypatch: pytest.MonkeyPat
 
 @pytest.fixture
 def failing(monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(*_: object) -> None:
+    def fail(*_: object, **__: object) -> None:
         raise ZeroDivisionError("the mistake")
 
     monkeypatch.setattr("sleec_verify.checks.run_checks", fail)
@@ -188,7 +188,7 @@ def test_full_disk_is_told(clash: str) -> None:
 
 
 def test_closed_pipe_has_its_own_code(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
-    def closed(*_: object) -> None:
+    def closed(*_: object, **__: object) -> None:
         raise BrokenPipeError
 
     monkeypatch.setattr("sleec_verify.checks.run_checks", closed)

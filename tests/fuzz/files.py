@@ -92,7 +92,7 @@ def baseline_seeds() -> Iterator[bytes]:
 def cache(data: bytes, folder: Path) -> None:
     """An entry with any content, whose hash fits, is read or ignored."""
     kept = Cache(str(folder), lambda message: None)
-    path = kept._path(RULESET, None, "at")
+    path = kept._path(RULESET, None, "at", True)
     assert path is not None
     Path(path).parent.mkdir(exist_ok=True)
     Path(path).write_bytes(_head(path, data) + b"\n" + data)

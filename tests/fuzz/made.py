@@ -12,7 +12,7 @@ from sleec_verify.cases.write import toml
 from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.certificates.checking import check_certificate
 from sleec_verify.certificates.making import certify
-from sleec_verify.timed.scope import speaks_of_traces
+from sleec_verify.scope import speaks_of_traces
 from tests.fuzz.property import unless_refused
 from tests.fuzz.rules import read
 

@@ -26,7 +26,7 @@ from sleec_verify.gate.suppressions import suppressions
 from sleec_verify.report import FORMATS, renderer
 from sleec_verify.report.outcome import Checked
 from sleec_verify.report.palette import PLAIN
-from sleec_verify.timed.scope import speaks_of_traces
+from sleec_verify.scope import speaks_of_traces
 from tests.fuzz.property import unless_refused
 
 if TYPE_CHECKING:

@@ -27,7 +27,9 @@ RENEW = "the rules have changed, or how they are written in Coq: make theorems"
 
 def proved(path: Path) -> bool:
     ruleset = load(path)
-    return not_modelled(ruleset) is None and isinstance(run_checks(ruleset, ["conflict"])[0].verdict, Proved)
+    return not_modelled(ruleset, chains=False) is None and isinstance(
+        run_checks(ruleset, ["conflict"], chains=False)[0].verdict, Proved
+    )
 
 
 _STEP = r"Add \d+ \[(?:(?:Pos|Neg) \d+(?:; (?:Pos|Neg) \d+)*)?\] \[(?:\d+(?:; \d+)*)?\]"

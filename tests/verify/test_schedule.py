@@ -15,8 +15,8 @@ from sleec_verify.report.entailment import caveats
 from sleec_verify.report.palette import PLAIN
 from sleec_verify.report.schedule import chart, in_words
 from sleec_verify.schedule import Entry, schedule
+from sleec_verify.scope import Untimed
 from sleec_verify.situation import parse_situation
-from sleec_verify.timed.scope import Untimed
 
 SMOKE = """RULE smoke
 WHEN SmokeDetected

@@ -9,10 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from sleec_runtime.language import parse
-from sleec_verify.solver import Undecided
-from sleec_verify.timed.conflicts import conflict
-from sleec_verify.timed.program import Program
 from tests.timed_agreement import compare_all, compare_calculations, compare_english, compare_named
 
 ROOT = Path(__file__).parents[2]
@@ -37,18 +33,6 @@ def test_rulesets_that_calculate_are_answered_as_z3_answers_them():
 def test_rulesets_whose_conditions_name_events_are_answered_as_z3_answers_them():
     """All questions but `conflict`, which is not decided about these."""
     assert compare_named(0, 60) > 250
-
-
-def test_rules_that_have_to_do_with_events_in_conditions_are_undecided():
-    """And no others: the answers about these stay what they are."""
-    text = "def_start {} def_end rule_start {} rule_end relation_start {} relation_end"
-    events = " ".join(f"event {name}" for name in "ABCDEFXYZ")
-    rules = "R1 when A then X unless B R2 when X then Y R3 when C then not Z R4 when D then E R5 when F then D"
-    program = Program(parse(text.format(events, rules, "mutualExclusive Y Z")))
-    assert program.tied == {"R1", "R2", "R3"}
-    with pytest.raises(Undecided, match="conditions that name events"):
-        conflict(program, program.ruleset.by_label["R3"])
-    assert conflict(program, program.ruleset.by_label["R4"]) is None
 
 
 @pytest.mark.slow

@@ -7,16 +7,15 @@ import pytest
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context, Obligation
 from sleec_verify import replay, solver
-from sleec_verify.checks import conflict, run_checks
+from sleec_verify.checks import causes, run_checks
 from sleec_verify.clashes import clashes
 from sleec_verify.cone import Cones
 from sleec_verify.entailment import entail
 from sleec_verify.finding import Proved, Refuted, Unknown
 from sleec_verify.solver import MiniSat, Undecided
-from sleec_verify.timed import unfolding
-from sleec_verify.timed.program import Program
-from sleec_verify.timed.questions import triggering
-from sleec_verify.timed.unfolding import Unfolding
+from sleec_verify.traces import unrolling
+from sleec_verify.traces.index import Index
+from sleec_verify.traces.questions import triggering
 
 # As many minimal inconsistent sets as there are ways to choose one of each pair: 2 to the 14th.
 ENTANGLED = "\n".join(
@@ -93,8 +92,8 @@ def test_a_witness_that_does_not_replay_is_never_shown(monkeypatch):
 
 
 def test_a_long_list_of_conflicts_says_that_it_is_cut(monkeypatch):
-    monkeypatch.setattr(conflict, "MOST", 2)
-    monkeypatch.setattr(conflict, "MOST_PER_RULE", 0)
+    monkeypatch.setattr(causes, "MOST", 2)
+    monkeypatch.setattr(causes, "MOST_PER_RULE", 0)
     (result,) = run_checks(parse("WHEN t THEN o\n" + "WHEN t THEN NOT o\n" * 5), ["conflict"])
     assert isinstance(result.verdict, Refuted)
     assert len(result.findings) == 2
@@ -119,11 +118,8 @@ def test_an_unknown_check_is_a_key_error():
 @pytest.mark.parametrize("limit", ["MOST", "MOST_CLAUSES", "MOST_COMPARED"])
 def test_a_trace_that_takes_too_much_is_unknown_with_what_it_came_to(monkeypatch, limit):
     text = "RULE a WHEN A THEN B WITHIN 9 seconds\nRULE b WHEN B THEN C WITHIN [2, 5] seconds\nRULE c WHEN C THEN NOT B"
-    program = Program(parse(text))
-    assert triggering(program, program.rules[0]).trace is not None
-    monkeypatch.setattr(unfolding, limit, 0)
-    # Two of them are what an argument is unless it is given.
-    given = Unfolding.__init__.__kwdefaults__ or {}
-    monkeypatch.setattr(Unfolding.__init__, "__kwdefaults__", {**given, limit.lower(): 0})
-    with pytest.raises(Undecided, match=r"no answer with up to [1-9] instant"):
-        triggering(program, program.rules[0])
+    index = Index(parse(text))
+    assert triggering(index, index.rules[0]).trace is not None
+    monkeypatch.setattr(unrolling, limit, 0)
+    with pytest.raises(Undecided, match=r"no answer with [1-9] instant"):
+        triggering(index, index.rules[0])

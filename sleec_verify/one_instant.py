@@ -31,10 +31,10 @@ def of_one_instant(ruleset: Ruleset) -> Iterator[tuple[Relation, Formula]]:
             must = law.formula if law.relation == "includes" else Not(law.formula)
             yield law, Or((Not(Atom("trigger", law.event)), must))
         elif isinstance(law, MeasureRelation):
-            yield law, _at_every_instant(law)
+            yield law, at_every_instant(law)
 
 
-def _at_every_instant(law: MeasureRelation) -> Formula:
+def at_every_instant(law: MeasureRelation) -> Formula:
     if law.right is None:
         return law.left
     if law.relation == "imply":

@@ -26,7 +26,7 @@ def beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Length
             for clause in statement.clauses():
                 lengths += _lengths(clause)
         elif isinstance(statement, Claim):
-            _of_claim(statement, events, formulas, lengths)
+            add_claim(statement, events, formulas, lengths)
         elif isinstance(statement, EventRelation):
             events |= {statement.left, statement.right}
         elif isinstance(statement, MeasureRelation):
@@ -42,7 +42,8 @@ def beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Length
     return events, formulas, lengths
 
 
-def _of_claim(claim: Claim, events: set[str], formulas: list[Formula], lengths: list[Length]) -> None:
+def add_claim(claim: Claim, events: set[str], formulas: list[Formula], lengths: list[Length]) -> None:
+    """Add the events, formulas and lengths of time of a concern or purpose."""
     events.add(claim.event)
     if claim.condition is not None:
         formulas.append(claim.condition)
@@ -52,7 +53,7 @@ def _of_claim(claim: Claim, events: set[str], formulas: list[Formula], lengths: 
             formulas += conditions_in(clause)
             lengths += _lengths(clause)
     if claim.meanwhile is not None:
-        _of_claim(claim.meanwhile, events, formulas, lengths)
+        add_claim(claim.meanwhile, events, formulas, lengths)
 
 
 def _lengths(clause: Clause) -> Iterator[Length]:

@@ -9,8 +9,8 @@ from math import ceil, floor
 from sleec_runtime.model import Clause, Context, Obligation, Ruleset, in_text_order
 from sleec_runtime.model_time import Length
 from sleec_verify.cnf import Encoder
+from sleec_verify.scope import Untimed
 from sleec_verify.solver import MiniSat
-from sleec_verify.timed.scope import Untimed
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,157 @@
+"""Causes of conflicts: minimal sets of clauses that oblige what they, or the constraints, rule out together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import chain
+from math import prod
+
+from sleec_runtime.model import Formula, Not, Obligation
+from sleec_verify.budget import spend
+from sleec_verify.checks.base import clause_at, guard_at, listed
+from sleec_verify.checks.each import each
+from sleec_verify.clashes import Clash, Exclusion
+from sleec_verify.cone import Cones, Place
+from sleec_verify.equation import conjunction
+from sleec_verify.finding import Witness
+from sleec_verify.question import Question
+from sleec_verify.witness import smallest_situation
+
+MOST, MOST_PER_RULE = 1_000, 3
+"""How many causes are listed: so many, and so many more for each rule. Contradicting clauses multiply, and a ruleset
+with more has one problem, not millions."""
+
+MANY_WAYS = 16
+"""Ways to oblige the literals of a clash with which it is asked first whether any of them is possible."""
+
+PER_ATTEMPT = 8
+"""Steps of a budget for one attempt to complete a cause."""
+
+Cause = tuple[Place, ...]
+"""A minimal set of clauses that clash, in the order of the text."""
+
+
+class Enough(Exception):
+    """As many causes are found as are listed, and there may be more."""
+
+
+def causes(cones: Cones) -> Iterator[tuple[Cause, list[tuple[Clash, Witness]]]]:
+    """Every cause, in the order of the text, with what is ruled out and a smallest situation for each.
+
+    Unsatisfiable exactly when a set of clauses is no cause: the guards of the clauses, and the situation in which their
+    literals clash. A model is a conflicting context. Raises Undecided or Enough after those that were found.
+    """
+    found: dict[Cause, list[tuple[Clash, Witness]]] = {}
+    most = MOST + MOST_PER_RULE * len(cones.rules)
+
+    def look(at: tuple[Cause, Clash]) -> tuple[()]:
+        cause, clash = at
+        situation = _situation(cones, cause, clash)
+        if situation is None or not _possible(cones, cause, situation):
+            return ()
+        witness = smallest_situation(cones, situation)
+        if witness is not None:
+            found.setdefault(cause, []).append((clash, witness))
+            if len(found) >= most:
+                raise Enough(f"the first {most} causes are listed; there may be more")
+        return ()
+
+    try:
+        for _ in each(_candidates(cones), look):
+            raise AssertionError("a look makes no finding")
+    finally:
+        yield from sorted(found.items())
+
+
+def _candidates(cones: Cones) -> Iterator[tuple[str, tuple[Cause, Clash]]]:
+    """The clashes, each with every set of clauses that may be its cause, and the rules of these."""
+    found = cones.clashes
+    pairs = (pair for exclusion in found.exclusions for pair in _due_together(cones, exclusion))
+    for clash in chain(found.listed, pairs):
+        ways = prod(len(cones.by_obligation[literal]) for literal in clash.literals)
+        if ways > MANY_WAYS and not _all_due(cones, clash):
+            continue
+        for cause in _covers(cones, clash):
+            rules = dict.fromkeys(cones.rules[place.rule].label for place in cause)
+            yield listed(rules) if rules else "the constraints", (cause, clash)
+
+
+def _all_due(cones: Cones, clash: Clash) -> bool:
+    """Whether all literals of a clash are due in some situation."""
+    rules = {place.rule for literal in clash.literals for place in cones.by_obligation[literal]}
+    with Question(cones) as question:
+        return question.ask(*question.due(sorted(rules), clash.literals).values())
+
+
+def _due_together(cones: Cones, exclusion: Exclusion) -> Iterator[Clash]:
+    """The pairs of an exclusion that may be due in some situation: all pairs of a literal that is due with another one.
+    One formula, satisfiable exactly when there is a further such literal. A model shows one."""
+    rules = {place.rule for literal in exclusion.literals for place in cones.by_obligation[literal]}
+    with Question(cones) as question:
+        encoder = question.encoder
+        due = question.due(sorted(rules), set(exclusion.literals))
+        counting = {literal: encoder.fresh() for literal in due}
+        several = encoder.at_least_two([encoder.both(due[literal], counting[literal]) for literal in due])
+        while question.ask(several):
+            one = next(
+                literal for literal in counting if question.true(due[literal]) and question.true(counting[literal])
+            )
+            question.exclude(counting.pop(one))
+            yield from (exclusion.clash(one, other) for other in counting)
+
+
+def _covers(cones: Cones, clash: Clash) -> Iterator[Cause]:
+    """The minimal sets of clauses, one at most of each rule, that oblige every literal of the clash."""
+    literals = sorted(clash.literals, key=str)
+    seen: set[Cause] = set()
+
+    def extend(chosen: tuple[Place, ...], covered: frozenset[Obligation]) -> Iterator[tuple[Place, ...]]:
+        spend(PER_ATTEMPT)
+        missing = next((literal for literal in literals if literal not in covered), None)
+        if missing is None:
+            yield chosen
+            return
+        for place in cones.by_obligation[missing]:
+            # Two clauses of one rule never decide together.
+            if all(place.rule != other.rule for other in chosen):
+                yield from extend((*chosen, place), covered.union(clause_at(cones, place).obligations))
+
+    for chosen in extend((), frozenset()):
+        cause = tuple(sorted(chosen))
+        if cause not in seen and _minimal(cones, cause, clash.literals):
+            seen.add(cause)
+            yield cause
+
+
+def _minimal(cones: Cones, cause: Cause, literals: frozenset[Obligation]) -> bool:
+    return not any(literals <= _obliged(cones, (other for other in cause if other != place)) for place in cause)
+
+
+def _obliged(cones: Cones, places: Iterable[Place]) -> set[Obligation]:
+    return set(chain.from_iterable(clause_at(cones, place).obligations for place in places))
+
+
+def _situation(cones: Cones, cause: Cause, clash: Clash) -> Formula | None:
+    """Where the clauses decide together and clash, and no part of them clashes already. None if a part always does."""
+    conjuncts = [guard_at(cones, place) for place in cause]
+    if clash.labels:
+        conjuncts.append(clash.situation)
+    for place in cause:
+        for smaller in cones.clashes.among(_obliged(cones, (other for other in cause if other != place))):
+            if not smaller.labels:
+                return None
+            if smaller != clash:
+                conjuncts.append(Not(smaller.situation))
+    return conjunction(list(dict.fromkeys(conjuncts)))
+
+
+def _possible(cones: Cones, cause: Cause, situation: Formula) -> bool:
+    """Whether the clauses decide together, by a question that can be recorded. Without recorder and assumptions, the
+    search for a smallest situation answers it."""
+    if cones.recorder is None and not cones.assumptions:
+        return True
+    with Question(cones) as question:
+        for place in cause:
+            question.require(question.guards(place.rule)[place.number])
+        question.require_formula(situation)
+        return question.ask()

@@ -1,0 +1,47 @@
+"""The cone of influence of a question about traces: the rules and relations that can matter to it.
+
+An event that the question does not lead to need not occur, so that its rules demand nothing. Relations matter if they
+share an event, condition or measure with the question, directly or through other relations, or if they can require an
+event that nothing leads to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from sleec_runtime.model import Formula, Rule, formulas_of
+from sleec_verify.scope import responses_of
+from sleec_verify.traces.index import Index
+from sleec_verify.traces.relations import Name, Relation, may_require, names_in, names_of_relation
+
+
+def cone(index: Index, events: Iterable[str], formulas: Iterable[Formula]) -> Index:
+    """The part of a ruleset that can matter to a question about these events and formulas. Linear in the size of that
+    part, and of the relations."""
+    ahead: list[Name] = [("event", event) for event in events]
+    ahead += [name for formula in formulas for name in names_in(formula)]
+    rules: dict[str, Rule] = {}
+    relations: dict[str, Relation] = {}
+
+    def include(key: str, relation: Relation) -> None:
+        if key not in relations:
+            relations[key] = relation
+            ahead.extend(names_of_relation(relation))
+
+    for key, relation in index.relation_by_key.items():
+        if may_require(relation):
+            include(key, relation)
+    seen: set[Name] = set()
+    while ahead:
+        name = ahead.pop()
+        if name in seen:
+            continue
+        seen.add(name)
+        for key, relation in index.relations_of_name.get(name, ()):
+            include(key, relation)
+        for rule in index.by_trigger.get(name[1], ()) if name[0] == "event" else ():
+            if rule.label not in rules:
+                rules[rule.label] = rule
+                ahead += (("event", response.name) for response in responses_of(rule))
+                ahead += (one for formula in formulas_of(rule) for one in names_in(formula))
+    return index.part(rules.values(), relations.values())

@@ -1,0 +1,145 @@
+"""The questions about traces that one trace answers: is there one that satisfies the rules and does this?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from typing import NamedTuple
+
+from sleec_runtime.model import Formula, Rule, formulas_of
+from sleec_runtime.model_time import Claim
+from sleec_verify.beside_rules import add_claim
+from sleec_verify.budget import begin
+from sleec_verify.scope import responses_of
+from sleec_verify.solver import Undecided
+from sleec_verify.timeline import Timeline
+from sleec_verify.traces.cone import cone
+from sleec_verify.traces.index import Index
+from sleec_verify.traces.induction import InductiveModel
+from sleec_verify.traces.model import TraceModel
+from sleec_verify.traces.timeline import Moment, timeline_of
+
+What = Callable[[TraceModel, int], Sequence[int]]
+"""From a model and an instant of it to literals that say what is asked of the instant."""
+
+
+class Answer(NamedTuple):
+    """`trace` is one that does it, or None if none does. Then `matter` is a minimal set of rules and relations that
+    prevent it, by labels and keys."""
+
+    trace: Timeline | None
+    matter: tuple[str, ...] = ()
+
+
+def breaking(index: Index, rule: Rule) -> Answer:
+    """A trace that satisfies all else and breaks `rule`. Without one, the rule is redundant."""
+    part = _about(index, [rule])
+    others: dict[str, Sequence[Rule]] = {
+        rule.trigger: [r for r in part.by_trigger[rule.trigger] if r.label != rule.label]
+    }
+    return _ask(part, lambda model, at: [_broken(model, at, rule)], rules={**part.by_trigger, **others})
+
+
+def exchanging(index: Index, rule: Rule, other: Rule) -> Answer:
+    """A trace that satisfies all with `other`, of the same trigger and label, in the place of `rule`, and breaks
+    `rule`."""
+    part = _about(index, [rule, other])
+    exchanged = [r for r in part.by_trigger[rule.trigger] if r.label != rule.label]
+    rules = {**part.by_trigger, rule.trigger: [*exchanged, other]}
+    return _ask(part, lambda model, at: [_broken(model, at, rule)], rules=rules)
+
+
+def triggering(index: Index, rule: Rule) -> Answer:
+    """A trace in which `rule` is triggered and its guard holds. Without one, the rule is vacuous."""
+    return _ask(
+        _about(index, [rule]),
+        lambda model, at: [model.instants[at].event(rule.trigger), model.condition(at, rule.guard)],
+    )
+
+
+def deciding(index: Index, rule: Rule, clause: int) -> Answer:
+    """An instant at which a clause of `rule` decides, that the relations allow, whether or not rules are satisfied."""
+    return _ask(_about(index, [rule]), lambda model, at: [model.guards(at, rule)[clause][1]], rules={})
+
+
+def coming_about(index: Index, claim: Claim) -> Answer:
+    """A trace in which a concern or purpose comes about. Its `meanwhile` may come about at any other instant."""
+
+    def at_instant(model: TraceModel, at: int, part: Claim) -> list[int]:
+        return [
+            model.instants[at].event(part.event),
+            model.condition(at, part.condition),
+            *(
+                model.demand(at, model.index.responses.of_clause(response, model.chain(at)))
+                for response in part.responses
+            ),
+        ]
+
+    def what(model: TraceModel, at: int) -> list[int]:
+        required = at_instant(model, at, claim)
+        for part in list(_parts(claim))[1:]:
+            required.append(
+                model.exists(lambda other, part=part: model.formula.every(at_instant(model, other, part)))  # type: ignore[misc]
+            )
+        return required
+
+    events: set[str] = set()
+    formulas: list[Formula] = []
+    add_claim(claim, events, formulas, [])
+    return _ask(cone(index, events, formulas), what)
+
+
+def _parts(claim: Claim) -> list[Claim]:
+    return [claim, *(() if claim.meanwhile is None else _parts(claim.meanwhile))]
+
+
+def _about(index: Index, rules: Sequence[Rule]) -> Index:
+    """The cone of the question about some rules."""
+    events = {event for rule in rules for event in (rule.trigger, *(o.name for o in responses_of(rule)))}
+    return cone(index, sorted(events), [formula for rule in rules for formula in formulas_of(rule)])
+
+
+def _broken(model: TraceModel, at: int, rule: Rule) -> int:
+    """A literal that implies that an instant triggers a rule and its response is not met."""
+    return model.formula.any_of(
+        [
+            model.formula.every([guard, model.demand(at, model.due(at, clause.obligations, kept=False))])
+            for clause, guard in model.guards(at, rule)
+            if clause.obligations
+        ]
+    )
+
+
+def _ask(
+    index: Index, what: What, but: Rule | None = None, rules: Mapping[str, Sequence[Rule]] | None = None
+) -> Answer:
+    """Whether some trace has an instant of which `what` holds. The rule `but` does not count; `rules` replace those of
+    the ruleset.
+
+    Raises Undecided."""
+    begin()
+    model = InductiveModel(index) if rules is None else TraceModel(index, rules)
+    required = list(what(model, model.instant(model.formula.true)))
+    counting = [rule.label for rule in index.rules if rule is not but] + list(index.relation_by_key)
+    if model.ask(*required, counting=counting):
+        return Answer(_timeline(model))
+    return Answer(None, tuple(_minimal(model, required)))
+
+
+def _minimal(model: TraceModel, required: Sequence[int]) -> list[str]:
+    """A minimal set of rules and relations with which the last answer is still no."""
+    kept = model.matter()
+    for key in list(kept):
+        less = [other for other in kept if other != key]
+        with suppress(Undecided):
+            if not model.ask(*required, counting=less):
+                kept = less
+    return kept
+
+
+def _timeline(model: TraceModel) -> Timeline:
+    times, _ = model.schedule()
+    instants = sorted((node for node in model.used() if node in model.instants), key=lambda node: times[node])
+    begin = times[instants[0]]
+    moments = [Moment(times[n] - begin, model.events(n), dict(sorted(model.values(n).items()))) for n in instants]
+    return timeline_of(model.index, moments)

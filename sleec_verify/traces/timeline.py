@@ -1,0 +1,92 @@
+"""Timelines of traces: what occurs when, and what the rules require until when.
+
+Which clause decides is computed by the evaluator of the runtime, which shares nothing with the encoding.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+from sleec_runtime.evaluation import decide
+from sleec_runtime.model import Context, Rule, Value, formulas_of, names_of
+from sleec_runtime.model_time import described
+from sleec_verify import timeline
+from sleec_verify.timeline import Due, Timeline
+from sleec_verify.traces.index import Index
+from sleec_verify.windowed import Windowed, Windows
+
+
+class Moment(NamedTuple):
+    """One instant of a trace: its time in seconds, its events, and the conditions and measures that count."""
+
+    time: int
+    events: frozenset[str]
+    conditions: Mapping[str, Value]
+
+
+def timeline_of(
+    index: Index, moments: Sequence[Moment], now: int | None = None, labels: Collection[str] | None = None
+) -> Timeline:
+    """The timeline of a trace, or of a history up to the moment `now`. With `labels`, of these rules only.
+
+    Raises Undecided for a window whose length a measure gives."""
+    shown = []
+    for moment in moments:
+        rules = [
+            rule
+            for event in sorted(moment.events)
+            for rule in index.by_trigger.get(event, ())
+            if labels is None or rule.label in labels
+        ]
+        named = {name for rule in rules for formula in formulas_of(rule) for name in names_of(formula)}
+        telling = tuple(name for name in moment.conditions if labels is None or name in named)
+        due = tuple(dict.fromkeys(_due(index, rules, moment, moments, over=now is None)))
+        shown.append(timeline.Moment(moment.time, tuple(sorted(moment.events)), moment.conditions, telling, due))
+    return Timeline(tuple(shown), now)
+
+
+def _due(index: Index, rules: Sequence[Rule], moment: Moment, course: Sequence[Moment], over: bool) -> Iterator[Due]:
+    """What the rules that speak at a moment require. If all is `over`, nothing happens after the last moment."""
+    context = Context(moment.events, moment.conditions)
+    windows = Windows(index.ruleset, context, index.untimed)
+    for rule in rules:
+        decision = decide(rule, context, index.ruleset.reading, index.ruleset.measures)
+        if decision is None:
+            continue
+        clause = list(rule.clauses())[decision.clause]
+        for one in windows.of(clause):
+            if any(_is_met(other, moment.time, course, over) for other in _replaced(one)):
+                continue
+            assert one.start is not None, "the engine refuses windows whose length a measure gives"
+            yield Due(
+                rule.label,
+                decision.clause,
+                described(one.obligation),
+                one.obligation.name,
+                one.obligation.negated,
+                moment.time + one.start,
+                None if one.end is None else moment.time + one.end,
+                None if one.instead is None else str(one.instead.obligation),
+                one.overdue,
+            )
+
+
+def _replaced(one: Windowed) -> Iterator[Windowed]:
+    """What a response is due in place of, and what that is."""
+    while one.instead is not None:
+        one = one.instead
+        yield one
+
+
+def _is_met(one: Windowed, triggered: int, course: Sequence[Moment], over: bool) -> bool:
+    """Whether a response is met for certain, so that nothing is due in its place any more."""
+    assert one.start is not None, "the engine refuses windows whose length a measure gives"
+    start, end = triggered + one.start, None if one.end is None else triggered + one.end
+    open_still = not over and (end is None or end >= course[-1].time)
+    done = any(
+        start <= moment.time and (end is None or moment.time <= end)
+        for moment in course
+        if one.obligation.name in moment.events
+    )
+    return not done and not open_still if one.obligation.negated else done
