@@ -69,6 +69,10 @@ def of_domain(ruleset: Ruleset, domain: str) -> Ruleset:
 def _declared(part: Ruleset) -> Ruleset:
     """`part` with declarations of the names that it would take for something else than the whole ruleset did, which has
     more rules to tell by."""
+    # A text that declares its conditions takes no other name in a condition, and one that declares a trigger all.
+    undeclared = part.triggers - part.declared["trigger"]
+    if not undeclared <= {rule.trigger for rule in part.rules}:
+        part = replace(part, statements=(Declaration("trigger", tuple(sorted(undeclared))), *part.statements))
     again = parse(print_ruleset(part))
     kinds: tuple[tuple[DeclaredKind, frozenset[str], frozenset[str]], ...] = (
         ("trigger", part.triggers, again.triggers),
