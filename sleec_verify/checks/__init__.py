@@ -20,6 +20,7 @@ from sleec_verify.checks.constant import CONSTANT_CONDITION
 from sleec_verify.checks.dead import DEAD_HEDGE, DEAD_RULE
 from sleec_verify.checks.defects import DEFECTS
 from sleec_verify.checks.duplicate import DUPLICATE_RULE
+from sleec_verify.checks.forbidden_input import FORBIDDEN_INPUT
 from sleec_verify.checks.reading import READING
 from sleec_verify.checks.realizability import REALIZABILITY, realizability
 from sleec_verify.checks.redundant import REDUNDANT_HEDGE, REDUNDANT_RULE
@@ -49,6 +50,7 @@ CHECKS: Mapping[str, Check] = {
         UNUSED_NAME,
         EMPTY_HEDGE,
         TRIGGER_OBLIGATION,
+        FORBIDDEN_INPUT,
         PHRASE_KEYWORD,
         CONFUSABLE,
         DEFECTS,

@@ -1,0 +1,66 @@
+"""Rules that forbid an input: an event that only the environment causes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TypeGuard
+
+from sleec_runtime.model import Declaration, Rule, Statement, literals
+from sleec_verify.checks.base import Check, FindingKind, clause_name, listed
+from sleec_verify.cone import Cones
+from sleec_verify.finding import ClauseRef, Finding
+from sleec_verify.scope import speaks_of_traces
+
+
+def _forbidden_inputs(cones: Cones) -> Iterator[Finding]:
+    """A finding for each clause that forbids an event which triggers another rule, and which no rule requires and no
+    declaration makes the robot's: it is an input, and the robot cannot keep it from occurring (docs/times.md)."""
+    if not (cones.chains or speaks_of_traces(cones.ruleset)):
+        return
+    index = cones.index
+    acts = {name for one in cones.ruleset.statements if _is_the_robots(one) for name in one.names} | set(index.obliging)
+    for rule in cones.rules:
+        for number, clause in enumerate(rule.clauses()):
+            for event in dict.fromkeys(response.name for response in literals(clause) if response.negated):
+                triggered = [other.label for other in index.by_trigger.get(event, ()) if event != rule.trigger]
+                if triggered and event not in acts:
+                    yield _finding(rule, number, event, triggered)
+
+
+def _is_the_robots(statement: Statement) -> TypeGuard[Declaration]:
+    return isinstance(statement, Declaration) and statement.agent == "system"
+
+
+def _finding(rule: Rule, number: int, event: str, triggered: list[str]) -> Finding:
+    return FORBIDDEN_INPUT.finding(
+        f"{clause_name(rule, number)} forbids {event}, which triggers {listed(triggered)} and which no rule requires",
+        list(rule.clauses())[number].span,
+        rules=(rule.label, *triggered),
+        clauses=(ClauseRef(rule.label, number),),
+        obligations=(event,),
+        note="such an event is an input from the environment, and the robot cannot keep it from occurring",
+        help="forbid an act of the robot instead, or ASSUME that the event does not occur then",
+    )
+
+
+FORBIDDEN_INPUT = Check(
+    "forbidden-input",
+    "Does every prohibition forbid an act of the robot?",
+    (
+        FindingKind(
+            "SLEEC107",
+            "warning",
+            "a rule that forbids an input",
+            "The rule forbids an event that triggers another rule and that no rule requires. Such an event comes from "
+            "the environment: a person calls, an alarm rings. The robot cannot keep it from occurring, so the rule "
+            "asks for nothing that the robot can do.",
+            "Forbid an act of the robot instead, or say with ASSUME that the event does not occur then. If the robot "
+            "causes the event, and the text declares its names, write EVENT … BY system.",
+            "RULE rest\nWHEN UserSleeps THEN NOT DoorbellRings WITHIN 1 hour\n"
+            "RULE door\nWHEN DoorbellRings THEN OpenDoor\n",
+            "RULE rest\nWHEN UserSleeps THEN NOT RingDoorbell WITHIN 1 hour\n"
+            "RULE door\nWHEN DoorbellRings THEN OpenDoor\n",
+        ),
+    ),
+    _forbidden_inputs,
+)
