@@ -24,6 +24,20 @@ def conflicts(text):
     return ruleset, result.findings
 
 
+ROW = re.compile(r"^\| (`A then .*?`|`P then .*?`) \| (none|R\d(?: R\d)*) \|", re.MULTILINE)
+
+
+def test_the_examples_of_the_definition_have_the_conflicts_of_the_page():
+    rows = ROW.findall((DOCS / "times.md").read_text(encoding="utf-8"))
+    assert len(rows) == 7
+    for rules, expected in rows:
+        numbered = [f"R{n} when {rule}" for n, rule in enumerate(re.findall(r"`(.*?)`", rules), 1)]
+        events = [f"event {event}" for event in "ABDPTXY"]
+        text = "\n".join(["def_start", *events, "def_end", "rule_start", *numbered, "rule_end"])
+        found = [set(finding.rules) for finding in conflicts(text)[1]]
+        assert found == ([] if expected == "none" else [set(expected.split())]), rules
+
+
 def is_in(shown, ruleset, finding):
     lines = "\n".join(finding_lines(finding, ruleset.source, PLAIN))
     return re.sub(r"(?m)^ +", "", shown) in re.sub(r"(?m)^ +", "", lines)
