@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
+from functools import cached_property
 
 from sleec_runtime.model import Clause, Obligation
 from sleec_runtime.model_time import Lasting
@@ -114,7 +115,7 @@ class Continuations:
         _, a, b, most, _ = fact
         return self.model.times.at_most(self.nodes[a], self.nodes[b], most)  # type: ignore[index, arg-type]
 
-    @property
+    @cached_property
     def relations(self) -> list[str]:
         return [relation_key(relation) for relation in self.situations.index.relations]
 
@@ -125,7 +126,8 @@ class Continuations:
         those that count, by their keys: all, unless given.
 
         Raises Undecided."""
-        literals = [literal for fact, literal in self.facts.items() if fact not in but]
+        open_facts = frozenset(but)
+        literals = [literal for fact, literal in self.facts.items() if fact not in open_facts]
         counting = [*rules, *(self.relations if relations is None else relations)]
         return self.model.ask(*literals, *more, counting=counting)
 
@@ -135,7 +137,8 @@ class Continuations:
 
     def core(self) -> list[Fact]:
         """The facts that the last answer, which was no, rests on."""
-        found = [fact for fact, literal in self.facts.items() if literal in self.model.core]
+        core = self.model.core
+        found = [fact for fact, literal in self.facts.items() if literal in core]
         return [*found, *(("rule", key, True) for key in self.model.matter() if key in self.situations.selected)]
 
     def refutes(self, facts: Collection[Fact]) -> bool:

@@ -29,11 +29,12 @@ class Question(Protocol):
 
 def minimal_rules(continuations: Continuations, rules: list[str]) -> list[str]:
     """A minimal set of `rules` that no response complies with. The last answer is then that for this set."""
-    kept = [label for label in rules if ("rule", label, True) in continuations.core()]
+    first = set(continuations.core())
+    kept = [label for label in rules if ("rule", label, True) in first]
     for label in list(kept):
         less = [other for other in kept if other != label]
         if not continuations.complies(less):
-            core = continuations.core()
+            core = set(continuations.core())
             kept = [other for other in less if ("rule", other, True) in core]
     stuck = not continuations.complies(kept)
     assert stuck, "a core is inconsistent by itself"

@@ -51,6 +51,7 @@ class Index:
         self.recorder = recorder
         self.responses = Responses(untimed)
         self._windows: dict[str, list[Occurs]] = {}
+        self._contested: dict[int, tuple[Clause, tuple[Obligation, ...]]] = {}
         self.impossible: dict[frozenset[str], frozenset[str]] = {}
         """The events that never occur, by the rules and relations that count (`sleec_verify.traces.induction`)."""
 
@@ -138,11 +139,15 @@ class Index:
         """
         from sleec_verify.traces.freedom import is_always_met
 
-        return tuple(
-            obligation
-            for obligation in clause.obligations
-            if not all(is_always_met(demand, self.free) for demand, _ in self.responses.variants(obligation))
-        )
+        known = self._contested.get(id(clause))
+        if known is None or known[0] is not clause:
+            found = tuple(
+                obligation
+                for obligation in clause.obligations
+                if not all(is_always_met(demand, self.free) for demand, _ in self.responses.variants(obligation))
+            )
+            known = self._contested[id(clause)] = (clause, found)
+        return known[1]
 
     @cached_property
     def relations_of_name(self) -> dict[Name, list[tuple[str, Relation]]]:

@@ -55,15 +55,23 @@ def needed_values(
         if key in instant.variables:
             literals[fact] = instant.variables[key] if fact[-1] else -instant.variables[key]
     instant.settle()
-    kept = {name for names in named.values() for name in names}
     with MiniSat(formula.clauses) as solver:
+
+        def refuted(names: set[str]) -> set[str] | None:
+            """The names that suffice, of these; None if they do not."""
+            left_out = [fact for fact in facts if not named[fact] <= names]
+            still = [literal for fact, literal in literals.items() if named[fact] <= names]
+            if solver.solve(still) is not False or continuations.complies(rules, [*but, *left_out]):
+                return None
+            core = {*continuations.core(), *(fact for fact, literal in literals.items() if literal in solver.core())}
+            return {name for fact in facts if fact in core for name in named[fact]}
+
+        kept = refuted({name for names in named.values() for name in names})
+        assert kept is not None, "asked of a conflict"
         for name in sorted(kept):
-            less = kept - {name}
-            left_out = [fact for fact in facts if not named[fact] <= less]
-            still = [literal for fact, literal in literals.items() if fact not in left_out]
             with as_far_as_decided():
-                if solver.solve(still) is False and not continuations.complies(rules, [*but, *left_out]):
-                    kept = less
+                less = refuted(kept - {name}) if name in kept else None
+                kept = kept if less is None else less
     return {name: value for name, value in values.items() if name in _closed(situations, kept, values)}
 
 
