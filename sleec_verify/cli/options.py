@@ -48,7 +48,8 @@ chains = click.option(
     flag_value=False,
     type=bool,
     default=True,
-    help="In rules without time, let a response trigger no rule: the one-step reading of the paper.",
+    help="Let a response trigger no rule: the one-step reading of the paper. The DSL and files with time count chains "
+    "all the same.",
 )
 when = click.option(
     "--when", metavar="TRIGGERS", multiple=True, help="What occurs, separated by commas: --when Fall,Night"

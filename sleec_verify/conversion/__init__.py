@@ -5,7 +5,7 @@ What the other language cannot say is refused, never dropped.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -25,8 +25,6 @@ from sleec_runtime.model import (
 )
 from sleec_verify.checks.names import names_used
 from sleec_verify.conversion.readings import reread
-from sleec_verify.report.words import listed
-from sleec_verify.scope import speaks_of_traces
 
 Target = Literal["english", "dsl", "legos"]
 TARGETS: tuple[Target, ...] = ("english", "dsl", "legos")
@@ -110,27 +108,4 @@ def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Con
         raise Unsayable(f"this cannot be said in the other language: {first.message}", first.hint) from None
     if replace(again, dialect=converted.dialect) != converted:
         raise AssertionError("the converted text would not say the same, which is a bug in sleec-verify")
-    return Converted(text, again, [*notes, *_of_chains(ruleset, again)])
-
-
-def _of_chains(before: Ruleset, after: Ruleset) -> Iterator[str]:
-    """Where only one of the two texts is about what happens one after the other, what that means for chains of rules:
-    the situations oblige the same, and the checks look at more or less than these."""
-    traces = speaks_of_traces(after)
-    if traces == speaks_of_traces(before):
-        return
-    from sleec_verify.scope import responses_of
-
-    triggers = {rule.trigger for rule in after.rules}
-    responses = (response for rule in after.rules for response in responses_of(rule))
-    both = [n for n in dict.fromkeys(one.name for one in responses if not one.negated) if n in triggers]
-    if not both:
-        return
-    names = listed(both if len(both) <= 3 else [*both[:2], f"{len(both) - 2} others"])
-    if traces:
-        yield f"doing {names} triggers rules in the DSL; in structured English without times, it does not"
-    else:
-        yield (
-            f"doing {names} triggers nothing in structured English without times, as it does in the DSL: give a "
-            "response a time, if only WITHIN 0 seconds, for the checks to follow what is done"
-        )
+    return Converted(text, again, notes)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from sleec_runtime.errors import Unsayable
 from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import Rule, Ruleset
+from sleec_verify.checks import run_checks
 from sleec_verify.cli.convert import command
 from sleec_verify.conversion import TARGETS, convert, of_domain
 from sleec_verify.conversion.readings import reread
@@ -265,26 +266,15 @@ def test_names_that_sleec_tk_keeps_for_itself_are_noted():
 CHAIN = "RULE one WHEN A THEN B\nRULE two WHEN B THEN C\nRULE three WHEN A THEN NOT C"
 
 
-def test_a_chain_that_only_one_of_the_languages_follows_is_noted():
-    legos = convert(parse(CHAIN), "legos")
-    assert [note for note in legos.notes if "triggers" in note] == [
-        "doing B triggers rules in the DSL; in structured English without times, it does not"
-    ]
-    (note,) = convert(legos.ruleset, "english").notes
-    assert note.startswith("doing B triggers nothing in structured English without times")
+@pytest.mark.parametrize("text", [CHAIN, CHAIN.replace("B\n", "B WITHIN 0 seconds\n"), CHAIN.replace("N B", "N D")])
+def test_check_counts_the_same_chains_in_both_languages(text):
+    def conflicts(ruleset):
+        (result,) = run_checks(ruleset, ["conflict"])
+        return {finding.rules for finding in result.findings}
 
-
-def test_many_links_are_counted():
-    text = "\n".join(f"WHEN E{n} THEN E{n + 1}" for n in range(6))
-    (note,) = convert(parse(text), "legos").notes
-    assert note.startswith("doing E1, E2 and 3 others triggers rules")
-
-
-@pytest.mark.parametrize("text", [CHAIN.replace("B\n", "B WITHIN 0 seconds\n"), CHAIN.replace("WHEN B", "WHEN D")])
-def test_a_chain_that_both_follow_or_none_is_not_noted(text):
-    for to in ("legos", "english"):
-        assert not any("triggers" in note for note in convert(convert(parse(text), "legos").ruleset, to).notes)
-    assert not any("triggers" in note for note in convert(parse(text), "legos").notes)
+    legos = convert(parse(text), "legos").ruleset
+    english = convert(legos, "english").ruleset
+    assert conflicts(parse(text)) == conflicts(legos) == conflicts(english) != set()
 
 
 def test_what_sleec_tk_wrote_is_what_it_means():
