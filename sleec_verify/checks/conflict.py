@@ -273,7 +273,9 @@ CONFLICT = Check(
             "rules that cannot be kept together",
             "In the situation shown, what the named clauses oblige is at odds: a thing is due and forbidden at once, "
             "or an EXCLUSIVE or NEVER comes true. A robot in this situation must break a rule, and nobody has decided "
-            "which. The clauses are a minimal set: without any one of them there is no conflict.",
+            "which. The clauses are a minimal set: without any one of them there is no conflict. A response that "
+            "triggers another rule counts, and the finding names it. If more than one moment matters, a timeline shows "
+            "how the situation comes about.",
             "Decide which gives way and say so with a hedge (UNLESS), or state with ASSUME that the situation cannot "
             "be.",
             "RULE privacy\nWHEN CurtainOpenRequest THEN OpenCurtains\nUNLESS UserUndressed IN WHICH CASE "
