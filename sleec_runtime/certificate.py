@@ -100,11 +100,12 @@ def uncovered(manifest: Manifest, ruleset: Ruleset, use: Use) -> Iterator[Uncove
     if manifest.chains != use.chains and _chains_matter(ruleset, use.domain, use.chains):
         yield Uncovered(
             "chains",
-            "the certificate counts that what is done triggers rules, and this use does not"
+            "the certificate counts chains (responses that trigger other rules), and this use does not"
             if manifest.chains
-            else "the certificate does not count that what is done triggers rules, and this use does",
-            f"load the rules with chains={manifest.chains}, or certify them {'with' if manifest.chains else 'without'}"
-            " --no-chains",
+            else "the certificate does not count chains (responses that trigger other rules), and this use does",
+            "load the rules with chains=True, leave out --no-chains, or certify them with --no-chains"
+            if manifest.chains
+            else "load the rules with chains=False, use --no-chains, or certify them without --no-chains",
         )
 
 
