@@ -146,8 +146,8 @@ class ConflictSearch:
                 if not any(fact[0] == "input" and fact[1] in foreign for fact in without.core()):
                     return self._stuck(without, fewer_rules, fewer)
             core = weakest(continuations, core, s)
-            for event in foreign:
-                s.exclude({*core, ("input", event, True)})
+            for event in sorted(foreign):
+                s.exclude(dict.fromkeys([*core, ("input", event, True)]))
             return None
         if not any(self._decides(label, given) for label in rules):
             return self._doomed(weakest(continuations, core, s), rules)

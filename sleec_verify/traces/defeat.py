@@ -79,7 +79,7 @@ class Defeat:
         """The least set of events with the inputs, `acts`, and what the selected rules require at once."""
         index = self._s.index
         found = dict(self._s.inputs)
-        found.update(dict.fromkeys(acts, self._true))
+        found.update(dict.fromkeys(sorted(acts), self._true))
         required = [
             (rule.trigger, what.event, self._s.instant.both(self._s.selected[rule.label], guard))
             for rule in index.ruleset.rules

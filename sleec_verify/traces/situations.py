@@ -196,7 +196,7 @@ class Situations:
             return {self.slots[int(str(fact[1]))].node}
         return {self.lasting[str(fact[1])][2]} if fact[0] == "lasts" else set()
 
-    def exclude(self, facts: Iterator[Fact] | list[Fact] | set[Fact]) -> None:
+    def exclude(self, facts: Iterable[Fact]) -> None:
         """No further situation has all these facts."""
         self.add([-self.literal(fact) for fact in facts])
 
