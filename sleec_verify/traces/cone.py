@@ -1,8 +1,8 @@
 """The cone of influence of a question about traces: the rules and relations that can matter to it.
 
 An event that the question does not lead to need not occur, so that its rules demand nothing. Relations matter if they
-share an event, condition or measure with the question, directly or through other relations, or if they can require an
-event that nothing leads to.
+share an event, condition or measure with the question, directly or through other relations, if they can require an
+event that nothing leads to, or if they do not hold where all that a trace does not mention is false.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from sleec_runtime.model import Formula, Rule, formulas_of
 from sleec_verify.scope import responses_of
 from sleec_verify.traces.index import Index
-from sleec_verify.traces.relations import Name, Relation, may_require, names_in, names_of_relation
+from sleec_verify.traces.relations import Name, Relation, holds_of_nothing, may_require, names_in, names_of_relation
 
 
 def cone(index: Index, events: Iterable[str], formulas: Iterable[Formula]) -> Index:
@@ -29,7 +29,7 @@ def cone(index: Index, events: Iterable[str], formulas: Iterable[Formula]) -> In
             ahead.extend(names_of_relation(relation))
 
     for key, relation in index.relation_by_key.items():
-        if may_require(relation):
+        if may_require(relation) or not holds_of_nothing(relation):
             include(key, relation)
     seen: set[Name] = set()
     while ahead:

@@ -10,9 +10,22 @@ from collections.abc import Iterator
 from itertools import combinations
 from typing import Union
 
-from sleec_runtime.model import And, Assume, Atom, Exclusive, Formula, Never, Not, Or, Truth, leaves, measures_of
+from sleec_runtime.model import (
+    And,
+    Assume,
+    Atom,
+    Exclusive,
+    Formula,
+    Never,
+    Not,
+    Or,
+    Truth,
+    leaves,
+    measures_of,
+)
 from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
 from sleec_runtime.model_time import Relation as TimedRelation
+from sleec_verify.one_instant import at_every_instant
 from sleec_verify.traces.instant import Instant
 
 Relation = Union[TimedRelation, Exclusive, Never, Assume]
@@ -79,23 +92,32 @@ def may_require(relation: Relation) -> bool:
         return relation.relation == "causation"
     if not isinstance(relation, (Assume, Never)):
         return False
-    # Three-valued: with all events false, and conditions and measures unknown.
-    value = _value(relation.formula)
-    return value is not isinstance(relation, Assume) and any(events_of(relation))
+    return _value(relation.formula, None) is not isinstance(relation, Assume) and any(events_of(relation))
 
 
-def _value(formula: Formula) -> bool | None:
-    """The value of a formula where no event occurs, in Kleene's logic; None for unknown."""
+def holds_of_nothing(relation: Relation) -> bool:
+    """Whether a relation holds at an instant without events, at which all conditions are false and no measure has a
+    value."""
+    if isinstance(relation, MeasureRelation):
+        return _value(at_every_instant(relation), False) is True
+    if isinstance(relation, (Assume, Never)):
+        return _value(relation.formula, False) is isinstance(relation, Assume)
+    return True
+
+
+def _value(formula: Formula, state: bool | None) -> bool | None:
+    """The value of a formula in Kleene's logic where no event occurs and conditions and comparisons have the value
+    `state`; None is unknown."""
     if isinstance(formula, Truth):
         return formula.value
     if isinstance(formula, Not):
-        value = _value(formula.operand)
+        value = _value(formula.operand, state)
         return None if value is None else not value
     if isinstance(formula, (And, Or)):
-        values = [_value(operand) for operand in formula.operands]
+        values = [_value(operand, state) for operand in formula.operands]
         absorbing = isinstance(formula, Or)
         return absorbing if absorbing in values else None if None in values else not absorbing
-    return False if isinstance(formula, Atom) and formula.kind != "condition" else None
+    return False if isinstance(formula, Atom) and formula.kind != "condition" else state
 
 
 def exclusions(relation: Relation) -> Iterator[tuple[str, str]]:
