@@ -57,7 +57,7 @@ def test_random_rulesets_are_answered_as_z3_answers_them():
         output, errors = run.communicate()
         assert (run.returncode, errors) == (0, "")
         answered += int(output)
-    assert answered > 2_050, "few questions are given up"
+    assert answered > 1_470, "few questions are given up"
 
 
 @pytest.mark.long
