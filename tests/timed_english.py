@@ -13,6 +13,11 @@ def timed_english(seed: int) -> str:
     return _Writer(Random(seed)).text()
 
 
+def untimed_english(seed: int) -> str:
+    """The text of a ruleset without time, relations, claims and chains."""
+    return _Untimed(Random(seed)).text()
+
+
 class _Writer:
     def __init__(self, random: Random) -> None:
         self.random = random
@@ -83,5 +88,28 @@ class _Writer:
                 f"RELATION WHEN {a} THEN {p} FOR {self.random.randint(0, 3)} seconds\n",
                 f"RELATION {a} PRECEDES {b}\n",
                 f"RELATION {a} CAUSES {p}\n",
+            )
+        )
+
+
+class _Untimed(_Writer):
+    def text(self) -> str:
+        reading = "READING priority\n" if self.random.random() < 0.4 else ""
+        rules = [self.rule(number) for number in range(self.random.randint(1, 4))]
+        laws = [self.law() for _ in range(max(0, self.random.randint(-2, 2)))]
+        return f"{reading}{DEFINITIONS}EVENT X, Y, Z\n{''.join(rules)}{''.join(laws)}"
+
+    def act(self) -> str:
+        return self.random.choice("XYZ")
+
+    def obligation(self, depth: int = 1) -> str:
+        return ("NOT " if self.random.random() < 0.3 else "") + self.act()
+
+    def law(self) -> str:
+        return self.random.choice(
+            (
+                f"ASSUME {self.condition()}\n",
+                f"EXCLUSIVE {', '.join(self.random.sample('XYZ', 2))}\n",
+                f"NEVER {self.act()} AND {self.condition(0)}\n",
             )
         )

@@ -96,15 +96,15 @@ def checks_for(ruleset: Ruleset) -> list[str]:
     left_out = {REALIZABILITY.name}
     if ruleset.source.text.isascii():
         left_out.add(CONFUSABLE.name)
-    if ruleset.syntax != "dsl":
+    if ruleset.syntax == "dsl":
+        # Nobody expects a response to be another thing than the event of that name there.
+        left_out.add(TRIGGER_OBLIGATION.name)
+    else:
         # Structured English has no defects: it refuses them.
         left_out.add(DEFECTS.name)
     if ruleset.dialect != "sleec-tk":
         left_out.add(BARE_PROHIBITION.name)
-    if speaks_of_traces(ruleset):
-        # Nobody expects a response to be another thing than the event of that name there.
-        left_out.add(TRIGGER_OBLIGATION.name)
-    else:
+    if not speaks_of_traces(ruleset):
         left_out |= {CONCERN.name, PURPOSE.name}
     if not ruleset.is_timed:
         left_out |= {STRAY_EVENT.name, ZERO_WINDOW.name}

@@ -210,7 +210,8 @@ def _conflict(
     timeline: Timeline | None = None,
 ) -> Finding:
     spans = [*((one.span, one.name) for one in clauses), *origins]
-    notes = [f"{one.name}: {listed(map(str, one.obligations))}" for one in clauses if one.number >= 0]
+    obliging = [one for one in clauses if one.number >= 0 and one.obligations]
+    notes = [f"{one.name}: {listed(map(str, one.obligations))}" for one in obliging]
     rules = list(dict.fromkeys(one.rule.label for one in clauses))
     return CONFLICT.finding(
         f"{_subject([one.name for one in clauses])}{path}: {reason}",

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Clause, Rule, in_text_order
-from sleec_runtime.model_time import RELATIONS
+from sleec_runtime.model_time import RELATIONS, MeasureRelation
 from sleec_verify.checks.base import Check, FindingKind, clause_name
 from sleec_verify.checks.each import each, each_shape, in_both_parts
 from sleec_verify.cone import Cones
 from sleec_verify.finding import ClauseRef, Finding
+from sleec_verify.parts import without
 from sleec_verify.question import Question
 
 if TYPE_CHECKING:
@@ -37,19 +38,30 @@ def _dead_rules(cones: Cones) -> Iterator[Finding]:
 
 def _dead_hedges(cones: Cones) -> Iterator[Finding]:
     """A finding for each hedge that decides nowhere."""
-    if any(isinstance(statement, RELATIONS) for statement in cones.ruleset.statements):
-        yield from in_both_parts(cones, _hedges_in_situations, _hedges_in_traces)
-    else:
+    relations = [law for law in cones.ruleset.statements if isinstance(law, RELATIONS)]
+    if not relations:
         yield from _hedges_in_situations(cones)
+        return
+    between_events = [law for law in relations if not isinstance(law, MeasureRelation)]
+    dead: set[tuple[ClauseRef, ...]] = set()
+
+    def in_situations(_: Cones) -> Iterator[Finding]:
+        for finding in _hedges_in_situations(without(cones, (), between_events)):
+            dead.add(finding.clauses)
+            yield finding
+
+    # What relations between events add is asked only of the hedges that decide without them.
+    yield from in_both_parts(cones, in_situations, lambda index: _hedges_in_traces(index, dead))
 
 
-def _hedges_in_traces(index: Index) -> Iterator[Finding]:
-    """A finding for each hedge that decides at no instant that the relations allow, whether or not rules are kept."""
+def _hedges_in_traces(index: Index, dead: Collection[tuple[ClauseRef, ...]]) -> Iterator[Finding]:
+    """A finding for each hedge, but for those that are dead already, that decides at no instant that the relations
+    allow, whether or not rules are kept."""
     from sleec_verify.traces.questions import deciding
 
     def of(place: tuple[Rule, int]) -> Iterator[Finding]:
         rule, number = place
-        if deciding(index, rule, number).trace is None:
+        if (ClauseRef(rule.label, number),) not in dead and deciding(index, rule, number).trace is None:
             yield DEAD_HEDGE.finding(
                 f"{clause_name(rule, number)} decides in no situation",
                 list(rule.clauses())[number].span,

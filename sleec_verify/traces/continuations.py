@@ -51,6 +51,8 @@ class Continuations:
         instant = model.instants[self.now]
         for formula in state_formulas(situations.index):
             instant.literal(formula)
+        # Ordering measures adds variables, which facts name.
+        instant.settle()
         for event in sorted(situations.index.mere_inputs - situations.inputs.keys()):
             model.add([-instant.event(event)])
         active = {number: model.formula.fresh() for number in slots}

@@ -10,10 +10,11 @@ from dataclasses import replace
 from sleec_runtime.evaluation import decide
 from sleec_runtime.model import Context, Rule, Ruleset
 from sleec_runtime.model_time import claims
-from sleec_runtime.trace import Instant, Trace, broken, broken_so_far, claim_holds
+from sleec_runtime.trace import Instant, Lawlike, Trace, broken, broken_so_far, claim_holds
 from sleec_verify.cone import Cones
 from sleec_verify.finding import Finding
 from sleec_verify.timeline import Timeline
+from sleec_verify.traces.relations import events_of, names_of_relation
 
 
 def replays(cones: Cones, finding: Finding) -> bool:
@@ -33,12 +34,20 @@ def replays(cones: Cones, finding: Finding) -> bool:
         if speaking and not _decides(cones, rule, number, speaking):
             return False
     before = Trace((*history, replace(now, events=frozenset())))
-    if broken_so_far(_about(cones, before), before, cones.untimed):
+    violated = broken_so_far(_about(cones, before), before, cones.untimed)
+    if any(one.time != now.time or _is_violated_by(now, one.statement) for one in violated):
         return False
     rules = [cones.ruleset.by_label[label] for label in finding.rules]
     inputs = replace(_about(cones, before), statements=tuple(rules))
     found = broken_so_far(inputs, Trace((*history, now)), cones.untimed)
     return all(one.time == now.time for one in found)
+
+
+def _is_violated_by(now: Instant, relation: Lawlike) -> bool:
+    """Whether a relation that seems to be violated now is. Which events occur now is open, and so are conditions and
+    measures that do not matter."""
+    assert not isinstance(relation, Rule), "no event triggers a rule"
+    return not any(events_of(relation)) and any(name in now.conditions for _, name in names_of_relation(relation))
 
 
 def _comes_about(cones: Cones, finding: Finding) -> bool:
@@ -57,11 +66,16 @@ def _decides(cones: Cones, rule: Rule, number: int, instants: Iterable[Instant])
 
 
 def _about(cones: Cones, trace: Trace) -> Ruleset:
-    """The ruleset with only the rules that some event of the trace triggers, as the others hold anyway."""
+    """The ruleset with only the rules and relations that what a trace shows can violate.
+
+    The others hold anyway, or by conditions and measures that do not matter and are not shown."""
     events = {event for instant in trace.instants for event in instant.events}
+    shown = {("event", event) for event in events}
+    shown |= {("measure", name) for instant in trace.instants for name in instant.conditions}
+    relations = [one for one in cones.index.relations if not shown.isdisjoint(names_of_relation(one))]
     rules = (rule for event in sorted(events) for rule in cones.index.by_trigger.get(event, ()))
     measures = tuple(cones.ruleset.measures.values())
-    return replace(cones.ruleset, statements=(*cones.index.relations, *rules), inferred=measures)
+    return replace(cones.ruleset, statements=(*relations, *rules), inferred=measures)
 
 
 def as_trace(timeline: Timeline) -> Trace:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
-from sleec_runtime.model import Value, names_of
+from sleec_runtime import model
+from sleec_runtime.evaluation import holds
+from sleec_runtime.model import Assume, Context, Value, names_of
+from sleec_runtime.model_time import MeasureRelation
 from sleec_verify.cnf import Key
+from sleec_verify.one_instant import at_every_instant
 from sleec_verify.solver import MiniSat
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import as_far_as_decided
 from sleec_verify.traces.instant import Formula, Instant
-from sleec_verify.traces.relations import formulas_of_relation
+from sleec_verify.traces.relations import events_of
 from sleec_verify.traces.situations import Fact, Situations
 
 
@@ -85,12 +89,31 @@ def names_of_key(instant: Instant, key: Key) -> frozenset[str]:
 
 
 def _closed(situations: Situations, names: set[str], values: Mapping[str, Value]) -> set[str]:
-    """These names, with those that relations tie to them and that are not false."""
-    formulas = [set(names_of(f)) for relation in situations.index.relations for f in formulas_of_relation(relation)]
+    """These names, with those that relations tie to them: all that is not given may as well be false."""
     found = set(names)
+    formulas = list(_required(situations))
+    measures = situations.index.ruleset.measures
     grew = True
     while grew:
-        tied = {n for named in formulas if named & found for n in named if values.get(n, False) is not False}
+        context = Context(frozenset(), {name: value for name, value in values.items() if name in found})
+        tied = {
+            name
+            for formula in formulas
+            if not found.isdisjoint(names_of(formula)) and not holds(formula, context, measures)
+            for name in names_of(formula)
+        }
         grew = not tied <= found
         found |= tied
     return found
+
+
+def _required(situations: Situations) -> Iterator[model.Formula]:
+    """The formulas that relations require of the conditions and measures of now, whatever occurs."""
+    for relation in situations.index.relations:
+        if isinstance(relation, MeasureRelation):
+            yield at_every_instant(relation)
+        elif isinstance(relation, Assume) and not any(events_of(relation)):
+            yield relation.formula
+    for law, active, _ in situations.lasting.values():
+        if situations.holds(active):
+            yield law.formula
