@@ -8,11 +8,14 @@ evaluator of traces first, and z3 is asked again with more.
 from __future__ import annotations
 
 import sys
+from itertools import combinations
 from typing import Any
 
 from sleec_runtime.language import parse
 from sleec_runtime.model_time import claims
 from sleec_runtime.trace import broken, claim_holds
+from sleec_verify.checks import run_checks
+from sleec_verify.finding import Unknown
 from sleec_verify.solver import Undecided
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.questions import breaking, coming_about, triggering
@@ -69,6 +72,30 @@ def compare(ruleset, untimed):
                     assert claim_holds(claim, ruleset, as_trace(answer.trace), untimed)
                 assert_same(answer.trace is not None, lambda n: oracle.concern(ruleset, claim, n, untimed))  # noqa: B023
     return count
+
+
+def conflicts(ruleset):
+    """The smallest sets of rules in conflict, by z3."""
+    found: set[frozenset[str]] = set()
+    labels = [rule.label for rule in ruleset.rules]
+    for chosen in (frozenset(some) for n in range(1, len(labels) + 1) for some in combinations(labels, n)):
+        if not any(other < chosen for other in found) and oracle.conflict(ruleset, sorted(chosen)).found:
+            found.add(chosen)
+    return found
+
+
+def compare_conflicts(first: int, last: int) -> int:
+    """How many conflicts were found; AssertionError names the ruleset about which the two methods differ."""
+    total = 0
+    for seed in range(first, last):
+        ruleset = timed_ruleset(seed, **SIZES[0])
+        (result,) = run_checks(ruleset, ["conflict"])
+        found = {frozenset(finding.rules) for finding in result.findings}
+        smallest = {rules for rules in found if not any(other < rules for other in found)}
+        if not isinstance(result.verdict, Unknown):
+            assert smallest == conflicts(ruleset), f"seed {seed}\n{ruleset.source.text}"
+            total += len(smallest)
+    return total
 
 
 def assert_same(ours, theirs):

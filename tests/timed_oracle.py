@@ -3,15 +3,14 @@ for each. It borrows the values of the product and nothing else. Bounded, slow, 
 
 A trace that it finds is one, whatever the bound. That it finds none means: none of so few instants.
 
-`redundant`, `vacuous`, `concern` and `purpose` look for one trace. `conflict` asks for a history that no trace
-continues: one solver proposes histories, another looks for a continuation, and what it finds is kept in the first as a
-continuation that the next history must not have (counterexample-guided refinement of ∃∀).
+`redundant`, `vacuous`, `concern` and `purpose` look for one trace. `conflict` asks for a situation in which no response
+complies with some rules: one solver proposes situations, another looks for a response, and what it finds is kept in the
+first as a response that the next situation must not have (counterexample-guided refinement of ∃∀).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -24,6 +23,7 @@ from sleec_runtime.model import (
     Calculated,
     Clause,
     Comparison,
+    Declaration,
     Exclusive,
     Formula,
     MeasureRef,
@@ -37,6 +37,7 @@ from sleec_runtime.model import (
     ScaleValue,
     Term,
     Truth,
+    literals,
 )
 from sleec_runtime.model_time import (
     RELATIONS,
@@ -80,12 +81,10 @@ class Answer(NamedTuple):
 
     one that breaks the rule and nothing else (not redundant), one in which it is triggered (not vacuous), one with the
     concern (found), one with the purpose (not found), the history (conflict found; its last moment is now).
-    `continued` is what the history of a conflict could be continued to but for the rule.
     """
 
     found: bool
     moments: tuple[Moment, ...] | None = None
-    continued: tuple[Moment, ...] | None = None
 
 
 class Undecided(Exception):
@@ -423,7 +422,7 @@ def concern(ruleset: Ruleset, claim: Claim, n: int = 4, untimed: str = "at", hor
 
 def purpose(ruleset: Ruleset, claim: Claim, n: int = 4, untimed: str = "at", horizon: int | None = None) -> Answer:
     """Whether no trace of all rules brings this purpose about."""
-    found, trace, _ = concern(ruleset, claim, n, untimed, horizon)
+    found, trace = concern(ruleset, claim, n, untimed, horizon)
     return Answer(not found, trace)
 
 
@@ -431,58 +430,54 @@ def purpose(ruleset: Ruleset, claim: Claim, n: int = 4, untimed: str = "at", hor
 
 
 def conflict(
-    ruleset: Ruleset,
-    label: str,
-    past: int = 2,
-    later: int = 2,
-    longest: int = 4,
-    untimed: str = "at",
-    until: int | None = None,
-    after: int | None = None,
-    rounds: int = 500,
+    ruleset: Ruleset, labels: Iterable[str], past: int = 2, later: int = 3, longest: int = 4, rounds: int = 300
 ) -> Answer:
-    """Whether a history in which no rule is broken so far, and this one is triggered now, has no continuation to a
-    trace of all rules, but has one if this rule is let off now.
+    """Whether these rules are in conflict: in some situation no response complies with them, and one complies with each
+    set that lacks one of them (docs/times.md).
 
-    The history has `past` instants at most before now, the continuation without the rule `later` ones after it, and
-    those that are to be ruled out `longest`. Now is `until` at the latest, and the last instant of a continuation is so
-    many seconds after it; by default that leaves room for all that can matter, by the lengths in the rules.
+    The history has `past` instants at most before now. A response that is looked for has `later` instants at most after
+    now, and one that must not exist has `longest`.
     """
     apart = 1 + _reach(ruleset)
-    search = _Search(
-        ruleset,
-        ruleset.by_label[label],
-        untimed,
-        past * apart if until is None else until,
-        max(later, longest) * apart if after is None else after,
-    )
+    rules = [ruleset.by_label[label] for label in labels]
+    search = _Search(ruleset, rules, past * apart, max(later, longest) * apart)
     history = [Instant(ruleset, f"past{k}") for k in range(past)] + [Instant(ruleset, "now")]
     return search.run(history, later, longest, rounds)
 
 
+class Quiet(Instant):
+    """An instant as another one, but that no event has occurred at yet."""
+
+    def __init__(self, base: Instant) -> None:
+        super().__init__(base.ruleset, base.name)
+        self.time, self.used = base.time, base.used
+
+    def event(self, name: str) -> Any:
+        return FALSE
+
+
 class _Search:
-    def __init__(self, ruleset: Ruleset, rule: Rule, untimed: str, until: int, after: int) -> None:
-        self.ruleset, self.rule, self.untimed, self.until, self.after = ruleset, rule, untimed, until, after
+    def __init__(self, ruleset: Ruleset, rules: Sequence[Rule], until: int, after: int) -> None:
+        self.ruleset, self.rules, self.until, self.after = ruleset, rules, until, after
+        self.triggers = {rule.trigger for rule in ruleset.rules}
+        declared = {name for s in ruleset.statements if isinstance(s, Declaration) for name in s.names}
+        self.acts = {o.name for rule in ruleset.rules for clause in rule.clauses() for o in literals(clause)}
+        self.events = self.triggers | self.acts | declared
 
     def run(self, history: list[Instant], later: int, longest: int, rounds: int) -> Answer:
         now = history[-1]
-        free = self.continuation(history, "free", later)
         proposals = z3.Solver()
         proposals.set("timeout", 60_000)
-        proposals.add(
-            ordered(history, first_used=False),
-            now.used,
-            now.time <= self.until,
-            self.inside(history),
-            Meaning(self.ruleset, history, self.untimed).triggered(self.rule, now),
-            self.not_broken_so_far(history),
-            self.follows(free),
-            Meaning(self.ruleset, free, self.untimed).all_rules(
-                lambda law, index: law is self.rule and free[index].name == "free.now"
-            ),
-        )
+        proposals.add(ordered(history, first_used=False), now.used, now.time <= self.until, self.inside(history))
+        speaking = Meaning(self.ruleset, history, "at")
+        proposals.add(z3.Or([speaking.triggered(rule, now) for rule in self.rules]))
+        own = {rule.trigger for rule in self.rules}
+        proposals.add([z3.Not(now.event(name)) for name in self.events - own])
+        proposals.add(self.lawful(history))
+        for number, rule in enumerate(self.rules):
+            proposals.add(self.response(history, f"without{number}", later, [r for r in self.rules if r is not rule]))
         full = self.continuation(history, "full", longest)
-        follows = [self.follows(full), Meaning(self.ruleset, full, self.untimed).all_rules()]
+        follows = self.response(history, "full", longest, self.rules)
         for _ in range(rounds):
             result = proposals.check()
             if result == z3.unknown:
@@ -490,11 +485,39 @@ class _Search:
             if result == z3.unsat:
                 return Answer(False)
             proposed = proposals.model()
-            found = solve([*follows, self.as_in(history, proposed)])
+            found = solve([follows, self.as_in(history, proposed)])
             if found is None:
-                return Answer(True, moments(history, proposed), moments(free, proposed))
+                return Answer(True, moments(history, proposed))
             proposals.add(z3.Not(self.fits(history, full, found)))
         raise Undecided(f"{rounds} histories, and each has a continuation of its own")
+
+    def counting(self, rules: Sequence[Rule]) -> Callable[[Any, int], bool]:
+        """What does not count where only these rules do."""
+        return lambda law, index: isinstance(law, Rule) and all(law is not rule for rule in rules)
+
+    def response(self, history: list[Instant], name: str, later: int, rules: Sequence[Rule]) -> Any:
+        """That a response complies with these rules and with all relations."""
+        instants = self.continuation(history, name, later)
+        complies = Meaning(self.ruleset, instants, "at").all_rules(self.counting(rules))
+        return z3.And(self.follows(instants), complies, self.only_acts(history[-1], instants[len(history) - 1]))
+
+    def only_acts(self, now: Instant, extended: Instant) -> Any:
+        """That a response adds no event now that only triggers rules."""
+        return z3.And([extended.event(name) == now.event(name) for name in self.triggers - self.acts])
+
+    def lawful(self, history: list[Instant]) -> Any:
+        """Each statement at each instant has an extension of the history, of its own, that satisfies it there. The
+        inputs of now count only for the rules asked about."""
+        *past, now = history
+        parts = []
+        for place, law in enumerate(laws(self.ruleset)):
+            given = now if any(law is rule for rule in self.rules) else Quiet(now)
+            for index in range(len(past)):
+                own = self.continuation([*past, given], f"law{place}.at{index}", _occurrences(law))
+                coming = own[len(history) :]
+                parts.append(ordered([own[len(past)], *coming], first_used=True) if coming else TRUE)
+                parts.append(Meaning(self.ruleset, own, "at").law(law, index))
+        return z3.And(*parts, self.response(history, "relations", 2, []))
 
     def continuation(self, history: list[Instant], name: str, later: int) -> list[Instant]:
         """The past as it is, now with more events, and instants to come."""
@@ -515,23 +538,6 @@ class _Search:
         for name, measure in self.ruleset.measures.items():
             if measure.kind != "scale":
                 parts += [z3.And(i.measure(name) >= -10, i.measure(name) <= 10) for i in instants]
-        return z3.And(parts)
-
-    def not_broken_so_far(self, history: list[Instant]) -> Any:
-        """Each statement at each instant has an extension of the history, of its own, that satisfies it there; of the
-        rule that is asked about, each response of now."""
-        parts = []
-        stated = [
-            (part, index)
-            for law in laws(self.ruleset)
-            for index in range(len(history))
-            for part in (responses_apart(law) if law is self.rule and index == len(history) - 1 else (law,))
-        ]
-        for place, (law, index) in enumerate(stated):
-            own = self.continuation(history, f"law{place}.at{index}", _occurrences(law))
-            coming = own[len(history) :]
-            parts.append(ordered([own[len(history) - 1], *coming], first_used=True) if coming else TRUE)
-            parts.append(Meaning(self.ruleset, own, self.untimed).law(law, index))
         return z3.And(parts)
 
     def as_in(self, history: list[Instant], model: Any) -> Any:
@@ -560,7 +566,7 @@ class _Search:
             if z3.is_true(model.eval(i.used, model_completion=True))
         ]
         instants = [*history[:-1], More(now, extended, model), *coming]
-        return Meaning(self.ruleset, instants, self.untimed).all_rules()
+        return Meaning(self.ruleset, instants, "at").all_rules(self.counting(self.rules))
 
 
 def _reach(ruleset: Ruleset) -> int:
@@ -584,20 +590,6 @@ def _reach(ruleset: Ruleset) -> int:
         elif isinstance(law, Lasting) and law.duration is not None:
             found.append(of_length(law.duration))
     return max(found)
-
-
-def responses_apart(rule: Rule) -> list[Rule]:
-    """The rule once for each response that one of its clauses has, without the others."""
-
-    def only(clause: Clause, number: int) -> Clause:
-        own = clause.obligations[number : number + 1]
-        return replace(clause, obligations=own, hedges=tuple(only(hedge, number) for hedge in clause.hedges))
-
-    most = max(len(clause.obligations) for clause in rule.clauses())
-    return [
-        replace(rule, default=only(rule.default, n), hedges=tuple(only(hedge, n) for hedge in rule.hedges))
-        for n in range(most)
-    ]
 
 
 def _occurrences(law: Any) -> int:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.timed_agreement import compare_all, compare_calculations, compare_english, compare_named
+from tests.timed_agreement import compare_all, compare_calculations, compare_conflicts, compare_english, compare_named
 
 ROOT = Path(__file__).parents[2]
 
@@ -33,6 +33,19 @@ def test_rulesets_that_calculate_are_answered_as_z3_answers_them():
 def test_rulesets_whose_conditions_name_events_are_answered_as_z3_answers_them():
     """All questions but `conflict`, which is not decided about these."""
     assert compare_named(0, 60) > 250
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(300)
+def test_conflicts_of_random_rulesets_are_those_that_z3_finds():
+    assert compare_conflicts(0, 80) > 5
+
+
+@pytest.mark.long
+@pytest.mark.timeout(3600)
+@pytest.mark.parametrize("first", range(80, 1_080, 100))
+def test_conflicts_of_many_random_rulesets_are_those_that_z3_finds(first):
+    compare_conflicts(first, first + 100)
 
 
 @pytest.mark.slow

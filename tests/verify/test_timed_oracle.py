@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from functools import cache
 from itertools import combinations, product
-from typing import Any
 
 import pytest
 
@@ -15,6 +14,7 @@ from sleec_runtime.model import Context
 from sleec_runtime.model_time import claims
 from sleec_runtime.trace import Instant, Trace, Untimed, broken, broken_so_far, claim_holds
 from tests import timed_oracle as oracle
+from tests.timed_agreement import conflicts
 from tests.timed_strategies import timed_ruleset
 
 UNTIMED: tuple[Untimed, ...] = ("at", "eventually")
@@ -48,12 +48,6 @@ def test_every_model_is_replayed(seed):
             assert not answer.found
             assert not broken(ruleset, trace(answer.moments), untimed)
             assert any(rule.trigger in moment.events for moment in answer.moments)
-        answer = oracle.conflict(ruleset, rule.label, untimed=untimed)
-        assert answer.found == (answer.moments is not None)
-        if answer.moments is not None:
-            now = answer.moments[-1].time
-            assert not broken_so_far(ruleset, trace(answer.moments), untimed)
-            assert broken(ruleset, trace(answer.continued), untimed) == ((rule, now),)
     for claim in (*claims(ruleset, "concern"), *claims(ruleset, "purpose")):
         answer = oracle.concern(ruleset, claim, untimed=untimed)
         assert answer.found == (answer.moments is not None)
@@ -65,8 +59,8 @@ def test_every_model_is_replayed(seed):
 
 # All traces -----------------------------------------------------------------------------------------------
 
-UNTIL = AFTER = 2
-HORIZON = UNTIL + AFTER
+
+HORIZON = 4
 INSTANTS = 3
 VALUES = [(frozenset(events), {"m": m}) for events in (set(), {"A"}, {"B"}, {"A", "B"}) for m in (False, True)]
 
@@ -93,38 +87,6 @@ def triggered(rule, instant):
     return rule.trigger in instant.events and guarded
 
 
-def as_key(instants):
-    return tuple((i.time, i.events, i.conditions["m"]) for i in instants)
-
-
-def histories(whole, now):
-    """What may have been so far, where all of `whole` is what it is continued to: fewer events now."""
-    *past, last = whole.instants[: now + 1]
-    for size in range(len(last.events) + 1):
-        for events in combinations(sorted(last.events), size):
-            yield (*past, Instant(last.time, frozenset(events), last.conditions))
-
-
-def conflict_by_brute_force(ruleset, rule, broken_by, untimed):
-    """With one instant before now, and one after it; now is not after second `UNTIL`, the end not `AFTER` that."""
-    continued: set[Any] = set()
-    but_for_the_rule = {}
-    for whole, found in broken_by:
-        for now in range(max(0, len(whole.instants) - 2), min(2, len(whole.instants))):
-            time = whole.instants[now].time
-            if time > UNTIL or whole.instants[-1].time > time + AFTER:
-                continue
-            if not found:
-                continued.update(map(as_key, histories(whole, now)))
-            elif found == ((rule, time),):
-                but_for_the_rule.update({as_key(history): history for history in histories(whole, now)})
-    return any(
-        triggered(rule, history[-1]) and not broken_so_far(ruleset, Trace(history), untimed)
-        for key, history in but_for_the_rule.items()
-        if key not in continued
-    )
-
-
 @seeds(12, 300)
 def test_the_answers_are_those_of_all_traces(seed):
     ruleset = tiny_ruleset(seed)
@@ -137,8 +99,6 @@ def test_the_answers_are_those_of_all_traces(seed):
         possible = any(triggered(rule, Instant(0, frozenset({rule.trigger}), {"m": m})) for m in (False, True))
         at_work = any(triggered(rule, instant) for whole in kept for instant in whole.instants)
         assert oracle.vacuous(ruleset, rule.label, INSTANTS, untimed, HORIZON).found == (possible and not at_work)
-        found = oracle.conflict(ruleset, rule.label, 1, 1, 1, untimed, UNTIL, AFTER).found
-        assert found == conflict_by_brute_force(ruleset, rule, broken_by, untimed)
     for claim in (*claims(ruleset, "concern"), *claims(ruleset, "purpose")):
         comes_about = any(claim_holds(claim, ruleset, whole, untimed) for whole in kept)
         assert oracle.concern(ruleset, claim, INSTANTS, untimed, HORIZON).found == comes_about
@@ -159,27 +119,32 @@ def rules(*texts, relations=""):
 @pytest.mark.parametrize(
     ("ruleset", "expected"),
     [
-        # Both bite now; each alone could be kept.
-        (rules("A then B", "A then not B"), [True, True]),
-        (rules("A and {m} then B", "A and (not {m}) then not B"), [False, False]),
-        # The prohibition of the past has the obligation of now fail, not the other way round.
-        (rules("A then B within 1 seconds", "C then not B within 3 seconds"), [True, True]),
-        # By a chain: D is due one second after B, and forbidden then.
-        (rules("A then B", "B then D within [1, 1] seconds", "A then not D within 2 seconds"), [True, True, True]),
-        # There is a way out.
-        (rules("A then B otherwise C", "A then not B"), [False, False]),
-        # Through relations.
-        (rules("A then B", relations="mutualExclusive A B"), [True]),
-        (rules("A then B", relations="forbid B {m}"), [True]),
-        (rules("A then B", relations="happenBefore C B"), [True]),
-        (rules("A then B within 1 seconds", relations="happenBefore C B"), [False]),
-        # What no history can avoid is no conflict of a rule; nor what is broken already.
-        (rules("A then not A"), [False]),
-        (rules("A then B", relations="measure invariant false"), [False]),
+        (rules("A then B", "A then not B"), [("R1", "R2")]),
+        (rules("A and {m} then B", "A and (not {m}) then not B"), []),
+        # A deadline that a prohibition outlasts.
+        (rules("A then B within 3 seconds", "C then not B within 2 seconds"), [("R1", "R2")]),
+        (rules("A then B within 2 seconds otherwise D within 1 seconds", "C then not B within 3 seconds"), []),
+        # By a chain.
+        (rules("A then B", "B then not C", "A then C"), [("R2", "R3")]),
+        (rules("A then B", "B then not D"), []),
+        # Through relations; no rule requires C.
+        (rules("A then B", relations="mutualExclusive B C"), []),
+        (rules("A then B", "A then B", "D then C", relations="mutualExclusive B C"), [("R1", "R3"), ("R2", "R3")]),
+        (rules("A then B", relations="forbid B {m}"), [("R1",)]),
+        # A rule that forbids an input is no conflict; one that forbids its own trigger is.
+        (rules("A then not B", "B then C"), []),
+        (rules("A then not A"), [("R1",)]),
     ],
 )
 def test_conflicts(ruleset, expected):
-    assert [oracle.conflict(ruleset, rule.label).found for rule in ruleset.rules] == expected
+    assert conflicts(ruleset) == {frozenset(labels) for labels in expected}
+
+
+def test_the_history_of_a_conflict_is_lawful():
+    ruleset = rules("A then B within 3 seconds", "C then not B within 2 seconds")
+    found = oracle.conflict(ruleset, ("R1", "R2"))
+    assert found.moments is not None
+    assert not broken_so_far(ruleset, trace(found.moments))
 
 
 def test_redundant_and_vacuous_rules():
