@@ -123,8 +123,9 @@ def _lemmas(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]
                 pysolvers.glucose41_add_cl(solver, list(clause))
             for literals in questions:
                 try:
-                    # What it learns under assumptions follows from the clauses alone.
-                    pysolvers.glucose41_solve(solver, list(literals), interruptible)
+                    # What it learns under assumptions follows from the clauses alone. Each is assumed once: Glucose
+                    # writes past its arrays where there are more assumptions than variables.
+                    pysolvers.glucose41_solve(solver, list(dict.fromkeys(literals)), interruptible)
                 except pysolvers.error:
                     raise KeyboardInterrupt from None
             pysolvers.flushpr(stream)

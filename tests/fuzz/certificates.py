@@ -174,3 +174,5 @@ def _check_answer(clauses: Clauses, question: Sequence[int], made: Sequence[Step
 def elaboration_seeds() -> Iterator[bytes]:
     yield bytes([1, 2, 0, 1, 18, 0, 17, 2, 0, 17, 18, 0, 255, 1, 0, 255, 1, 0])
     yield bytes([1, 2, 0, 17, 3, 0, 18, 3, 0, 255, 19, 0, 1, 18, 0, 255, 3, 0])
+    # More assumptions than variables.
+    yield bytes([1, 2, 0, 17, 3, 0, 18, 3, 0, 255, 237, 237, 38, 38])
