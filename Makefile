@@ -113,7 +113,7 @@ proofs:
 # After a change of rulesets/: the theorems about them, in Coq.
 theorems: $(INSTALLED)
 	@$(MAKE) --no-print-directory -C proofs oracle-alone
-	$(BIN)/python -m sleec_verify.theory.theorems rulesets/*.sleec -o proofs/rulesets
+	$(BIN)/python -m sleec_verify.certificates.theory.theorems rulesets/*.sleec -o proofs/rulesets
 	@rm -f proofs/Makefile.coq  # it has the list of them
 
 bench: $(INSTALLED)

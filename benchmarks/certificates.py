@@ -23,9 +23,9 @@ from sleec_verify.certificates.checker import checker
 from sleec_verify.certificates.checking import check_certificate
 from sleec_verify.certificates.directory import write_folder
 from sleec_verify.certificates.making import certify
+from sleec_verify.certificates.theory.oracle import built
 from sleec_verify.checks import run_checks
-from sleec_verify.finding import Proved
-from sleec_verify.theory.oracle import built
+from sleec_verify.results.finding import Proved
 
 RULES = 1_000
 TURNS = 3

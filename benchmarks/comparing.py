@@ -10,7 +10,7 @@ from time import process_time
 
 from benchmarks.random_rules import random_rules
 from sleec_runtime.language import parse
-from sleec_verify.compare import compare
+from sleec_verify.changes.compare import compare
 
 COUNT = 10_000
 BOUND = 1.5

@@ -16,13 +16,13 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from sleec_runtime import errors as errors
+    from sleec_runtime.dispatch.implementations import obligation as obligation
+    from sleec_runtime.dispatch.implementations import recording as recording
+    from sleec_runtime.dispatch.monitor import Monitor as Monitor
+    from sleec_runtime.dispatch.runtime import Sleec as Sleec
     from sleec_runtime.errors import SleecError as SleecError
     from sleec_runtime.model import Reading
-    from sleec_runtime.monitor import Monitor as Monitor
-    from sleec_runtime.obligations import obligation as obligation
-    from sleec_runtime.obligations import recording as recording
     from sleec_runtime.predicates import Sensors as Sensors
-    from sleec_runtime.runtime import Sleec as Sleec
     from sleec_runtime.timed.clocks import AsyncioClock as AsyncioClock
     from sleec_runtime.timed.clocks import Clock as Clock
     from sleec_runtime.timed.clocks import MonotonicClock as MonotonicClock
@@ -35,16 +35,16 @@ _HOMES = {
     "AsyncioClock": "timed.clocks",
     "Clock": "timed.clocks",
     "Failure": "timed.failures",
-    "Monitor": "monitor",
+    "Monitor": "dispatch.monitor",
     "MonotonicClock": "timed.clocks",
     "Pending": "timed.pending",
     "PolledClock": "timed.clocks",
     "Sensors": "predicates",
-    "Sleec": "runtime",
+    "Sleec": "dispatch.runtime",
     "SleecError": "errors",
     "VirtualClock": "timed.clocks",
-    "obligation": "obligations",
-    "recording": "obligations",
+    "obligation": "dispatch.implementations",
+    "recording": "dispatch.implementations",
 }
 __all__ = [
     "AsyncioClock",
@@ -94,7 +94,7 @@ def load(
     with `certificate`.
     """
     from sleec_runtime import language
-    from sleec_runtime.runtime import Sleec
+    from sleec_runtime.dispatch.runtime import Sleec
 
     return Sleec(
         language.load(path),

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from sleec_runtime.messages import LONGEST, bounded, escaped, listed, represent
+from sleec_runtime.support.messages import LONGEST, bounded, escaped, listed, represent
 
 if TYPE_CHECKING:
-    from sleec_runtime.conflicts import Conflict
+    from sleec_runtime.evaluation.conflicts import Conflict
     from sleec_runtime.model import Source, Span
 
 
@@ -135,7 +135,7 @@ class UnknownName(SleecError, LookupError):
         self.name = name
 
     def _suggestion(self, name: str, known: Sequence[str]) -> str:
-        from sleec_runtime.language.suggest import nearest
+        from sleec_runtime.language.common.suggestions import nearest
 
         near = nearest(name, known)
         if near is not None:

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Union
 
 from sleec_runtime.errors import SleecError, UnknownCondition, UnknownName, WrongType
-from sleec_runtime.values import NUMBER, exact
+from sleec_runtime.model.values import NUMBER, exact
 
 if TYPE_CHECKING:
+    from sleec_runtime.dispatch.runtime import Sleec
     from sleec_runtime.model import Measure, Rational, Value
-    from sleec_runtime.runtime import Sleec
 
 Membership = Callable[["Rational"], object]
 """How far a value belongs to a fuzzy set: from 0, not at all, to 1, wholly."""

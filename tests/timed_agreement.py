@@ -11,15 +11,15 @@ import sys
 from itertools import combinations
 from typing import Any
 
+from sleec_runtime.evaluation.traces import broken, claim_holds
 from sleec_runtime.language import parse
-from sleec_runtime.model_time import claims
-from sleec_runtime.trace import broken, claim_holds
+from sleec_runtime.model.time import claims
 from sleec_verify.checks import run_checks
-from sleec_verify.finding import Unknown
-from sleec_verify.solver import Undecided
+from sleec_verify.encoding.solver import Undecided
+from sleec_verify.replay.traces import as_trace
+from sleec_verify.results.finding import Unknown
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.questions import breaking, coming_about, triggering
-from sleec_verify.traces.replay import as_trace
 from tests import timed_oracle as oracle
 from tests.timed_english import timed_english
 from tests.timed_strategies import timed_ruleset

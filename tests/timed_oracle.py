@@ -39,7 +39,7 @@ from sleec_runtime.model import (
     Truth,
     literals,
 )
-from sleec_runtime.model_time import (
+from sleec_runtime.model.time import (
     RELATIONS,
     SECONDS,
     Claim,

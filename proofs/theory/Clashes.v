@@ -1,4 +1,4 @@
-(** Which literals cannot all be due ([sleec_verify/clashes.py]).
+(** Which literals cannot all be due ([sleec_verify/query/inconsistent_sets.py]).
 
     A constraint over several literals makes "is there a conflicting context" a
     question of the form ∃∀.  What is due are units; so it is enough to know every

@@ -1,4 +1,4 @@
-(** Rules as clauses ([sleec_verify/cnf.py]): guards and Equation 1, in size linear in
+(** Rules as clauses ([sleec_verify/encoding/cnf.py]): guards and Equation 1, in size linear in
     the rules. *)
 
 From Coq Require Import List Bool PArith Arith Lia.

@@ -1,4 +1,4 @@
-(** Cutting to the cone of influence ([sleec_verify/cone.py]; issue 5, theorem 5,
+(** Cutting to the cone of influence ([sleec_verify/query/cone.py]; issue 5, theorem 5,
     second half): a question about one obligation concerns the rules that mention it,
     and their conditions. *)
 

@@ -1,5 +1,5 @@
 (** Constraints ([EXCLUSIVE], [NEVER], [ASSUME]), and the cases in which they are
-    broken ([sleec_verify/clashes.py]). *)
+    broken ([sleec_verify/query/inconsistent_sets.py]). *)
 
 From Coq Require Import List Bool PArith Arith Lia.
 From Sleec Require Import Model Evaluation Equation Entailment.

@@ -1,4 +1,4 @@
-(** Dispatch as transition systems ([sleec_runtime/snapshot.py], [dispatch.py] and
+(** Dispatch as transition systems ([sleec_runtime/dispatch/snapshot.py], [dispatch.py] and
     [global_activation.py]; issue 5, theorem 7).
 
     Changes of context, triggers and the execution of what they set off come in any

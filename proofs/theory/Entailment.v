@@ -1,4 +1,4 @@
-(** Definition 1 ([sleec_verify/entailment.py]): what a ruleset entails in a
+(** Definition 1 ([sleec_verify/entailment/entailment.py]): what a ruleset entails in a
     context, over all interpretations; and two procedures that decide it, one to
     the letter, one by propagation.  Both are meant to be extracted. *)
 

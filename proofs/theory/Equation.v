@@ -1,4 +1,4 @@
-(** Guards and Equation 1 ([sleec_verify/equation.py]; paper, Section 3.2).
+(** Guards and Equation 1 ([sleec_verify/encoding/equation.py]; paper, Section 3.2).
 
     This is the quadratic form, as the paper prints it.  The linear one is in
     [Linear.v]. *)

@@ -1,4 +1,4 @@
-(** Algorithm 1 in both readings ([sleec_runtime/evaluation.py]).
+(** Algorithm 1 in both readings ([sleec_runtime/evaluation/evaluation.py]).
 
     A rule is walked as it is written: no formula is compiled here.  That
     Equation 1 says the same is a theorem of [Equation.v]. *)

@@ -1,4 +1,4 @@
-(** Formulas as clauses, by a variable for each gate ([sleec_verify/cnf.py]).
+(** Formulas as clauses, by a variable for each gate ([sleec_verify/encoding/cnf.py]).
 
     Each step states what its literal is worth, that the clauses it adds can always be
     satisfied, and that unit propagation finds the value where the inputs are known. *)

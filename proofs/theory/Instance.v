@@ -1,5 +1,5 @@
 (** CO-SLEEC instances, the translation γ and Definition 2
-    ([sleec_runtime/instance.py]; paper, Section 3.2). *)
+    ([sleec_runtime/dispatch/instance.py]; paper, Section 3.2). *)
 
 From Coq Require Import List Bool PArith Arith Lia.
 From Sleec Require Import Model Evaluation Equation Entailment.

@@ -1,4 +1,4 @@
-(** Equation 1 written linearly ([sleec_verify/cnf.py]; issue 5, theorem 3, second
+(** Equation 1 written linearly ([sleec_verify/encoding/cnf.py]; issue 5, theorem 3, second
     half): a variable for each prefix of a chain and, by priority, one for each
     suffix. *)
 

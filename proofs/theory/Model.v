@@ -1,4 +1,4 @@
-(** What rules are made of ([sleec_runtime/model.py]; paper, Section 3.2).
+(** What rules are made of ([sleec_runtime/model/rules.py]; paper, Section 3.2).
 
     Three kinds of names are kept apart: triggers, conditions and obligations.
     "It happened" and "it is to be done" are different atoms even where a text

@@ -1,4 +1,4 @@
-(** A question over all contexts ([sleec_verify/question.py]): is there one, among
+(** A question over all contexts ([sleec_verify/query/question.py]): is there one, among
     those that can be, in which a formula is true?  And its clauses. *)
 
 From Coq Require Import List Bool PArith Arith Lia.

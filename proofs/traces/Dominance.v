@@ -1,4 +1,4 @@
-(** Dominance ([is_dominant] in [sleec_verify/traces/pending.py], [_settled] and [_dominated]
+(** Dominance ([is_dominant] in [sleec_verify/traces/pending_demands.py], [_settled] and [_dominated]
     in [sleec_verify/traces/histories.py]).
 
     Many triggerings of one response can be pending at now.  If its window opens with the

@@ -1,5 +1,5 @@
 (** Histories: what a trace that may go on breaks already ([broken_so_far] in
-    [sleec_runtime/trace.py]).
+    [sleec_runtime/evaluation/traces.py]).
 
     The last instant of a history is now, when more may still occur; later instants are
     open.  Each law is looked at by itself. *)

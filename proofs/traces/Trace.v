@@ -1,4 +1,4 @@
-(** What rules with time, relations and claims ask of traces ([sleec_runtime/trace.py],
+(** What rules with time, relations and claims ask of traces ([sleec_runtime/evaluation/traces.py],
     [docs/times.md]).
 
     The trigger and the obligation of one name are one event.  Times are whole seconds.

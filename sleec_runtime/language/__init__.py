@@ -9,10 +9,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from sleec_runtime.language.english import parse_english
-from sleec_runtime.language.formula_printer import print_formula
-from sleec_runtime.language.printer import print_rule, print_ruleset
-from sleec_runtime.language.source import read_source, tidy
+from sleec_runtime.language.common.formula_printer import print_formula
+from sleec_runtime.language.common.source import read_source, tidy
+from sleec_runtime.language.english.parser import parse_english
+from sleec_runtime.language.english.printer import print_rule, print_ruleset
 from sleec_runtime.model import Ruleset, Source
 
 if TYPE_CHECKING:

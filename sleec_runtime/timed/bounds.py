@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import WrongType
+from sleec_runtime.model.values import exact
 from sleec_runtime.timed.executor import Execute, execute_here
-from sleec_runtime.values import exact
 
 if TYPE_CHECKING:
     from sleec_runtime.timed.clocks import Cancel, Clock, Time

@@ -6,11 +6,11 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.errors import SnapshotRefused, WrongType
-from sleec_runtime.timed.plain import PLAIN, copied, is_plain, number_to_plain
+from sleec_runtime.timed.plain_data import PLAIN, copied, is_plain, number_to_plain
 
 if TYPE_CHECKING:
-    from sleec_runtime.program import Program
-    from sleec_runtime.snapshot import Snapshot
+    from sleec_runtime.dispatch.program import Program
+    from sleec_runtime.dispatch.snapshot import Snapshot
     from sleec_runtime.timed.clocks import Time
     from sleec_runtime.timed.tasks import Origin, Task
 

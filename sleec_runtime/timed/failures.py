@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-from sleec_runtime.messages import listed, represent, text_of
+from sleec_runtime.support.messages import listed, represent, text_of
 
 if TYPE_CHECKING:
     from sleec_runtime.timed.clocks import Time

@@ -7,11 +7,11 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from sleec_runtime.timed.refusals import prohibited
-from sleec_runtime.timed.words import prohibitions_in_words
+from sleec_runtime.timed.wording import prohibitions_in_words
 
 if TYPE_CHECKING:
+    from sleec_runtime.timed.cascade import Stage
     from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.stages import Stage
     from sleec_runtime.timed.tasks import Task
 
 

@@ -7,23 +7,23 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.errors import NeedsAwait, Prohibited, SleecError
-from sleec_runtime.messages import listed
+from sleec_runtime.support.messages import listed
 from sleec_runtime.timed.agenda import CLOSES, OPENS
+from sleec_runtime.timed.cascade import Moment, Stage, in_place_of, with_chains
 from sleec_runtime.timed.refusals import prohibited, refuse
-from sleec_runtime.timed.run import Run
-from sleec_runtime.timed.stages import Moment, Stage, in_place_of, with_chains
-from sleec_runtime.timed.starts import Starts
-from sleec_runtime.timed.words import prohibitions_in_words
+from sleec_runtime.timed.timed_dispatch import Run
+from sleec_runtime.timed.timer_events import Starts
+from sleec_runtime.timed.wording import prohibitions_in_words
 
 if TYPE_CHECKING:
-    from sleec_runtime.instance import Instance
-    from sleec_runtime.snapshot import Snapshot
+    from sleec_runtime.dispatch.instance import Instance
+    from sleec_runtime.dispatch.snapshot import Snapshot
     from sleec_runtime.timed.clocks import Time
+    from sleec_runtime.timed.execution_plan import Unit
     from sleec_runtime.timed.executor import Execute
     from sleec_runtime.timed.failures import Failures
     from sleec_runtime.timed.ledger import Ledger
     from sleec_runtime.timed.tasks import Task
-    from sleec_runtime.timed.units import Unit
 
 
 class Lifecycle:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sleec_runtime.timed.words import window_in_words
+from sleec_runtime.timed.wording import window_in_words
 
 if TYPE_CHECKING:
     from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.keeper import Timekeeper
+    from sleec_runtime.timed.scheduler import Timekeeper
     from sleec_runtime.timed.tasks import State, Task
 
 

@@ -10,19 +10,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from sleec_runtime.dispatch.program import Program
+from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import SleecError, SnapshotRefused
-from sleec_runtime.evaluation import Decision
-from sleec_runtime.messages import represent
-from sleec_runtime.program import Program
-from sleec_runtime.snapshot import Snapshot
+from sleec_runtime.evaluation.evaluation import Decision
+from sleec_runtime.support.messages import represent
 from sleec_runtime.timed.bounds import FURTHEST
 from sleec_runtime.timed.checkpoint import FORMAT, identity, may_run_code
-from sleec_runtime.timed.plain import copied, is_plain, number_from_plain
+from sleec_runtime.timed.execution_plan import Unit, composed_units, units_of
+from sleec_runtime.timed.plain_data import copied, is_plain, number_from_plain
 from sleec_runtime.timed.tasks import Origin, Path, Task, tasks_of
-from sleec_runtime.timed.units import Unit, composed_units, units_of
 
 if TYPE_CHECKING:
-    from sleec_runtime.instance import Instance
+    from sleec_runtime.dispatch.instance import Instance
     from sleec_runtime.timed.clocks import Time
 
 

@@ -6,16 +6,16 @@ from collections.abc import Iterable, Sequence
 from math import floor
 from typing import TYPE_CHECKING
 
-from sleec_runtime.dispatch import refuse_conflict
+from sleec_runtime.dispatch.dispatch import refuse_conflict
 from sleec_runtime.errors import Prohibited
-from sleec_runtime.evaluation import Decision, Due
+from sleec_runtime.evaluation.evaluation import Decision, Due
 from sleec_runtime.model import Obligation
-from sleec_runtime.timed.words import prohibitions_in_words, window_in_words
+from sleec_runtime.timed.wording import prohibitions_in_words, window_in_words
 
 if TYPE_CHECKING:
     from sleec_runtime.timed.agenda import Agenda
+    from sleec_runtime.timed.cascade import Stage
     from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.stages import Stage
     from sleec_runtime.timed.tasks import Task
 
 

@@ -11,16 +11,16 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, Union
 
 from sleec_runtime.errors import UndeterminedDecision, WrongType
-from sleec_runtime.evaluation import Decision, Situation, Undetermined, walk
+from sleec_runtime.evaluation.evaluation import Decision, Situation, Undetermined, walk
 from sleec_runtime.model import Clause, Obligation, Rational, Rule
-from sleec_runtime.model_time import Length
+from sleec_runtime.model.time import Length
 from sleec_runtime.timed.bounds import FURTHEST
 
 if TYPE_CHECKING:
-    from sleec_runtime.instance import Instance
-    from sleec_runtime.snapshot import Snapshot
+    from sleec_runtime.dispatch.instance import Instance
+    from sleec_runtime.dispatch.snapshot import Snapshot
     from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.units import Unit
+    from sleec_runtime.timed.execution_plan import Unit
 
 Path = tuple[Union[int, str], ...]
 

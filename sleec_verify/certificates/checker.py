@@ -11,7 +11,7 @@ from pathlib import Path
 
 from sleec_runtime.errors import SleecError
 from sleec_verify.certificates import lrat
-from sleec_verify.temporary import with_temporary
+from sleec_verify.files.temporary import with_temporary
 
 BUILT = Path(__file__).parents[2] / "proofs" / "checker" / "check-lrat"
 """Where `make -C proofs/checker` puts it, in a copy of the sources."""

@@ -10,22 +10,22 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
-from sleec_runtime.certificate import MANIFEST, SIGNATURE, Use, read_manifest, uncovered
+from sleec_runtime.certificate.coverage import MANIFEST, SIGNATURE, Use, read_manifest, uncovered
 from sleec_runtime.errors import CertificateRefused
-from sleec_runtime.files import read_file
+from sleec_runtime.support.files import read_file
 from sleec_verify import __version__
 from sleec_verify.certificates.making import NOTHING_REQUIRED, Rebuilt, rebuild
 from sleec_verify.certificates.manifest import check_json, manifest
-from sleec_verify.certificates.tying import NotTied, Tied, tie
+from sleec_verify.certificates.verdict_binding import NotTied, Tied, tie
 from sleec_verify.certificates.witnesses import KEYS, Replay, same
-from sleec_verify.scope import speaks_of_traces
+from sleec_verify.encoding.trace_scope import speaks_of_traces
 
 if TYPE_CHECKING:
-    from sleec_runtime.manifest import Manifest, Required
+    from sleec_runtime.certificate.manifest import Manifest, Required
     from sleec_runtime.model import Reading, Ruleset
     from sleec_verify.certificates.checker import Checker
     from sleec_verify.certificates.manifest import Shown
-    from sleec_verify.scope import Untimed
+    from sleec_verify.encoding.trace_scope import Untimed
 
 
 class Problem(NamedTuple):

@@ -6,9 +6,9 @@ import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from sleec_runtime.certificate import MANIFEST, SIGNATURE, read_manifest
+from sleec_runtime.certificate.coverage import MANIFEST, SIGNATURE, read_manifest
 from sleec_runtime.errors import CertificateRefused, SleecError
-from sleec_verify.temporary import with_temporary
+from sleec_verify.files.temporary import with_temporary
 
 
 class Occupied(SleecError):

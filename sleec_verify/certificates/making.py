@@ -7,22 +7,22 @@ from dataclasses import dataclass
 from hashlib import sha256
 from typing import TYPE_CHECKING
 
-from sleec_runtime.certificate import Use
-from sleec_runtime.manifest import Required
+from sleec_runtime.certificate.coverage import Use
+from sleec_runtime.certificate.manifest import Required
 from sleec_verify.certificates.manifest import Shown, manifest
 from sleec_verify.certificates.recording import Asked, Recorder
 from sleec_verify.certificates.refutation import Disjunction, disjunctions
 from sleec_verify.certificates.whole import conflict_free
 from sleec_verify.checks import Checking, checks_for
-from sleec_verify.finding import Proved, Unknown
-from sleec_verify.scope import speaks_of_traces
+from sleec_verify.encoding.trace_scope import speaks_of_traces
+from sleec_verify.results.finding import Proved, Unknown
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
-    from sleec_verify.cone import Cones
-    from sleec_verify.finding import CheckResult
+    from sleec_verify.encoding.trace_scope import Untimed
+    from sleec_verify.query.cone import Cones
     from sleec_verify.report.json import Json
-    from sleec_verify.scope import Untimed
+    from sleec_verify.results.finding import CheckResult
 
 
 NOTHING_REQUIRED = Required()
@@ -61,8 +61,8 @@ class Certificate:
 
     def contents(self) -> Iterator[tuple[str, bytes]]:
         """Every file, the manifest last."""
-        from sleec_runtime.certificate import MANIFEST
-        from sleec_runtime.manifest import canonical
+        from sleec_runtime.certificate.coverage import MANIFEST
+        from sleec_runtime.certificate.manifest import canonical
 
         yield from ((name, text.encode()) for name, text in self.files.items())
         yield MANIFEST, canonical(self.manifest)

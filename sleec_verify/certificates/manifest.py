@@ -8,14 +8,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from sleec_runtime.manifest import FORMAT, Required
+from sleec_runtime.certificate.manifest import FORMAT, Required
 from sleec_verify import __version__
-from sleec_verify.finding import Refuted, Unknown
 from sleec_verify.report.json import VERDICTS, Json, finding_json
+from sleec_verify.results.finding import Refuted, Unknown
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
-    from sleec_verify.finding import CheckResult
+    from sleec_verify.results.finding import CheckResult
 
 LEFT_OUT = ("check", "note", "help", "related")
 """What a finding tells people and no certificate is about."""

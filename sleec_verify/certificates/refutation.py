@@ -17,7 +17,7 @@ from sleec_verify.certificates.recording import Asked
 
 MOST_LITERALS = 1_000_000
 """Literals after which a further pair of files is begun, as checkers hold a formula in memory. They take less than half
-of the 16 MiB that a file may have (`sleec_runtime.files`)."""
+of the 16 MiB that a file may have (`sleec_runtime.support.files`)."""
 
 
 class Disjunction:
@@ -111,7 +111,7 @@ def refute(clauses: Sequence[Sequence[int]], questions: Sequence[Sequence[int]])
 
 def _lemmas(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]) -> list[Learnt]:
     """What Glucose learns while it refutes these questions, in its order. It is python-sat's C interface again, as in
-    `sleec_verify.solver`."""
+    `sleec_verify.encoding.solver`."""
     import pysolvers
 
     interruptible = int(current_thread() is main_thread())

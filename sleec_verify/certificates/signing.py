@@ -1,12 +1,12 @@
-"""Signing a manifest, with Ed25519. What checks a signature is in `sleec_runtime.certificate`: a robot does it too."""
+"""Signing a manifest, with Ed25519. What checks a signature is in `certificate.coverage`: a robot does it too."""
 
 from __future__ import annotations
 
 from base64 import b64encode
 
-from sleec_runtime.certificate import cryptography
+from sleec_runtime.certificate.coverage import cryptography
 from sleec_runtime.errors import SleecError
-from sleec_runtime.files import read_file
+from sleec_runtime.support.files import read_file
 
 
 def sign(data: bytes, key: str) -> bytes:

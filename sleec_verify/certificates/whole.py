@@ -1,7 +1,7 @@
 """Conflict-freeness in few formulas, in the place of a question for each cause.
 
 The check looks for causes, so it asks of one set of clauses after the other. That nothing can conflict is told by fewer
-questions, one for each smallest set of obligations that cannot all be due (`sleec_verify.clashes`): in some situation,
+questions, one for each smallest set of obligations that cannot all be due (`query.inconsistent_sets`): in some context,
 does each of them follow from some clause that decides there? They share the clauses of all the rules that oblige any of
 them; what shares neither rules nor assumptions is asked apart, so that a solver need not look at everything each time.
 """
@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Sequence
 
-from sleec_verify.clashes import Clash, Exclusion
-from sleec_verify.cone import Cones, Name, names_in, names_of_rule
-from sleec_verify.question import Question
+from sleec_verify.query.cone import Cones, Name, names_in, names_of_rule
+from sleec_verify.query.inconsistent_sets import Clash, Exclusion
+from sleec_verify.query.question import Question
 
 
 def conflict_free(cones: Cones) -> bool:

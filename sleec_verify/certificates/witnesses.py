@@ -10,14 +10,14 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.errors import SleecError
-from sleec_verify.cone import Cones
-from sleec_verify.finding import Witness
-from sleec_verify.replay import replays
+from sleec_verify.query.cone import Cones
+from sleec_verify.replay.situations import replays
 from sleec_verify.report.json import witness_json
+from sleec_verify.results.finding import Witness
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset, Value
-    from sleec_verify.finding import Finding
+    from sleec_verify.results.finding import Finding
 
 KEYS = ("witness", "timeline")
 """The entries of a finding that hold its witness."""

@@ -9,30 +9,30 @@ from functools import partial
 from time import perf_counter
 
 from sleec_runtime.model import Ruleset
-from sleec_verify.budget import Undecided, for_file, share
 from sleec_verify.checks.assumptions import ASSUMPTIONS
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.causes import Enough
 from sleec_verify.checks.claims import CONCERN, PURPOSE
 from sleec_verify.checks.conflict import CONFLICT
 from sleec_verify.checks.confusable import CONFUSABLE
-from sleec_verify.checks.constant import CONSTANT_CONDITION
+from sleec_verify.checks.constant_conditions import CONSTANT_CONDITION
 from sleec_verify.checks.dead import DEAD_HEDGE, DEAD_RULE
-from sleec_verify.checks.defects import DEFECTS
 from sleec_verify.checks.duplicate import DUPLICATE_RULE
 from sleec_verify.checks.forbidden_input import FORBIDDEN_INPUT
 from sleec_verify.checks.reading import READING
 from sleec_verify.checks.realizability import REALIZABILITY, realizability
 from sleec_verify.checks.redundant import REDUNDANT_HEDGE, REDUNDANT_RULE
-from sleec_verify.checks.stray import STRAY_EVENT
 from sleec_verify.checks.text import EMPTY_HEDGE, PHRASE_KEYWORD, TRIGGER_OBLIGATION, UNUSED_NAME
+from sleec_verify.checks.text_defects import DEFECTS
+from sleec_verify.checks.unknown_events import STRAY_EVENT
 from sleec_verify.checks.vacuous import VACUOUS_CONFLICT
 from sleec_verify.checks.windows import BARE_PROHIBITION, ZERO_WINDOW
-from sleec_verify.cone import Cones
-from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
-from sleec_verify.replay import replays
-from sleec_verify.scope import Untimed, speaks_of_traces
-from sleec_verify.solver import Recorder
+from sleec_verify.encoding.budget import Undecided, for_file, share
+from sleec_verify.encoding.solver import Recorder
+from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
+from sleec_verify.query.cone import Cones
+from sleec_verify.replay.situations import replays
+from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
 
 __all__ = ["CHECKS", "Check", "Checking", "FindingKind", "checks_for", "run_checks"]
 
@@ -126,7 +126,7 @@ def run_checks(
     says in which domains it holds. `untimed` is what a response without a window means, in rules that speak of time.
     Without `chains`, what is done triggers no rules (the paper's one-step reading).
     `realizable` adds that check, for an environment that acts up to so many times. Unless the work has a budget
-    (`sleec_verify.budget`), it is given that of one file; what is not decided within it is unknown. Raises KeyError for
+    (`encoding.budget`), it is given that of one file; what is not decided within it is unknown. Raises KeyError for
     an unknown check.
     """
     checking = Checking(ruleset, domain, untimed, realizable=1 if realizable is None else realizable, chains=chains)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sleec_runtime.model_time import MeasureRelation
-from sleec_verify.budget import Undecided
+from sleec_runtime.model.time import MeasureRelation
 from sleec_verify.checks.base import Check, FindingKind, listed
-from sleec_verify.cone import Cones
-from sleec_verify.finding import Finding
-from sleec_verify.parts import without
-from sleec_verify.question import Question
+from sleec_verify.encoding.budget import Undecided
+from sleec_verify.query.cone import Cones
+from sleec_verify.query.partition import without
+from sleec_verify.query.question import Question
+from sleec_verify.results.finding import Finding
 
 
 def _contradictory(cones: Cones) -> Iterator[Finding]:

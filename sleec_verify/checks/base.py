@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from sleec_runtime.model import Clause, Formula, Obligation, Rule, Span
-from sleec_verify.cone import Cones, Place
-from sleec_verify.equation import guard
-from sleec_verify.finding import ClauseRef, Finding, Severity, Witness
+from sleec_verify.encoding.equation import guard
+from sleec_verify.query.cone import Cones, Place
+from sleec_verify.results.finding import ClauseRef, Finding, Severity, Witness
 
 if TYPE_CHECKING:
     from sleec_verify.games.realizability import Strategy
-    from sleec_verify.timeline import Timeline
+    from sleec_verify.results.timeline import Timeline
 
 Scope = Literal["some domain", "every domain", "text"]
 """Where a finding must hold to count: in some domain, in every domain in which its first rule applies, or whatever

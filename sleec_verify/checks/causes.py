@@ -7,15 +7,15 @@ from itertools import chain
 from math import prod
 
 from sleec_runtime.model import Formula, Not, Obligation
-from sleec_verify.budget import spend
 from sleec_verify.checks.base import clause_at, guard_at, listed
 from sleec_verify.checks.each import each
-from sleec_verify.clashes import Clash, Exclusion
-from sleec_verify.cone import Cones, Place
-from sleec_verify.equation import conjunction
-from sleec_verify.finding import Witness
-from sleec_verify.question import Question
-from sleec_verify.witness import smallest_situation
+from sleec_verify.encoding.budget import spend
+from sleec_verify.encoding.equation import conjunction
+from sleec_verify.query.cone import Cones, Place
+from sleec_verify.query.inconsistent_sets import Clash, Exclusion
+from sleec_verify.query.question import Question
+from sleec_verify.query.witness import smallest_situation
+from sleec_verify.results.finding import Witness
 
 MOST, MOST_PER_RULE = 1_000, 3
 """How many causes are listed: so many, and so many more for each rule. Contradicting clauses multiply, and a ruleset

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 from sleec_verify.checks.base import Check, FindingKind, listed
 from sleec_verify.checks.each import each
-from sleec_verify.checks.matter import in_words, rules_in
-from sleec_verify.cone import Cones
-from sleec_verify.finding import Finding, Witness
+from sleec_verify.checks.relevant_rules import in_words, rules_in
+from sleec_verify.query.cone import Cones
+from sleec_verify.results.finding import Finding, Witness
 
 if TYPE_CHECKING:
-    from sleec_runtime.model_time import Claim
+    from sleec_runtime.model.time import Claim
 
 
 def _concerns(cones: Cones) -> Iterator[Finding]:
     """A finding for each concern that comes about in some trace that keeps all."""
-    from sleec_runtime.model_time import claims
+    from sleec_runtime.model.time import claims
     from sleec_verify.traces.questions import coming_about
 
     def of(claim: Claim) -> Iterator[Finding]:
@@ -40,7 +40,7 @@ def _concerns(cones: Cones) -> Iterator[Finding]:
 
 def _purposes(cones: Cones) -> Iterator[Finding]:
     """A finding for each purpose that comes about in no trace that keeps all."""
-    from sleec_runtime.model_time import claims
+    from sleec_runtime.model.time import claims
     from sleec_verify.traces.questions import coming_about
 
     def of(claim: Claim) -> Iterator[Finding]:

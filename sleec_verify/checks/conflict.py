@@ -13,15 +13,15 @@ from sleec_runtime.model import Formula, Obligation, Rule, Span, literals
 from sleec_verify.checks.base import Check, FindingKind, clause_at, clause_name, listed
 from sleec_verify.checks.causes import Cause, causes
 from sleec_verify.checks.each import each
-from sleec_verify.checks.matter import kind_of, relation_in_words
-from sleec_verify.clashes import Clash, Clashes, opposite
-from sleec_verify.cone import Cones, Place
-from sleec_verify.finding import ClauseRef, Finding, Witness
-from sleec_verify.parts import without
-from sleec_verify.scope import responses_of
+from sleec_verify.checks.relevant_rules import kind_of, relation_in_words
+from sleec_verify.encoding.trace_scope import responses_of
+from sleec_verify.query.cone import Cones, Place
+from sleec_verify.query.inconsistent_sets import Clash, Clashes, opposite
+from sleec_verify.query.partition import without
+from sleec_verify.results.finding import ClauseRef, Finding, Witness
 
 if TYPE_CHECKING:
-    from sleec_verify.timeline import Timeline
+    from sleec_verify.results.timeline import Timeline
     from sleec_verify.traces.conflicts import Conflict
     from sleec_verify.traces.index import Index
     from sleec_verify.traces.relations import Relation

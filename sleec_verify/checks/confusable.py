@@ -10,8 +10,8 @@ from collections.abc import Iterator
 
 from sleec_runtime.model import Ruleset, Span
 from sleec_verify.checks.base import Check, FindingKind
-from sleec_verify.cone import Cones
-from sleec_verify.finding import Finding
+from sleec_verify.query.cone import Cones
+from sleec_verify.results.finding import Finding
 
 _DIRECTION = re.compile("[\u202a-\u202e\u2066-\u2069]")
 
@@ -33,8 +33,8 @@ def _words(ruleset: Ruleset) -> tuple[dict[str, Span], frozenset[str]]:
     if ruleset.syntax == "dsl":
         from sleec_runtime.language.dsl.scanner import KEYWORDS, scan
     else:
-        from sleec_runtime.language.keywords import KEYWORDS
-        from sleec_runtime.language.scanner import scan
+        from sleec_runtime.language.english.keywords import KEYWORDS
+        from sleec_runtime.language.english.scanner import scan
     text = ruleset.source.text
     tokens = scan(text)
     words: dict[str, Span] = {}

@@ -6,13 +6,13 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Clause, Rule, in_text_order
-from sleec_runtime.model_time import RELATIONS, MeasureRelation
+from sleec_runtime.model.time import RELATIONS, MeasureRelation
 from sleec_verify.checks.base import Check, FindingKind, clause_name
 from sleec_verify.checks.each import each, each_shape, in_both_parts
-from sleec_verify.cone import Cones
-from sleec_verify.finding import ClauseRef, Finding
-from sleec_verify.parts import without
-from sleec_verify.question import Question
+from sleec_verify.query.cone import Cones
+from sleec_verify.query.partition import without
+from sleec_verify.query.question import Question
+from sleec_verify.results.finding import ClauseRef, Finding
 
 if TYPE_CHECKING:
     from sleec_verify.traces.index import Index

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from sleec_runtime.model import Rule
 from sleec_verify.checks.base import Check, FindingKind
-from sleec_verify.cone import Cones
-from sleec_verify.finding import Finding
+from sleec_verify.query.cone import Cones
+from sleec_verify.results.finding import Finding
 
 
 def _duplicates(cones: Cones) -> Iterator[Finding]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeVar
 
-from sleec_verify.budget import Undecided, begin, share
-from sleec_verify.finding import Finding
+from sleec_verify.encoding.budget import Undecided, begin, share
+from sleec_verify.results.finding import Finding
 
 if TYPE_CHECKING:
-    from sleec_verify.cone import Cones
+    from sleec_verify.query.cone import Cones
     from sleec_verify.traces.index import Index
 
 _Asked = TypeVar("_Asked")

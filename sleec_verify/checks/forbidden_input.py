@@ -7,9 +7,9 @@ from typing import TypeGuard
 
 from sleec_runtime.model import Declaration, Rule, Statement, literals
 from sleec_verify.checks.base import Check, FindingKind, clause_name, listed
-from sleec_verify.cone import Cones
-from sleec_verify.finding import ClauseRef, Finding
-from sleec_verify.scope import speaks_of_traces
+from sleec_verify.encoding.trace_scope import speaks_of_traces
+from sleec_verify.query.cone import Cones
+from sleec_verify.results.finding import ClauseRef, Finding
 
 
 def _forbidden_inputs(cones: Cones) -> Iterator[Finding]:

@@ -9,12 +9,12 @@ from typing import NamedTuple
 from sleec_runtime.model import Clause, Formula, Not, Obligation, Reading, Rule
 from sleec_verify.checks.base import Check, FindingKind, clause_name, listed
 from sleec_verify.checks.each import each
-from sleec_verify.cone import Cones
-from sleec_verify.equation import conjunction, disjunction, guard, implications
-from sleec_verify.finding import ClauseRef, Finding, Witness
-from sleec_verify.question import Question
-from sleec_verify.shape import Shape
-from sleec_verify.witness import smallest_situation
+from sleec_verify.encoding.equation import conjunction, disjunction, guard, implications
+from sleec_verify.query.cone import Cones
+from sleec_verify.query.question import Question
+from sleec_verify.query.rule_shape import Shape
+from sleec_verify.query.witness import smallest_situation
+from sleec_verify.results.finding import ClauseRef, Finding, Witness
 
 LONG = 30
 """Chains of more hedges than this get a smallest situation for one pair of clauses, not for all pairs; and whether they
@@ -176,7 +176,7 @@ def _due(rule: Rule, reading: Reading) -> dict[Obligation, Formula]:
 
 def _response(clause: Clause, dsl: bool) -> str:
     """What a clause calls for, with its times; in rules of the DSL with `not` as it is written there."""
-    from sleec_runtime.model_time import described
+    from sleec_runtime.model.time import described
 
     if not clause.obligations:
         return "nothing is due"

@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from sleec_verify.checks.base import Check, FindingKind, listed
-from sleec_verify.cone import Cones
-from sleec_verify.finding import Finding, Witness
+from sleec_verify.query.cone import Cones
+from sleec_verify.results.finding import Finding, Witness
 
 if TYPE_CHECKING:
     from sleec_verify.games.realizability import Loss
@@ -21,8 +21,8 @@ def realizability(steps: int) -> Check:
 
 def _losses(cones: Cones, steps: int) -> Iterator[Finding]:
     """A finding for each part of the rules that has nothing to do with the others and cannot always be kept."""
+    from sleec_verify.encoding.solver import Undecided
     from sleec_verify.games.realizability import losses
-    from sleec_verify.solver import Undecided
 
     unknown: dict[str, None] = {}
     for part, question in losses(cones.index, steps):

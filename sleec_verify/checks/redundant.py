@@ -10,11 +10,11 @@ from sleec_runtime.model import Clause, Obligation, Rule
 from sleec_verify.checks.base import Check, FindingKind, clause_name, listed, literals_of
 from sleec_verify.checks.dead import places_of_hedges
 from sleec_verify.checks.each import each, each_shape, in_both_parts
-from sleec_verify.checks.matter import in_words, rules_in
-from sleec_verify.cone import Cones
-from sleec_verify.finding import ClauseRef, Finding
-from sleec_verify.question import Question
-from sleec_verify.solver import Undecided
+from sleec_verify.checks.relevant_rules import in_words, rules_in
+from sleec_verify.encoding.solver import Undecided
+from sleec_verify.query.cone import Cones
+from sleec_verify.query.question import Question
+from sleec_verify.results.finding import ClauseRef, Finding
 
 if TYPE_CHECKING:
     from sleec_verify.traces.index import Index

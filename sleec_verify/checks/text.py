@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from sleec_runtime.language.units import UNITS
+from sleec_runtime.language.common.units import UNITS
 from sleec_runtime.model import (
     Atom,
     Constant,
@@ -17,9 +17,9 @@ from sleec_runtime.model import (
     leaves,
 )
 from sleec_verify.checks.base import Check, FindingKind, clause_name
-from sleec_verify.checks.names import constants_used, mentions, names_used
-from sleec_verify.cone import Cones
-from sleec_verify.finding import ClauseRef, Finding
+from sleec_verify.encoding.name_uses import constants_used, mentions, names_used
+from sleec_verify.query.cone import Cones
+from sleec_verify.results.finding import ClauseRef, Finding
 
 
 def _unused(cones: Cones) -> Iterator[Finding]:

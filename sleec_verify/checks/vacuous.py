@@ -8,16 +8,16 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Atom, Never, Rule
-from sleec_verify.budget import OutOfBudget, Undecided
 from sleec_verify.checks.base import Check, FindingKind, listed, literals_of
 from sleec_verify.checks.each import each, in_both_parts
-from sleec_verify.checks.matter import in_words, rules_in
-from sleec_verify.clashes import Clashes
-from sleec_verify.cone import Cones, names_in, names_of_rule
-from sleec_verify.equation import conjunction
-from sleec_verify.finding import Finding
-from sleec_verify.question import Question
-from sleec_verify.witness import smallest_situation
+from sleec_verify.checks.relevant_rules import in_words, rules_in
+from sleec_verify.encoding.budget import OutOfBudget, Undecided
+from sleec_verify.encoding.equation import conjunction
+from sleec_verify.query.cone import Cones, names_in, names_of_rule
+from sleec_verify.query.inconsistent_sets import Clashes
+from sleec_verify.query.question import Question
+from sleec_verify.query.witness import smallest_situation
+from sleec_verify.results.finding import Finding
 
 if TYPE_CHECKING:
     from sleec_verify.traces.index import Index

@@ -115,11 +115,11 @@ def _failed(error: Exception) -> int:
     from sleec_verify.cli.output import complain
 
     if not isinstance(error, SleecError):
-        from sleec_verify.internal_error import InternalError
+        from sleec_verify.results.internal_error import InternalError
 
         error = InternalError("", error)
     complain(error)
-    from sleec_verify.solver import Undecided
+    from sleec_verify.encoding.solver import Undecided
 
     return exits.UNKNOWN if isinstance(error, Undecided) else exits.UNUSABLE
 

@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING
 import click
 
 from sleec_runtime.errors import SleecError
-from sleec_runtime.files import read_file
+from sleec_runtime.support.files import read_file
+from sleec_verify.changes.gate import findings_now
+from sleec_verify.changes.gate.baseline import baseline_text, read_baseline
+from sleec_verify.changes.gate.settings import no_baseline
 from sleec_verify.cli import exits
-from sleec_verify.cli.files import require_writable, write_whole
 from sleec_verify.cli.output import tell
-from sleec_verify.gate import findings_now
-from sleec_verify.gate.baseline import baseline_text, read_baseline
-from sleec_verify.gate.settings import no_baseline
+from sleec_verify.files.placement import require_writable, write_whole
 from sleec_verify.report.outcome import counted
 
 if TYPE_CHECKING:
-    from sleec_verify.gate import Check
-    from sleec_verify.gate.baseline import Key
-    from sleec_verify.gate.config import Config
-    from sleec_verify.tree import Tree
+    from sleec_verify.changes.gate import Check
+    from sleec_verify.changes.gate.baseline import Key
+    from sleec_verify.changes.gate.config import Config
+    from sleec_verify.changes.revisions.single_file import Tree
 
 
 def write_baseline(now: Tree, config: Config, paths: Sequence[str], file: str | None, check: Check) -> int:

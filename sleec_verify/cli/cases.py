@@ -14,7 +14,7 @@ from sleec_verify.report.outcome import counted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading
-    from sleec_verify.cases.choose import Cases
+    from sleec_verify.conformance.cases.selection import Cases
 
 
 @click.command(
@@ -54,8 +54,8 @@ def command(
 
     As TOML, it is what the pytest plugin collects from a file *.cases.toml. What no situation reaches is listed.
     """
-    from sleec_verify.cases.choose import choose_cases
-    from sleec_verify.cases.write import json_text, toml
+    from sleec_verify.conformance.cases.selection import choose_cases
+    from sleec_verify.conformance.cases.writer import json_text, toml
 
     if output is not None and os.path.lexists(output) and not force:
         raise click.UsageError(f"{output} exists; say --force to replace it")
@@ -84,11 +84,11 @@ def _create(output: str, text: str, force: bool) -> None:
     from sleec_runtime.errors import SleecError
 
     if force:
-        from sleec_verify.cli.files import write_whole
+        from sleec_verify.files.placement import write_whole
 
         write_whole(output, text.encode())
         return
-    from sleec_verify.temporary import put_in_place
+    from sleec_verify.files.temporary import put_in_place
 
     try:
         # New also where a file has come there since it was looked for.

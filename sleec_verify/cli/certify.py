@@ -10,14 +10,14 @@ import click
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
 from sleec_verify.cli.output import note, write
-from sleec_verify.finding import SEVERITIES, Severity, Unknown
+from sleec_verify.results.finding import SEVERITIES, Severity, Unknown
 
 if TYPE_CHECKING:
-    from sleec_runtime.manifest import Required
+    from sleec_runtime.certificate.manifest import Required
     from sleec_runtime.model import Reading, Ruleset
     from sleec_verify.certificates.making import Certificate
-    from sleec_verify.finding import CheckResult
-    from sleec_verify.scope import Untimed
+    from sleec_verify.encoding.trace_scope import Untimed
+    from sleec_verify.results.finding import CheckResult
 
 
 @click.command(
@@ -87,7 +87,7 @@ def command(
     if (output is None) == (checked is None):
         raise click.UsageError("say -o DIR to write a certificate, or --check DIR to have one checked")
     _refuse_stray(context, ("public", "checker") if checked is None else ("private", "force"))
-    from sleec_runtime.manifest import Required
+    from sleec_runtime.certificate.manifest import Required
 
     required = Required(require_proved, require_tied)
     if output is not None:
@@ -120,7 +120,7 @@ def _write(
 ) -> int:
     from sleec_verify.certificates.directory import check_free
     from sleec_verify.certificates.making import certify
-    from sleec_verify.certificates.telling import told
+    from sleec_verify.certificates.rendering import told
     from sleec_verify.cli.progress import Progress
 
     check_free(output, force)
@@ -137,12 +137,12 @@ def save(made: Certificate, ruleset: Ruleset, output: str, private: str | None =
 
     Raises CertificateRefused where it says that something is required that is not so. Then nothing is written.
     """
-    from sleec_runtime.certificate import MANIFEST, SIGNATURE
+    from sleec_runtime.certificate.coverage import MANIFEST, SIGNATURE
     from sleec_verify.certificates.checker import checker
     from sleec_verify.certificates.checking import check_certificate
     from sleec_verify.certificates.directory import write_folder
     from sleec_verify.certificates.signing import sign
-    from sleec_verify.theory.oracle import built
+    from sleec_verify.certificates.theory.oracle import built
 
     files = list(made.contents())
     if private is not None:
@@ -168,14 +168,14 @@ def _check(
     required: Required,
     form: str,
 ) -> int:
-    from sleec_runtime.certificate import Use
+    from sleec_runtime.certificate.coverage import Use
     from sleec_runtime.errors import CertificateRefused
     from sleec_verify.certificates.checker import checker as chosen
     from sleec_verify.certificates.checking import check_certificate
-    from sleec_verify.certificates.telling import refused, told
+    from sleec_verify.certificates.rendering import refused, told
+    from sleec_verify.certificates.theory.oracle import built
     from sleec_verify.cli.output import complain
     from sleec_verify.cli.progress import Progress
-    from sleec_verify.theory.oracle import built
 
     judge = chosen(checker)
     try:
@@ -205,7 +205,7 @@ def _check(
 
 def _read(path: str, checked: str) -> Ruleset:
     """The rules in FILE. If they are none any more since they were certified, it is that which is said."""
-    from sleec_runtime.certificate import read_manifest
+    from sleec_runtime.certificate.coverage import read_manifest
     from sleec_runtime.errors import CertificateRefused, LanguageError
 
     try:

@@ -8,23 +8,23 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sleec_verify.budget import limited
 from sleec_verify.cli import exits, options
-from sleec_verify.cli.cached import cache_of_environment
-from sleec_verify.cli.cached import results as kept_or_new
+from sleec_verify.cli.cached_checks import cache_of_environment
+from sleec_verify.cli.cached_checks import results as kept_or_new
 from sleec_verify.cli.inputs import files, rulesets
 from sleec_verify.cli.output import complain, report
-from sleec_verify.finding import SEVERITIES, Severity
-from sleec_verify.internal_error import InternalError, internal_errors_of
+from sleec_verify.encoding.budget import limited
 from sleec_verify.report import FORMATS
 from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, tally, told_of
+from sleec_verify.results.finding import SEVERITIES, Severity
+from sleec_verify.results.internal_error import InternalError, internal_errors_of
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset
-    from sleec_verify.cache import Cache
+    from sleec_verify.cli.cache import Cache
     from sleec_verify.cli.progress import Progress
-    from sleec_verify.finding import CheckResult
-    from sleec_verify.scope import Untimed
+    from sleec_verify.encoding.trace_scope import Untimed
+    from sleec_verify.results.finding import CheckResult
 
 
 @click.command(
@@ -80,7 +80,7 @@ def command(
     in the folder that the environment's SLEEC_VERIFY_CACHE names; SLEEC_VERIFY_CACHE=off keeps nothing.
     """
     if output is not None:
-        from sleec_verify.cli.files import require_writable
+        from sleec_verify.files.placement import require_writable
 
         require_writable(output, (path for path in files(paths) if not isinstance(path, Unusable)))
     cache = None if no_cache else cache_of_environment()
@@ -123,7 +123,7 @@ def _outcomes(
     required: tuple[bool, bool],
 ) -> list[Outcome]:
     from sleec_verify.cli.progress import Progress
-    from sleec_verify.scope import speaks_of_traces
+    from sleec_verify.encoding.trace_scope import speaks_of_traces
 
     outcomes: list[Outcome] = []
     with Progress() as progress:
@@ -158,7 +158,7 @@ def _certified(
     required: tuple[bool, bool],
     progress: Progress,
 ) -> tuple[CheckResult, ...]:
-    from sleec_runtime.manifest import Required
+    from sleec_runtime.certificate.manifest import Required
     from sleec_verify.certificates.making import certify
     from sleec_verify.cli.certify import save
 

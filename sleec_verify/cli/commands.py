@@ -50,8 +50,8 @@ class _Lazy(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         if args and args[0] not in _SUMMARIES and not args[0].startswith("-"):
-            from sleec_runtime.language.suggest import nearest
-            from sleec_verify.report.words import shortened
+            from sleec_runtime.language.common.suggestions import nearest
+            from sleec_verify.results.phrases import shortened
 
             near = nearest(args[0], _SUMMARIES)
             hint = f"did you mean {near}?" if near else f"there are {', '.join(_SUMMARIES)}"

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sleec_runtime.untimed import require_untimed
+from sleec_runtime.model.untimed import require_untimed
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import note_mixed_domains, one_ruleset
 from sleec_verify.cli.output import write_data
-from sleec_verify.compilation import FORMS, compile_to
+from sleec_verify.exchange.compilation import FORMS, compile_to
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading

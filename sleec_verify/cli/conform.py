@@ -9,10 +9,10 @@ import click
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
 from sleec_verify.cli.output import complain, report
-from sleec_verify.finding import SEVERITIES, CheckResult, Severity, Unknown
-from sleec_verify.internal_error import InternalError, internal_errors_of
 from sleec_verify.report import FORMATS
 from sleec_verify.report.outcome import Checked, Unusable
+from sleec_verify.results.finding import SEVERITIES, CheckResult, Severity, Unknown
+from sleec_verify.results.internal_error import InternalError, internal_errors_of
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading
@@ -53,7 +53,7 @@ def command(
     if target == path == "-":
         raise click.UsageError("standard input can be TARGET or the rules, not both")
     if output is not None:
-        from sleec_verify.cli.files import require_writable
+        from sleec_verify.files.placement import require_writable
 
         require_writable(output, (path, target))
     try:

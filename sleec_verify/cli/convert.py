@@ -9,7 +9,7 @@ import click
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
 from sleec_verify.cli.output import note, write_data
-from sleec_verify.conversion import TARGETS, Target, convert, of_domain
+from sleec_verify.exchange.conversion import TARGETS, Target, convert, of_domain
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading

@@ -12,15 +12,15 @@ import click
 from sleec_runtime.errors import SleecError
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.output import complain, note, note_link, write
-from sleec_verify.internal_error import InternalError, internal_errors_of
+from sleec_verify.results.internal_error import InternalError, internal_errors_of
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset, Source
-    from sleec_verify.assertions import Asked
-    from sleec_verify.compare import Difference
+    from sleec_verify.changes.assertions import Asked
+    from sleec_verify.changes.compare import Difference
+    from sleec_verify.changes.revisions.revisions import Place, Versions
+    from sleec_verify.encoding.trace_scope import Untimed
     from sleec_verify.report.difference import Compared, Report
-    from sleec_verify.revisions import Place, Versions
-    from sleec_verify.scope import Untimed
 
 FailOn = Literal["change", "loss", "conflict", "nothing"]
 _READINGS = click.Choice(("cascade", "priority"))
@@ -123,10 +123,10 @@ def command(
 
 def _versions(paths: Sequence[str], revision: str | None) -> tuple[list[Versions], tuple[str, str]]:
     """The rulesets on both sides, in git those that moved under their new path, and what the sides are called."""
-    from sleec_verify.commits import revision_range
-    from sleec_verify.renames import with_renames
-    from sleec_verify.repository import Repository
-    from sleec_verify.revisions import of_paths
+    from sleec_verify.changes.revisions.commits import revision_range
+    from sleec_verify.changes.revisions.renames import with_renames
+    from sleec_verify.changes.revisions.repository import Repository
+    from sleec_verify.changes.revisions.revisions import of_paths
 
     if revision is None:
         if len(paths) != 2:
@@ -141,7 +141,7 @@ def _versions(paths: Sequence[str], revision: str | None) -> tuple[list[Versions
 
 
 def _source(path: str) -> Source:
-    from sleec_runtime.language.source import read_source
+    from sleec_runtime.language.common.source import read_source
 
     return read_source(path)
 
@@ -154,7 +154,7 @@ def _compared(
     domain: str | None,
     untimed: Untimed,
 ) -> Compared:
-    from sleec_verify.compare import compare
+    from sleec_verify.changes.compare import compare
     from sleec_verify.report.difference import Compared
 
     errors: list[SleecError] = []
@@ -217,7 +217,7 @@ def _asked(
 ) -> tuple[Asked, ...] | None:
     """The answers to all assertions, of all new rulesets; None where an assertion is wrong, which is reported. Where a
     ruleset cannot be used, an assertion that seems wrong may be about its names, and is only left out."""
-    from sleec_verify.assertions import Vocabulary, ask, read_assertion, read_assertions
+    from sleec_verify.changes.assertions import Vocabulary, ask, read_assertion, read_assertions
 
     found = [one.difference for one in compared if one.difference is not None]
     known = Vocabulary([*(one.new for one in found), *(one.old for one in found)])

@@ -14,8 +14,8 @@ from sleec_verify.cli.output import write
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Reading, Ruleset
-    from sleec_verify.entailment import Entailment
-    from sleec_verify.scope import Untimed
+    from sleec_verify.encoding.trace_scope import Untimed
+    from sleec_verify.entailment.entailment import Entailment
 
 
 @click.command(
@@ -62,10 +62,10 @@ def ask(
     untimed: Untimed,
 ) -> tuple[Ruleset, Context, Entailment]:
     """The ruleset (its rules in `domain`), the situation that the options describe, and what is due in it."""
-    from sleec_verify.chains import chain
-    from sleec_verify.entailment import entail
-    from sleec_verify.schedule import schedule
-    from sleec_verify.situation import parse_situation
+    from sleec_verify.entailment.consequence_tree import chain
+    from sleec_verify.entailment.entailment import entail
+    from sleec_verify.entailment.schedule import schedule
+    from sleec_verify.entailment.situation_text import parse_situation
 
     ruleset = one_ruleset(path, reading, domain)
     context = parse_situation(ruleset, ",".join(when), ",".join(given))

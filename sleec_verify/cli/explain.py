@@ -13,7 +13,7 @@ from sleec_verify.cli.output import write
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading
-    from sleec_verify.scope import Untimed
+    from sleec_verify.encoding.trace_scope import Untimed
 
 
 @click.command(

@@ -8,12 +8,12 @@ from sleec_runtime.errors import SleecError
 from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import Ruleset
 from sleec_verify.cli import exits, options
-from sleec_verify.cli.files import write_whole
 from sleec_verify.cli.inputs import files
 from sleec_verify.cli.output import complain, note_link, tell, write_data, write_line
-from sleec_verify.internal_error import internal_errors_of
+from sleec_verify.files.placement import write_whole
 from sleec_verify.report.escape import as_line
 from sleec_verify.report.outcome import Unusable, counted
+from sleec_verify.results.internal_error import internal_errors_of
 
 
 @click.command(

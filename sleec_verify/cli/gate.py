@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING
 import click
 
 from sleec_runtime.errors import SleecError
-from sleec_runtime.files import read_file
+from sleec_runtime.support.files import read_file
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.output import complain, note_link, tell, write
-from sleec_verify.folders import SUFFIX
+from sleec_verify.files.folders import SUFFIX
 from sleec_verify.report import FORMATS
 
 if TYPE_CHECKING:
-    from sleec_verify.gate import Asserting, Check
-    from sleec_verify.gate.config import Config
-    from sleec_verify.gate.keys import Target
-    from sleec_verify.gate.result import Gated
-    from sleec_verify.gate.settings import Settings
-    from sleec_verify.repository import Repository
-    from sleec_verify.scope import Untimed
+    from sleec_verify.changes.gate import Asserting, Check
+    from sleec_verify.changes.gate.config import Config
+    from sleec_verify.changes.gate.keys import Target
+    from sleec_verify.changes.gate.result import Gated
+    from sleec_verify.changes.gate.settings import Settings
+    from sleec_verify.changes.revisions.repository import Repository
+    from sleec_verify.encoding.trace_scope import Untimed
 
 STEP_SUMMARY = "GITHUB_STEP_SUMMARY"
 
@@ -90,12 +90,12 @@ def command(
 
     Exit codes: 0 passed; 1 something blocks; 2 something cannot be read or set so; 3 something is not decided.
     """
-    from sleec_verify.commits import NOW, commit, merge_base
-    from sleec_verify.gate import evidence, gate
-    from sleec_verify.gate.changes import policy_changes
-    from sleec_verify.gate.settings import config_of, no_config, read_sides
-    from sleec_verify.repository import Repository
-    from sleec_verify.tree import Tree
+    from sleec_verify.changes.gate import evidence, gate
+    from sleec_verify.changes.gate.settings import config_of, no_config, read_sides
+    from sleec_verify.changes.gate.settings_changes import policy_changes
+    from sleec_verify.changes.revisions.commits import NOW, commit, merge_base
+    from sleec_verify.changes.revisions.repository import Repository
+    from sleec_verify.changes.revisions.single_file import Tree
 
     repository = Repository(note_link)
     now = Tree(repository)
@@ -121,7 +121,7 @@ def command(
     also = [] if paths else _selected(sides.change.config) - _selected(config)
     versions = repository.versions((name, shared), (NOW, None), chosen, also)
     if output is not None:
-        from sleec_verify.cli.files import require_writable
+        from sleec_verify.files.placement import require_writable
 
         require_writable(output, (one.new.name for one in versions if one.new is not None))
     beside = {path for one in versions for path in evidence(one.path, policy)}
@@ -152,7 +152,7 @@ def command(
 
 def _check(untimed: Untimed, no_cache: bool) -> Check:
     """Checks a ruleset as `check` does, and keeps what it decided where that does."""
-    from sleec_verify.cli.cached import cache_of_environment, results
+    from sleec_verify.cli.cached_checks import cache_of_environment, results
 
     cache = None if no_cache else cache_of_environment()
     return lambda ruleset: results(ruleset, None, untimed, cache)
@@ -165,15 +165,15 @@ def _report(found: Gated, form: str, output: str | None) -> None:
     if output is None:
         write(render(found, form, Palette.of(sys.stdout)))
         return
-    from sleec_verify.cli.files import write_whole
+    from sleec_verify.files.placement import write_whole
 
     write_whole(output, "".join(render(found, form, PLAIN)).encode("utf-8", "surrogateescape"))
     tell(f"{output}: {verdict(found, PLAIN)}")
 
 
 def _asserting(settings: Settings, texts: Sequence[str]) -> Asserting:
-    from sleec_verify.gate import Asserting
-    from sleec_verify.gate.keys import is_assertion
+    from sleec_verify.changes.gate import Asserting
+    from sleec_verify.changes.gate.keys import is_assertion
 
     return Asserting([*texts, *filter(is_assertion, settings.config.assertions)], [*settings.assertions.values()])
 
@@ -196,7 +196,7 @@ def _targets(base: Config, own: Config, repository: Repository) -> list[Target]:
 
 def _check_files(output: str | None, summary: str | None) -> None:
     """Before anything is done: files must be such as can be written, and what is no summary is not replaced by one."""
-    from sleec_verify.cli.files import require_writable
+    from sleec_verify.files.placement import require_writable
     from sleec_verify.report.gate import MARK
 
     for path in (output, summary):
@@ -216,7 +216,7 @@ def _summarize(found: Gated, path: str | None) -> None:
     step = os.environ.get(STEP_SUMMARY)
     if path is None and not step:
         return
-    from sleec_verify.cli.files import write_whole
+    from sleec_verify.files.placement import write_whole
     from sleec_verify.report.gate import markdown
 
     text = markdown(found)

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import SleecError, UnreadableFile
 from sleec_runtime.language import load
-from sleec_runtime.language.suggest import nearest
+from sleec_runtime.language.common.suggestions import nearest
 from sleec_verify.cli.output import note, note_link
-from sleec_verify.folders import SUFFIX, rulesets_below
-from sleec_verify.internal_error import internal_errors_of
+from sleec_verify.files.folders import SUFFIX, rulesets_below
 from sleec_verify.report.outcome import Unusable
-from sleec_verify.report.words import listed, shortened
+from sleec_verify.results.internal_error import internal_errors_of
+from sleec_verify.results.phrases import listed, shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset

@@ -7,9 +7,9 @@ from typing import Any, TypeVar
 
 import click
 
-from sleec_runtime.files import DEFAULT_MAX_SIZE, size_limit
+from sleec_runtime.support.files import DEFAULT_MAX_SIZE, size_limit
 from sleec_verify.cli.sizes import size_in_bytes
-from sleec_verify.finding import SEVERITIES
+from sleec_verify.results.finding import SEVERITIES
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -90,7 +90,7 @@ class _Seconds(click.FloatRange):
 def _within(context: click.Context, parameter: click.Parameter, seconds: float | None) -> None:
     del parameter
     if seconds is not None:
-        from sleec_verify.budget import limited
+        from sleec_verify.encoding.budget import limited
 
         context.find_root().with_resource(limited(seconds))
 

@@ -27,7 +27,7 @@ def report(outcomes: Sequence[Outcome], form: str, output: str | None) -> None:
     if output is None:
         write(renderer(form)(outcomes, Palette.of(sys.stdout)))
         return
-    from sleec_verify.cli.files import write_whole
+    from sleec_verify.files.placement import write_whole
     from sleec_verify.report.outcome import in_short
 
     write_whole(output, "".join(renderer(form)(outcomes, PLAIN)).encode("utf-8", "surrogateescape"))
@@ -52,7 +52,7 @@ def write_data(parts: Iterable[str]) -> None:
     Names of files are written with the bytes that they have. A terminal gets escapes for what would steer it.
     """
     if sys.stdout.isatty():
-        from sleec_runtime.messages import escaped
+        from sleec_runtime.support.messages import escaped
 
         parts = (escaped(part, "\t\r\n") for part in parts)
     sys.stdout.flush()

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import TYPE_CHECKING
 
-from sleec_runtime.messages import escaped
+from sleec_runtime.support.messages import escaped
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar

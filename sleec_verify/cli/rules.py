@@ -58,7 +58,7 @@ _ByCode = Mapping[str, Entry]
 def _matching(kinds: _ByCode, code: str) -> _ByCode:
     wanted = {c: entry for c, entry in kinds.items() if code.upper() == c or code == entry.check}
     if not wanted:
-        from sleec_verify.report.words import shortened
+        from sleec_verify.results.phrases import shortened
 
         near = _near(kinds, code)
         hint = f"did you mean {near}?" if near else "`sleec-verify rules` lists all of them"
@@ -69,7 +69,7 @@ def _matching(kinds: _ByCode, code: str) -> _ByCode:
 def _near(kinds: _ByCode, code: str) -> str | None:
     """The code or check that was meant. Codes of another hundred are about something else, though a digit or two away:
     of these only a slip of one letter is near."""
-    from sleec_runtime.language.suggest import edits, nearest
+    from sleec_runtime.language.common.suggestions import edits, nearest
 
     written = code.upper()
     same = [c for c in kinds if c[:-2] == written[:-2]]

@@ -7,12 +7,12 @@ from itertools import islice
 from typing import NamedTuple
 
 from sleec_runtime.model import Context, Formula, Never, Rule, formulas_of
-from sleec_verify.clashes import Constraint
 from sleec_verify.conformance.failure import Nonconformance, difference, situation_text
+from sleec_verify.conformance.feasible_contexts import Assumptions
 from sleec_verify.conformance.oracle import Expected, Oracle
-from sleec_verify.conformance.possible import Assumptions
 from sleec_verify.conformance.regions import LIMIT, Given, context_of, contexts, givens, size
 from sleec_verify.conformance.subject import Bench, Running
+from sleec_verify.query.inconsistent_sets import Constraint
 
 SAMPLED = 500
 """Contexts of a rule that has too many for all."""

@@ -8,8 +8,8 @@ from sleec_runtime.errors import VariantsFailed
 from sleec_runtime.model import Context
 from sleec_verify.conformance.exhaustive import first_contexts, tried
 from sleec_verify.conformance.failure import Nonconformance
+from sleec_verify.conformance.feasible_contexts import Assumptions
 from sleec_verify.conformance.oracle import Expected
-from sleec_verify.conformance.possible import Assumptions
 from sleec_verify.conformance.subject import Bench, Running
 
 MOST = 8

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from itertools import islice
 
 from sleec_runtime.model import Assume, Context, Exclusive, Never, Obligation, Rule, Ruleset
-from sleec_runtime.untimed import require_untimed
-from sleec_verify.clashes import Clash, clashes
-from sleec_verify.entailment import Definition1
+from sleec_runtime.model.untimed import require_untimed
+from sleec_verify.entailment.entailment import Definition1
+from sleec_verify.query.inconsistent_sets import Clash, clashes
 
 _KEPT = 512
 """Compiled sets of triggers that are kept. A suite asks of the same few again and again."""

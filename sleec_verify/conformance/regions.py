@@ -25,7 +25,7 @@ from sleec_runtime.model import (
     leaves,
     measures_of,
 )
-from sleec_verify.calculations import calculations_in, unsupported
+from sleec_verify.encoding.calculations import calculations_in, unsupported
 
 LIMIT = 2**16
 """Contexts that a test goes through one by one; a rule with more is sampled. Sixteen conditions are within it."""

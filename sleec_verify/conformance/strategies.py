@@ -12,7 +12,7 @@ from fractions import Fraction
 from hypothesis import strategies as st
 
 from sleec_runtime.model import Assume, Context, Formula, Never, Ruleset, Value, formulas_of
-from sleec_verify.conformance.possible import Assumptions
+from sleec_verify.conformance.feasible_contexts import Assumptions
 from sleec_verify.conformance.regions import constants, values_of
 from sleec_verify.conformance.rulesets import formulas, rulesets
 

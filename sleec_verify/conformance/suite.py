@@ -28,8 +28,8 @@ def _together(bench: Bench, examples: int) -> None:
     from hypothesis import given
 
     from sleec_verify.conformance.exhaustive import tried
+    from sleec_verify.conformance.simultaneous_triggers import each_two
     from sleec_verify.conformance.strategies import contexts
-    from sleec_verify.conformance.together import each_two
 
     each_two(bench)
 
@@ -54,7 +54,7 @@ def _changes(bench: Bench, examples: int) -> None:
 
 
 def _whole_changes(bench: Bench, examples: int) -> object:
-    from sleec_verify.conformance.atomic import whole_changes
+    from sleec_verify.conformance.atomicity import whole_changes
 
     return whole_changes(bench)
 
@@ -66,7 +66,7 @@ def _exceptions(bench: Bench, examples: int) -> object:
 
 
 def _replacement(bench: Bench, examples: int) -> object:
-    from sleec_verify.conformance.replacing import replaced
+    from sleec_verify.conformance.ruleset_replacement import replaced
 
     return replaced(bench)
 

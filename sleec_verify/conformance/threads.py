@@ -10,13 +10,13 @@ from contextlib import contextmanager
 from itertools import islice
 
 from sleec_runtime.model import Context
-from sleec_verify.conformance.atomic import justified_by_one
+from sleec_verify.conformance.atomicity import justified_by_one
+from sleec_verify.conformance.distinguishing_pairs import Pair, pairs
 from sleec_verify.conformance.exhaustive import SAMPLED, groups, situations, tried
 from sleec_verify.conformance.failure import Nonconformance
+from sleec_verify.conformance.feasible_contexts import Assumptions
 from sleec_verify.conformance.oracle import Expected, Oracle
-from sleec_verify.conformance.possible import Assumptions
 from sleec_verify.conformance.subject import Bench, Observed, Running
-from sleec_verify.conformance.telling import Pair, pairs
 
 THREADS = 4
 DISPATCHES = 300

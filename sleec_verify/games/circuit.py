@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from sleec_verify.solver import Undecided
+from sleec_verify.encoding.solver import Undecided
 
 TRUE = 1
 FALSE = -1

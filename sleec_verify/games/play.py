@@ -14,15 +14,15 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from sleec_runtime.model import Assume, Exclusive, Rule, Value, formulas_of
-from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
-from sleec_verify.games.agents import is_environments
+from sleec_runtime.model.time import Effect, EventRelation, Lasting, MeasureRelation
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
-from sleec_verify.games.grid import Grid
-from sleec_verify.games.parts import Part
+from sleec_verify.games.decomposition import Part
+from sleec_verify.games.players import is_environments
+from sleec_verify.games.time_grid import Grid
 from sleec_verify.games.values import Scales, Values
 from sleec_verify.traces.demands import Demand, Every, Occurs, seconds
+from sleec_verify.traces.event_conditions import named_atoms
 from sleec_verify.traces.index import Index
-from sleec_verify.traces.naming import named_atoms
 from sleec_verify.traces.relations import Relation, events_of, exclusions, formulas_of_relation
 
 

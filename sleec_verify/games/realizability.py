@@ -12,11 +12,11 @@ from functools import cached_property, partial
 from itertools import islice
 
 from sleec_runtime.model import Rule, Span, Value
-from sleec_runtime.model_time import EventRelation, Lasting
-from sleec_verify.games.parts import Part, parts
+from sleec_runtime.model.time import EventRelation, Lasting
+from sleec_verify.encoding.solver import Undecided
+from sleec_verify.games.decomposition import Part, parts
 from sleec_verify.games.play import Play
-from sleec_verify.games.quantified import Move, winning
-from sleec_verify.solver import Undecided
+from sleec_verify.games.qbf import Move, winning
 from sleec_verify.traces.demands import Occurs
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.induction import impossible_events

@@ -27,9 +27,9 @@ from sleec_runtime.model import (
     Value,
     leaves,
 )
-from sleec_verify.calculations import named
+from sleec_verify.encoding.calculations import named
+from sleec_verify.encoding.solver import Undecided
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
-from sleec_verify.solver import Undecided
 
 _FLIPPED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 

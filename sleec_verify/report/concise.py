@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.outcome import Outcome, Unusable, checked, in_short, one_line
-from sleec_verify.report.words import in_domains, listed
+from sleec_verify.results.phrases import in_domains, listed
 
 if TYPE_CHECKING:
     from sleec_verify.report.palette import Palette

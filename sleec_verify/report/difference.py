@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from sleec_verify.compare.result import by_obligation, relation
+from sleec_verify.changes.compare.result import by_obligation, relation
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.outcome import counted
-from sleec_verify.report.words import given, in_domains, in_short, listed, occurring, quoted, value_text
+from sleec_verify.results.phrases import given, in_domains, in_short, listed, occurring, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Obligation, Ruleset, Source, Span
-    from sleec_verify.assertions import Asked
-    from sleec_verify.compare.result import (
+    from sleec_verify.changes.assertions import Asked
+    from sleec_verify.changes.compare.result import (
         Change,
         ConflictChange,
         Deciding,
@@ -23,9 +23,9 @@ if TYPE_CHECKING:
         Relation,
         SituationChange,
     )
-    from sleec_verify.diagram import Part
-    from sleec_verify.finding import Witness
+    from sleec_verify.changes.decision_diagram import Part
     from sleec_verify.report.palette import Palette
+    from sleec_verify.results.finding import Witness
 
 
 class Compared(NamedTuple):
@@ -313,7 +313,7 @@ def on_assertions(asked: Sequence[Asked], palette: Palette) -> Iterator[str]:
     """The lines on all assertions."""
     if not asked:
         return
-    from sleec_verify.assertions import Broken
+    from sleec_verify.changes.assertions import Broken
 
     for assertion, ruleset, answer in asked:
         path = ruleset.source.path
@@ -341,7 +341,7 @@ def _in_all(report: Report, palette: Palette) -> str:
 
 
 def _concise(report: Report, palette: Palette) -> Iterator[str]:
-    from sleec_verify.assertions import Broken
+    from sleec_verify.changes.assertions import Broken
 
     for found in report.differences:
         path = found.new.source.path

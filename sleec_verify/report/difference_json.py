@@ -6,15 +6,22 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify import __version__
-from sleec_verify.assertions import Broken
-from sleec_verify.compare.result import by_obligation
+from sleec_verify.changes.assertions import Broken
+from sleec_verify.changes.compare.result import by_obligation
 from sleec_verify.report.json import dump, error_json, span_json, witness_json
-from sleec_verify.report.words import in_short
+from sleec_verify.results.phrases import in_short
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
-    from sleec_verify.assertions import Asked
-    from sleec_verify.compare.result import Change, ConflictChange, Deciding, Difference, Extent, SituationChange
+    from sleec_verify.changes.assertions import Asked
+    from sleec_verify.changes.compare.result import (
+        Change,
+        ConflictChange,
+        Deciding,
+        Difference,
+        Extent,
+        SituationChange,
+    )
     from sleec_verify.report.difference import Compared, Report
     from sleec_verify.report.json import Json
     from sleec_verify.report.palette import Palette

@@ -6,16 +6,16 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume
-from sleec_verify.chains import lines
+from sleec_verify.entailment.consequence_tree import lines
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.full import finding_lines
-from sleec_verify.report.words import listed, quoted, value_text
+from sleec_verify.results.phrases import listed, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Ruleset
-    from sleec_runtime.model_time import Relation
-    from sleec_verify.chains import Step
-    from sleec_verify.entailment import Entailment
+    from sleec_runtime.model.time import Relation
+    from sleec_verify.entailment.consequence_tree import Step
+    from sleec_verify.entailment.entailment import Entailment
     from sleec_verify.report.json import Json
     from sleec_verify.report.palette import Palette
 

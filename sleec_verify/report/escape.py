@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from functools import wraps
 from typing import TypeVar
 
-from sleec_runtime.messages import escaped
+from sleec_runtime.support.messages import escaped
 from sleec_verify.report.palette import painted
 
 _Arguments = TypeVar("_Arguments", bound=Callable[..., Iterator[str]])

@@ -9,11 +9,11 @@ from sleec_verify.report.entailment import caveats, once_done, scheduled
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.outcome import counted
-from sleec_verify.report.words import context_text, listed, quoted, value_text
+from sleec_verify.results.phrases import context_text, listed, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Formula, Rule, Ruleset, Span
-    from sleec_verify.entailment import Because, Consequence, Decided, Entailment
+    from sleec_verify.entailment.entailment import Because, Consequence, Decided, Entailment
     from sleec_verify.report.palette import Palette
 
 

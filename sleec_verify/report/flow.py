@@ -6,13 +6,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.model import Atom, Exclusive, formulas_of, leaves, measures_of
-from sleec_verify.report.words import listed, quoted, value_text
+from sleec_verify.results.phrases import listed, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Formula, Ruleset, Source, Span, Value
-    from sleec_verify.finding import Finding
     from sleec_verify.games.realizability import Strategy
-    from sleec_verify.timeline import Moment
+    from sleec_verify.results.finding import Finding
+    from sleec_verify.results.timeline import Moment
 
 
 class Step(NamedTuple):
@@ -116,7 +116,7 @@ def _places(formulas: Iterable[Formula]) -> dict[str, Span]:
 
 
 def _clauses(ruleset: Ruleset, finding: Finding) -> Iterator[Step]:
-    from sleec_runtime.model_time import described
+    from sleec_runtime.model.time import described
 
     for label, number in finding.clauses:
         clause = list(ruleset.by_label[label].clauses())[number]

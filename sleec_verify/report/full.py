@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from sleec_verify.finding import SEVERITIES
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.excerpt import Mark, excerpt
 from sleec_verify.report.outcome import Checked, Outcome, Unusable, counted, one_line, tally, told_of
-from sleec_verify.report.words import listed, witness_text
+from sleec_verify.results.finding import SEVERITIES
+from sleec_verify.results.phrases import listed, witness_text
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Source
-    from sleec_verify.finding import Finding
+    from sleec_verify.encoding.trace_scope import Untimed
     from sleec_verify.report.palette import Palette
-    from sleec_verify.scope import Untimed
+    from sleec_verify.results.finding import Finding
 
 
 @as_text

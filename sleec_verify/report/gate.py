@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from sleec_runtime.messages import escaped
+from sleec_runtime.support.messages import escaped
 from sleec_verify.report.difference import WORDS, change_in_words, conflict_in_words, extent_text, witness_text
 from sleec_verify.report.escape import as_line, as_text
 from sleec_verify.report.outcome import counted, one_line
-from sleec_verify.report.told import told_once
-from sleec_verify.report.words import in_domains, in_short, listed
+from sleec_verify.results.deduplication import told_once
+from sleec_verify.results.phrases import in_domains, in_short, listed
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
-    from sleec_verify.compare import Change, ConflictChange, Deciding, Difference
-    from sleec_verify.gate.result import Block, Examined, Gated, Status
+    from sleec_verify.changes.compare import Change, ConflictChange, Deciding, Difference
+    from sleec_verify.changes.gate.result import Block, Examined, Gated, Status
     from sleec_verify.report.palette import Palette
 
 MARK = "<!-- written by sleec-verify gate -->"
@@ -112,7 +112,7 @@ def _set_aside(one: Examined, palette: Palette) -> Iterator[str]:
     if one.known:
         yield f"{one.path}: {palette('faint', 'baseline')}: {counted(len(one.known), 'finding')} that the baseline has"
     if one.certificate is not None and not isinstance(one.certificate, str):
-        from sleec_verify.certificates.telling import covered
+        from sleec_verify.certificates.rendering import covered
 
         yield f"{one.path}: {palette('faint', 'certificate')}: it holds ({covered(one.certificate.whole)})"
     for unused in one.unused:

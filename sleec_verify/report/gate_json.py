@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from sleec_runtime.spans import NOWHERE
+from sleec_runtime.model.spans import NOWHERE
 from sleec_verify import __version__
 from sleec_verify.report.json import VERDICTS, dump, error_json, finding_json, span_json, witness_json
 
 if TYPE_CHECKING:
-    from sleec_runtime.manifest import Manifest
+    from sleec_runtime.certificate.manifest import Manifest
     from sleec_runtime.model import Source
-    from sleec_verify.assertions import Asked
-    from sleec_verify.gate.result import Block, Conformed, Examined, Gated
+    from sleec_verify.changes.assertions import Asked
+    from sleec_verify.changes.gate.result import Block, Conformed, Examined, Gated
     from sleec_verify.report.json import Json
     from sleec_verify.report.palette import Palette
 
@@ -88,7 +88,7 @@ def _examined(one: Examined) -> Json:
 def _certificate(found: Manifest | str | None) -> Json:
     if found is None or isinstance(found, str):
         return None
-    from sleec_verify.certificates.telling import stated
+    from sleec_verify.certificates.rendering import stated
 
     return stated(found.whole)
 

@@ -7,14 +7,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Ruleset
-from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
-from sleec_verify.gate.result import POLICY_CHANGES
+from sleec_verify.changes.gate.result import POLICY_CHANGES
 from sleec_verify.report.outcome import Checked, Outcome, Unusable
+from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Source
-    from sleec_verify.gate.result import Conformed, Examined, Gated
+    from sleec_verify.changes.gate.result import Conformed, Examined, Gated
 
 _OWN = ("findings", "dead-hedges")
 """Policies whose reasons to block are findings, which are there already."""

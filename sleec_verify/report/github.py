@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from sleec_runtime.messages import escaped
-from sleec_verify.internal_error import InternalError
+from sleec_runtime.support.messages import escaped
 from sleec_verify.report.outcome import Checked, Outcome, in_short
 from sleec_verify.report.plain import described, in_project, troubles
+from sleec_verify.results.internal_error import InternalError
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Place
-    from sleec_verify.finding import Severity
     from sleec_verify.report.palette import Palette
+    from sleec_verify.results.finding import Severity
 
 _COMMANDS: Mapping[Severity, str] = {"error": "error", "warning": "warning", "note": "notice"}
 

@@ -12,8 +12,8 @@ from sleec_verify.report.plain import described, in_project, located, troubles
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Place
-    from sleec_verify.finding import Severity
     from sleec_verify.report.palette import Palette
+    from sleec_verify.results.finding import Severity
 
 _SEVERITIES: Mapping[Severity, str] = {"error": "critical", "warning": "major", "note": "info"}
 

@@ -7,17 +7,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Union
 
 from sleec_verify import __version__
-from sleec_verify.finding import Proved, Refuted, Unknown
 from sleec_verify.report.escape import without_commands
 from sleec_verify.report.outcome import Outcome, Unusable, checked, one_line, tally
+from sleec_verify.results.finding import Proved, Refuted, Unknown
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Source, Span, Value
-    from sleec_verify.finding import CheckResult, Finding, Witness
     from sleec_verify.games.realizability import Strategy
     from sleec_verify.report.palette import Palette
-    from sleec_verify.timeline import Timeline
+    from sleec_verify.results.finding import CheckResult, Finding, Witness
+    from sleec_verify.results.timeline import Timeline
 
 Json = Union[None, bool, int, float, str, "list[Json]", "dict[str, Json]"]
 

@@ -11,17 +11,17 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from sleec_runtime.messages import escaped
-from sleec_verify.finding import SEVERITIES, Refuted, Unknown
+from sleec_runtime.support.messages import escaped
 from sleec_verify.report.escape import without_commands
 from sleec_verify.report.outcome import Checked, Outcome
 from sleec_verify.report.plain import described, in_project, troubles
+from sleec_verify.results.finding import SEVERITIES, Refuted, Unknown
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Source
-    from sleec_verify.finding import CheckResult, Finding
     from sleec_verify.report.outcome import Unusable
     from sleec_verify.report.palette import Palette
+    from sleec_verify.results.finding import CheckResult, Finding
 
 _NOT_IN_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 

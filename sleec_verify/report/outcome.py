@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Union
 
-from sleec_verify.finding import SEVERITIES, Unknown
-from sleec_verify.report.told import told_once
+from sleec_verify.results.deduplication import told_once
+from sleec_verify.results.finding import SEVERITIES, Unknown
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Ruleset
-    from sleec_verify.finding import CheckResult, Finding, Severity
-    from sleec_verify.scope import Untimed
+    from sleec_verify.encoding.trace_scope import Untimed
+    from sleec_verify.results.finding import CheckResult, Finding, Severity
 
 
 class Checked(NamedTuple):

@@ -6,12 +6,12 @@ import os
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-from sleec_verify.report.words import listed, witness_text
+from sleec_verify.results.phrases import listed, witness_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Place, Source
-    from sleec_verify.finding import Finding
     from sleec_verify.report.outcome import Checked, Unusable
+    from sleec_verify.results.finding import Finding
 
 
 class Located(NamedTuple):

@@ -16,12 +16,12 @@ from sleec_verify.report.flow import steps
 from sleec_verify.report.json import Json, dump
 from sleec_verify.report.outcome import Outcome, Unusable, checked
 from sleec_verify.report.plain import Located, described, in_project, located, troubles
-from sleec_verify.report.words import value_text
+from sleec_verify.results.phrases import value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Place, Ruleset, Source, Span
-    from sleec_verify.finding import Severity
     from sleec_verify.report.palette import Palette
+    from sleec_verify.results.finding import Severity
 
 _Object = dict[str, Json]
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -79,7 +79,7 @@ def _descriptors(codes: set[str], undecided: set[str]) -> list[_Object]:
     asked = dict(questions())
     others = codes - by_code().keys()
     if others or undecided - asked.keys():  # what only a gate asks for
-        from sleec_verify.gate.policy import POLICIES
+        from sleec_verify.changes.gate.policy import POLICIES
 
         asked |= POLICIES
         descriptors += ({"id": name, "shortDescription": _message(asked[name])} for name in sorted(others))

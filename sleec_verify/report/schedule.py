@@ -6,12 +6,12 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify.report.timeline import chart_of, duration
-from sleec_verify.report.words import quoted
+from sleec_verify.results.phrases import quoted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context
+    from sleec_verify.entailment.schedule import Entry
     from sleec_verify.report.json import Json
-    from sleec_verify.schedule import Entry
 
 
 def in_words(entries: Sequence[Entry]) -> Iterator[str]:
@@ -60,7 +60,7 @@ def _by(entry: Entry) -> str:
 
 def chart(entries: Sequence[Entry], context: Context) -> list[str]:
     """The windows that count from the situation, with a column for each time at which one opens or closes."""
-    from sleec_verify.timeline import Due, Moment, Timeline
+    from sleec_verify.results.timeline import Due, Moment, Timeline
 
     now = [entry for entry in entries if entry.after is None and entry.start is not None]
     dues = tuple(

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from sleec_verify.report.timeline import duration
-from sleec_verify.report.words import listed, quoted, value_text
+from sleec_verify.results.phrases import listed, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_verify.games.realizability import Act, Branch, Strategy

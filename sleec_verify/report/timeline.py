@@ -15,10 +15,10 @@ from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from sleec_verify.report.words import listed, quoted, value_text
+from sleec_verify.results.phrases import listed, quoted, value_text
 
 if TYPE_CHECKING:
-    from sleec_verify.timeline import Due, Moment, Timeline
+    from sleec_verify.results.timeline import Due, Moment, Timeline
 
 _UNITS = ((86400, "day"), (3600, "hour"), (60, "minute"), (1, "second"))
 

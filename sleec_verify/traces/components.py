@@ -11,12 +11,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from sleec_runtime.model import Obligation, Rule, formulas_of, literals, names_of
-from sleec_runtime.model_time import RELATIONS, MeasureRelation
-from sleec_verify.solver import Undecided
+from sleec_runtime.model.time import RELATIONS, MeasureRelation
+from sleec_verify.encoding.solver import Undecided
+from sleec_verify.encoding.union_find import UnionFind
+from sleec_verify.traces.event_conditions import is_of_state
 from sleec_verify.traces.index import Index
-from sleec_verify.traces.naming import is_of_state
 from sleec_verify.traces.relations import Relation, events_of, formulas_of_relation
-from sleec_verify.union_find import UnionFind
 
 
 def components(index: Index) -> list[Index]:

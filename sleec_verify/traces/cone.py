@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from sleec_runtime.model import Formula, Rule, formulas_of
-from sleec_verify.scope import responses_of
+from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.relations import Name, Relation, holds_of_nothing, may_require, names_in, names_of_relation
 

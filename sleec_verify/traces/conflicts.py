@@ -13,12 +13,12 @@ from functools import cached_property
 from typing import NamedTuple
 
 from sleec_runtime.model import Rule, Value
-from sleec_verify.budget import OutOfBudget, Undecided
+from sleec_verify.encoding.budget import OutOfBudget, Undecided
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import minimal_rules, weakest, without_slots
+from sleec_verify.traces.event_conditions import event_of, is_of_state, named_atoms
 from sleec_verify.traces.histories import Histories
 from sleec_verify.traces.index import Index
-from sleec_verify.traces.naming import event_of, is_of_state, named_atoms
 from sleec_verify.traces.refinement import Refinement
 from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.timeline import Moment

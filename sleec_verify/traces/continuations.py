@@ -6,10 +6,10 @@ from collections.abc import Collection, Iterable
 from functools import cached_property
 
 from sleec_runtime.model import Clause, Obligation
-from sleec_runtime.model_time import Lasting
+from sleec_runtime.model.time import Lasting
 from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
 from sleec_verify.traces.induction import InductiveModel
-from sleec_verify.traces.pending import Slot
+from sleec_verify.traces.pending_demands import Slot
 from sleec_verify.traces.relations import relation_key
 from sleec_verify.traces.situations import Fact, Situations, state_formulas
 

@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from typing import Protocol
 
-from sleec_verify.budget import OutOfBudget, Undecided
+from sleec_verify.encoding.budget import OutOfBudget, Undecided
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.situations import Fact, Situations
 

@@ -14,9 +14,9 @@ from math import ceil, floor
 from typing import NamedTuple, Union
 
 from sleec_runtime.model import Clause, Obligation, Rational, in_text_order
-from sleec_runtime.model_time import Length, Window
-from sleec_verify.scope import Untimed
-from sleec_verify.solver import Undecided
+from sleec_runtime.model.time import Length, Window
+from sleec_verify.encoding.solver import Undecided
+from sleec_verify.encoding.trace_scope import Untimed
 
 
 class Occurs(NamedTuple):

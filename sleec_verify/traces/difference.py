@@ -11,7 +11,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from sleec_verify.budget import spend
+from sleec_verify.encoding.budget import spend
 
 PER_EDGE = 4
 """Steps of a budget for each difference that is compared with the others."""

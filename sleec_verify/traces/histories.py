@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 
 from sleec_runtime.model import Rule
-from sleec_runtime.model_time import Lasting
-from sleec_verify.budget import OutOfBudget, Undecided
+from sleec_runtime.model.time import Lasting
+from sleec_verify.encoding.budget import OutOfBudget, Undecided
 from sleec_verify.traces.demands import Demand, Every, Occurs
 from sleec_verify.traces.model import TraceModel
-from sleec_verify.traces.pending import Slot
+from sleec_verify.traces.pending_demands import Slot
 from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.timeline import Moment
 

@@ -20,11 +20,11 @@ from sleec_runtime.model import (
     Ruleset,
     in_text_order,
 )
-from sleec_runtime.model_time import RELATIONS
-from sleec_verify.scope import Untimed, responses_of
-from sleec_verify.solver import Recorder
+from sleec_runtime.model.time import RELATIONS
+from sleec_verify.encoding.solver import Recorder
+from sleec_verify.encoding.trace_scope import Untimed, responses_of
 from sleec_verify.traces.demands import Occurs, Responses, occurrences
-from sleec_verify.traces.naming import named_events, with_states
+from sleec_verify.traces.event_conditions import named_events, with_states
 from sleec_verify.traces.relations import Name, Relation, events_of, names_of_relation, relation_key, required_events
 
 _Indexed = TypeVar("_Indexed", Rule, Relation)
@@ -57,7 +57,7 @@ class Index:
 
     @cached_property
     def stated(self) -> Index:
-        """The same with states in place of the inputs that conditions name (`sleec_verify.traces.naming`)."""
+        """The same with states in place of the inputs that conditions name (`sleec_verify.traces.event_conditions`)."""
         ruleset = with_states(self.ruleset, self.mere_inputs)
         return self if ruleset is self.ruleset else Index(ruleset, self.untimed, self.recorder)
 
@@ -127,8 +127,8 @@ class Index:
 
     @cached_property
     def free(self) -> frozenset[str]:
-        """The events that are free (`sleec_verify.traces.freedom`)."""
-        from sleec_verify.traces.freedom import free_events
+        """The events that are free (`sleec_verify.traces.trivial_responses`)."""
+        from sleec_verify.traces.trivial_responses import free_events
 
         return free_events(self)
 
@@ -137,7 +137,7 @@ class Index:
 
         Raises Undecided for a window whose length a measure gives.
         """
-        from sleec_verify.traces.freedom import is_always_met
+        from sleec_verify.traces.trivial_responses import is_always_met
 
         known = self._contested.get(id(clause))
         if known is None or known[0] is not clause:

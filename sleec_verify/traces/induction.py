@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from sleec_verify.budget import OutOfBudget, Undecided
+from sleec_verify.encoding.budget import OutOfBudget, Undecided
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.model import TraceModel
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from sleec_runtime.model import Measure
-from sleec_verify.cnf import Encoder, Key
+from sleec_verify.encoding.cnf import Encoder, Key
 
 
 class Formula:

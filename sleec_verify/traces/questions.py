@@ -7,12 +7,12 @@ from contextlib import suppress
 from typing import NamedTuple
 
 from sleec_runtime.model import Formula, Rule, formulas_of
-from sleec_runtime.model_time import Claim
-from sleec_verify.beside_rules import add_claim
-from sleec_verify.budget import begin
-from sleec_verify.scope import responses_of
-from sleec_verify.solver import Undecided
-from sleec_verify.timeline import Timeline
+from sleec_runtime.model.time import Claim
+from sleec_verify.encoding.budget import begin
+from sleec_verify.encoding.mentioned_names import add_claim
+from sleec_verify.encoding.solver import Undecided
+from sleec_verify.encoding.trace_scope import responses_of
+from sleec_verify.results.timeline import Timeline
 from sleec_verify.traces.cone import cone
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.induction import InductiveModel

@@ -6,10 +6,10 @@ SMT: B. Dutertre, "Solving exists/forall problems with Yices", 2015.)
 
 from __future__ import annotations
 
-from sleec_verify.solver import Undecided
+from sleec_verify.encoding.solver import Undecided
+from sleec_verify.traces.blocking import Defeat
 from sleec_verify.traces.continuations import Continuations
-from sleec_verify.traces.defeat import Defeat
-from sleec_verify.traces.pending import most_prohibitions
+from sleec_verify.traces.pending_demands import most_prohibitions
 from sleec_verify.traces.situations import Situations
 from sleec_verify.traces.templates import Template, templates_of
 

@@ -23,9 +23,9 @@ from sleec_runtime.model import (
     leaves,
     measures_of,
 )
-from sleec_runtime.model_time import Effect, EventRelation, Lasting, MeasureRelation
-from sleec_runtime.model_time import Relation as TimedRelation
-from sleec_verify.one_instant import at_every_instant
+from sleec_runtime.model.time import Effect, EventRelation, Lasting, MeasureRelation
+from sleec_runtime.model.time import Relation as TimedRelation
+from sleec_verify.encoding.one_instant import at_every_instant
 from sleec_verify.traces.instant import Instant
 
 Relation = Union[TimedRelation, Exclusive, Never, Assume]

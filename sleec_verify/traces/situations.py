@@ -13,13 +13,13 @@ from collections.abc import Iterable, Iterator
 
 from sleec_runtime.model import Atom, formulas_of, leaves
 from sleec_runtime.model import Formula as Condition
-from sleec_runtime.model_time import EventRelation, Lasting
-from sleec_verify.solver import MiniSat, Undecided
+from sleec_runtime.model.time import EventRelation, Lasting
+from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
 from sleec_verify.traces.difference import Differences
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.instant import Formula, Instant
-from sleec_verify.traces.pending import Pending, Slot, alternatives, pending_of
+from sleec_verify.traces.pending_demands import Pending, Slot, alternatives, pending_of
 from sleec_verify.traces.relations import formulas_of_relation, relation_key
 
 Fact = tuple[object, ...]

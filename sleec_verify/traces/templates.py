@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from sleec_runtime.model import Value
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.demands import Demand, Occurs, conjuncts, simplified
-from sleec_verify.traces.pending import Pending
+from sleec_verify.traces.pending_demands import Pending
 
 
 @dataclass(frozen=True)

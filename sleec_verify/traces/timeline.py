@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from sleec_runtime.evaluation import decide
+from sleec_runtime.evaluation.evaluation import decide
 from sleec_runtime.model import Context, Rule, Value, formulas_of, names_of
-from sleec_runtime.model_time import described
-from sleec_verify import timeline
-from sleec_verify.timeline import Due, Timeline
+from sleec_runtime.model.time import described
+from sleec_verify.encoding.response_windows import Windowed, Windows
+from sleec_verify.results import timeline
+from sleec_verify.results.timeline import Due, Timeline
 from sleec_verify.traces.index import Index
-from sleec_verify.windowed import Windowed, Windows
 
 
 class Moment(NamedTuple):

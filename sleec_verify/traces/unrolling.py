@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 from sleec_runtime.model import Formula as Condition
 from sleec_runtime.model import Value
-from sleec_verify.solver import MiniSat, Undecided
+from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.traces.difference import Differences
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.instant import Formula, Instant

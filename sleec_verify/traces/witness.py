@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from sleec_runtime import model
-from sleec_runtime.evaluation import holds
+from sleec_runtime.evaluation.evaluation import holds
 from sleec_runtime.model import Assume, Context, Value, names_of
-from sleec_runtime.model_time import MeasureRelation
-from sleec_verify.cnf import Key
-from sleec_verify.one_instant import at_every_instant
-from sleec_verify.solver import MiniSat
+from sleec_runtime.model.time import MeasureRelation
+from sleec_verify.encoding.cnf import Key
+from sleec_verify.encoding.one_instant import at_every_instant
+from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import as_far_as_decided
 from sleec_verify.traces.instant import Formula, Instant

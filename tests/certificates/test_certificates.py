@@ -14,7 +14,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 from benchmarks.random_rules import random_rules
-from sleec_runtime.certificate import Use
+from sleec_runtime.certificate.coverage import Use
 from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import Ruleset
 from sleec_verify.certificates.checker import IN_PYTHON, checker
@@ -24,9 +24,9 @@ from sleec_verify.certificates.making import Certificate, certify
 from sleec_verify.certificates.whole import conflict_free
 from sleec_verify.checks import run_checks
 from sleec_verify.checks.conflict import CONFLICT
-from sleec_verify.cone import Cones
-from sleec_verify.finding import Proved
-from sleec_verify.scope import Untimed
+from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.query.cone import Cones
+from sleec_verify.results.finding import Proved
 from tests.strategies import rulesets
 from tests.timed_strategies import timed_ruleset
 from tests.verify.small import small_rulesets
@@ -141,7 +141,7 @@ def test_assumptions_that_rule_out_everything_are_shown_by_a_proof(tmp_path: Pat
 
 
 def test_an_unknown_verdict_is_listed_as_such(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sleec_verify.clashes.STEPS", 0)
+    monkeypatch.setattr("sleec_verify.query.inconsistent_sets.STEPS", 0)
     ruleset = source("NEVER A AND NOT B\nNEVER B AND C\nRULE a WHEN T THEN A AND C\n", tmp_path)
     manifest = written(ruleset, tmp_path / "c")
     conflict = manifest["checks"][0]

@@ -15,15 +15,15 @@ from typing import Any, NamedTuple
 import pytest
 
 import sleec_runtime
-from sleec_runtime.certificate import Use
+from sleec_runtime.certificate.coverage import Use
 from sleec_runtime.errors import CertificateRefused, ConflictInContext, SleecError
-from sleec_runtime.evaluation import due
+from sleec_runtime.evaluation.evaluation import due
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import READINGS, Context, Reading, Ruleset
 from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.certificates.checking import check_certificate
 from sleec_verify.certificates.making import certify
-from sleec_verify.scope import Untimed
+from sleec_verify.encoding.trace_scope import Untimed
 from tests.certificates.test_certificates import written
 from tests.certificates.test_refused import Manifest, rewrite
 

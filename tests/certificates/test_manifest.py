@@ -15,9 +15,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import sleec_runtime
+from sleec_runtime.certificate.manifest import canonical, parse
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.language import parse as parse_rules
-from sleec_runtime.manifest import canonical, parse
 from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.certificates.checking import check_certificate
 from sleec_verify.certificates.making import certify

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from sleec_runtime.files import read_file
 from sleec_runtime.language import load
+from sleec_runtime.support.files import read_file
 from sleec_verify.certificates.checker import IN_PYTHON, Checker
 from sleec_verify.certificates.checking import check_certificate
 from tests.certificates.test_refused import certified, reasons
@@ -43,7 +43,7 @@ def test_each_file_is_read_once(made: Path, monkeypatch: pytest.MonkeyPatch) -> 
         read.append(os.path.basename(path))
         return read_file(path)
 
-    for module in ("sleec_runtime.certificate", "sleec_verify.certificates.checking"):
+    for module in ("sleec_runtime.certificate.coverage", "sleec_verify.certificates.checking"):
         monkeypatch.setattr(f"{module}.read_file", reading)
     assert reasons(made) == set()
     assert sorted(read) == sorted(path.name for path in (made / "c").iterdir())

@@ -13,10 +13,10 @@ from typing import Any
 
 import pytest
 
-from sleec_runtime.certificate import Use
+from sleec_runtime.certificate.coverage import Use
+from sleec_runtime.certificate.manifest import FORMAT, Required, canonical
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.language import load
-from sleec_runtime.manifest import FORMAT, Required, canonical
 from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.certificates.checking import check_certificate
 from tests.certificates.test_certificates import CONSTRAINED, source, written
@@ -382,7 +382,11 @@ def test_every_reason_is_in_the_docs() -> None:
     page = (ROOT / "docs" / "certificates.md").read_text(encoding="utf-8")
     _, _, section = page.partition("## When it is refused")
     told = set(re.findall(r"^\| `([a-z-]+)` \|", section.partition("\n## ")[0], flags=re.MULTILINE))
-    modules = ("sleec_verify/certificates/checking.py", "sleec_runtime/certificate.py", "sleec_runtime/manifest.py")
+    modules = (
+        "sleec_verify/certificates/checking.py",
+        "sleec_runtime/certificate/coverage.py",
+        "sleec_runtime/certificate/manifest.py",
+    )
     code = "".join((ROOT / name).read_text(encoding="utf-8") for name in modules)
     required = {f"not-{name}" for name in Required._fields}
     assert told == required | set(

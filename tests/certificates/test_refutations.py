@@ -11,7 +11,7 @@ from sleec_verify.certificates import lrat, refutation
 from sleec_verify.certificates.elaboration import Elaborator, Learnt, NotFollowing
 from sleec_verify.certificates.recording import Asked, NoModel, Recorder
 from sleec_verify.certificates.refutation import Disjunction, disjunctions, refute
-from sleec_verify.solver import MiniSat
+from sleec_verify.encoding.solver import MiniSat
 from tests.certificates.formulas import asked, some_question_has_model
 
 

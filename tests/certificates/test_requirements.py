@@ -12,12 +12,12 @@ from typing import Any
 import pytest
 
 import sleec_runtime
+from sleec_runtime.certificate.manifest import Required
 from sleec_runtime.errors import CertificateRefused, SleecError, WrongType
-from sleec_runtime.manifest import Required
 from sleec_verify.certificates.checker import checker
 from sleec_verify.certificates.checking import check_certificate
 from sleec_verify.certificates.making import certify
-from sleec_verify.theory.oracle import built
+from sleec_verify.certificates.theory.oracle import built
 from tests.certificates.test_certificates import source, written
 from tests.cli.conftest import Cli, cli
 from tests.cli.repository import Repository
@@ -43,7 +43,7 @@ def build(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Build:
 
     def choose(proved: bool, tied: bool) -> None:
         monkeypatch.setattr("sleec_verify.certificates.checker.BUILT", judge if proved else tmp_path / "none")
-        monkeypatch.setattr("sleec_verify.theory.oracle.BUILT", oracle if tied else tmp_path / "none")
+        monkeypatch.setattr("sleec_verify.certificates.theory.oracle.BUILT", oracle if tied else tmp_path / "none")
 
     return choose
 

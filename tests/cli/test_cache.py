@@ -15,12 +15,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 import sleec_runtime
-import sleec_verify.cache
+import sleec_verify.cli.cache
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset, Span, Value
-from sleec_verify.cache import Cache
 from sleec_verify.checks import run_checks
-from sleec_verify.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict, Witness
+from sleec_verify.cli.cache import Cache
+from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict, Witness
 from tests.cli.conftest import Cli
 from tests.strategies import rulesets
 
@@ -107,10 +107,10 @@ def test_another_program_decides_anew(
     folder: Path, cli: Cli, solves: Callable[[], int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     cli("check", "a.sleec", files={"a.sleec": CLASH})
-    monkeypatch.setattr("sleec_verify.cache.__version__", "99.0.0")
+    monkeypatch.setattr("sleec_verify.cli.cache.__version__", "99.0.0")
     cli("check", "a.sleec")
     assert solves() == 2
-    monkeypatch.setattr("sleec_verify.cache._program", lambda: "changed")
+    monkeypatch.setattr("sleec_verify.cli.cache._program", lambda: "changed")
     cli("check", "a.sleec")
     assert solves() == 1
     assert len(entries(folder)) == 3
@@ -119,11 +119,11 @@ def test_another_program_decides_anew(
 @pytest.mark.parametrize("changed", ["sleec_runtime", "sleec_verify"])
 def test_a_changed_source_is_another_program(changed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     package = two_packages(tmp_path, monkeypatch)[changed]
-    seen = {sleec_verify.cache._program()}
+    seen = {sleec_verify.cli.cache._program()}
     (package / "checks" / "one.py").write_text("more")
-    seen.add(sleec_verify.cache._program())
+    seen.add(sleec_verify.cli.cache._program())
     (package / "checks" / "two.py").write_text("two")
-    seen.add(sleec_verify.cache._program())
+    seen.add(sleec_verify.cli.cache._program())
     assert len(seen) == 3
 
 
@@ -135,18 +135,18 @@ def test_another_installation_is_another_program(changed: str, tmp_path: Path, m
         info.mkdir()
         (info / "RECORD").write_text(f"{name}/a.py,sha256=a,1\n../bin/x,,\n")
     # It is what the installers recorded, wherever and whenever that was.
-    installed = sleec_verify.cache._program()
+    installed = sleec_verify.cli.cache._program()
     record = packages[changed].with_name(f"{changed}-{sleec_verify.__version__}.dist-info") / "RECORD"
     (packages[changed] / "checks" / "two.py").write_text("two")
     record.write_text(f"{changed}/a.py,sha256=a,1\n../../bin/x,,\n")
-    assert sleec_verify.cache._program() == installed
+    assert sleec_verify.cli.cache._program() == installed
     record.write_text(f"{changed}/a.py,sha256=b,1\n")
-    assert sleec_verify.cache._program() != installed
+    assert sleec_verify.cli.cache._program() != installed
     # Where one of the two runs from its sources, a change of them counts.
     record.unlink()
-    sources = sleec_verify.cache._program()
+    sources = sleec_verify.cli.cache._program()
     (packages[changed] / "checks" / "one.py").write_text("more")
-    assert sleec_verify.cache._program() != sources
+    assert sleec_verify.cli.cache._program() != sources
 
 
 def two_packages(folder: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Path]:
@@ -156,7 +156,7 @@ def two_packages(folder: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Pat
         (package / "checks").mkdir(parents=True)
         (package / "checks" / "one.py").write_text("one")
     monkeypatch.setattr(sleec_runtime, "__file__", str(packages["sleec_runtime"] / "__init__.py"))
-    monkeypatch.setattr(sleec_verify.cache, "__file__", str(packages["sleec_verify"] / "cache.py"))
+    monkeypatch.setattr(sleec_verify, "__file__", str(packages["sleec_verify"] / "__init__.py"))
     return packages
 
 
@@ -262,7 +262,7 @@ def test_a_hash_that_fits_makes_no_sense_of_nonsense(folder: Path, cli: Cli) -> 
         b"[('x', 0.0, None, [{}])]",
         b"\xff",
     ):
-        entry.write_bytes(sleec_verify.cache._head(str(entry), body) + b"\n" + body)
+        entry.write_bytes(sleec_verify.cli.cache._head(str(entry), body) + b"\n" + body)
         ran = cli("check", "a.sleec")
         assert (ran.code, ran.out) == (sound.code, sound.out)
         assert "is broken" in ran.err
@@ -318,7 +318,7 @@ def test_values_are_kept_exactly(tmp_path: Path) -> None:
 def test_any_result_is_kept_as_it_was(ruleset: Ruleset) -> None:
     results = run_checks(ruleset)
     if not any(isinstance(result.verdict, Unknown) for result in results):
-        assert sleec_verify.cache._decoded(sleec_verify.cache._encoded(results)) == results
+        assert sleec_verify.cli.cache._decoded(sleec_verify.cli.cache._encoded(results)) == results
 
 
 def test_unknown_is_asked_again(folder: Path, cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -342,7 +342,7 @@ def test_rules_without_a_text_are_not_kept(tmp_path: Path) -> None:
 
 
 def test_the_oldest_make_room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sleec_verify.cache._MOST", 3)
+    monkeypatch.setattr("sleec_verify.cli.cache._MOST", 3)
     cache = Cache(str(tmp_path), told)
     monkeypatch.setattr(Cache, "_path", lambda self, r, d, u, c: str(tmp_path / "aa" / str(d)))
     ruleset = parse(CLASH)

@@ -14,7 +14,7 @@ import pytest
 
 import sleec_runtime
 import sleec_verify
-from sleec_runtime.files import DEFAULT_MAX_SIZE
+from sleec_runtime.support.files import DEFAULT_MAX_SIZE
 from sleec_verify.cli.commands import sleec_verify as group
 from tests.cli.conftest import Cli
 
@@ -197,13 +197,13 @@ def test_every_command_that_reads_files_has_the_option() -> None:
 
 
 OWN_FILES = {
-    ("sleec_runtime/files.py", "open"),
-    ("sleec_verify/cache.py", "open"),
-    ("sleec_verify/cli/files.py", "open"),
+    ("sleec_runtime/support/files.py", "open"),
+    ("sleec_verify/cli/cache.py", "open"),
+    ("sleec_verify/files/placement.py", "open"),
     ("sleec_verify/cli/gate.py", "open"),
     ("sleec_verify/certificates/checker.py", "read_text"),
-    ("sleec_verify/pytest_plugin.py", "read_text"),
-    ("sleec_verify/temporary.py", "open"),
+    ("sleec_verify/pytest_plugin/__init__.py", "read_text"),
+    ("sleec_verify/files/temporary.py", "open"),
 }
 """Where a file is opened that no user names for reading: results of the cache, what is written, copies of proofs."""
 

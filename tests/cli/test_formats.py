@@ -19,11 +19,11 @@ import pytest
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset, Span
 from sleec_verify.checks import CHECKS, run_checks
-from sleec_verify.finding import SEVERITIES, CheckResult, Finding, Proved, Refuted, Unknown, Witness
 from sleec_verify.report import FORMATS, renderer
 from sleec_verify.report.flow import steps
 from sleec_verify.report.outcome import Checked
 from sleec_verify.report.palette import PLAIN
+from sleec_verify.results.finding import SEVERITIES, CheckResult, Finding, Proved, Refuted, Unknown, Witness
 from tests.cli import test_documents as documents
 from tests.cli.conftest import Cli
 

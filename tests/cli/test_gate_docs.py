@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 import yaml
 
+from sleec_verify.changes.gate.config import Config
+from sleec_verify.changes.gate.keys import Policy
 from sleec_verify.cli.gate import command as gate_command
-from sleec_verify.gate.config import Config
-from sleec_verify.gate.keys import Policy
 from tests.cli.conftest import Cli
 from tests.cli.repository import Repository
 

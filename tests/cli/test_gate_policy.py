@@ -12,7 +12,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from sleec_verify.gate.keys import _POLICIES, _SETTINGS
+from sleec_verify.changes.gate.keys import _POLICIES, _SETTINGS
 from sleec_verify.report import FORMATS
 from tests.cli.conftest import Cli
 from tests.cli.repository import Repository

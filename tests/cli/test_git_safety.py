@@ -169,7 +169,7 @@ def test_an_embedded_repository_is_none(
         assert (outside / "ran").exists(), "git runs it"
         (outside / "ran").unlink()
     if not known:
-        from sleec_verify import git
+        from sleec_verify.changes.revisions import git
 
         settings = tuple(one for one in git.SETTINGS if not one.startswith("safe."))
         assert len(settings) == len(git.SETTINGS) - 1

@@ -331,7 +331,7 @@ def test_data_is_escaped_on_a_terminal_only(command: str, folder: Path) -> None:
     assert "\x1b" not in shown
 
 
-PRINTS = {"cli/output.py": 2, "cli/__init__.py": 2, "cli/watch.py": 1, "theory/theorems.py": 4}
+PRINTS = {"cli/output.py": 2, "cli/__init__.py": 2, "cli/watch.py": 1, "certificates/theory/theorems.py": 4}
 """How often a module prints by itself: what has no text of others in it, and what is escaped right there."""
 
 

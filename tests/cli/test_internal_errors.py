@@ -115,7 +115,7 @@ def test_fmt_lays_out_the_other_files_where_one_cannot_be_written(
     assert (tmp_path / "good.sleec").read_text(encoding="utf-8") == GOOD
 
 
-@pytest.mark.parametrize("target", [PARSING, "sleec_verify.compare.compare"])
+@pytest.mark.parametrize("target", [PARSING, "sleec_verify.changes.compare.compare"])
 @pytest.mark.parametrize("form", ["full", "concise", "json"])
 def test_diff_compares_the_other_files(form: str, target: str, cli: Cli, fail_in: Callable[[str], None]) -> None:
     fail_in(target)
@@ -134,7 +134,7 @@ def test_diff_compares_the_other_files(form: str, target: str, cli: Cli, fail_in
 
 
 def test_diff_asks_the_other_files(cli: Cli, fail_in: Callable[[str], None]) -> None:
-    fail_in("sleec_verify.assertions.ask")
+    fail_in("sleec_verify.changes.assertions.ask")
     files = {f"{side}/{name}": GOOD for side in ("old", "new") for name in FILES}
     ran = cli("diff", "old", "new", "--format", "json", "--assert", "never B when A", files=files)
     assert ran.code == 2
@@ -155,7 +155,8 @@ def repository(tmp_path: Path) -> None:
 
 @pytest.mark.usefixtures("repository")
 @pytest.mark.parametrize(
-    "target", [PARSING, CHECKING, "sleec_verify.gate.examination.compare", "sleec_verify.assertions.ask"]
+    "target",
+    [PARSING, CHECKING, "sleec_verify.changes.gate.examination.compare", "sleec_verify.changes.assertions.ask"],
 )
 @pytest.mark.parametrize("form", FORMATS)
 def test_gate_judges_the_other_files(form: str, target: str, cli: Cli, fail_in: Callable[[str], None]) -> None:
@@ -195,7 +196,7 @@ sleec.implement({"B": print})
     [
         PARSING,
         "sleec_verify.conformance.structure.target._source",
-        "sleec_verify.conformance.structure.whole.findings_on",
+        "sleec_verify.conformance.structure.check.findings_on",
     ],
 )
 def test_conform_writes_a_report(form: str, target: str, cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:

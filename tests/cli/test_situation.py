@@ -8,7 +8,7 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_runtime.model import Measure, Value
-from sleec_verify.situation import SituationError, parse_situation
+from sleec_verify.entailment.situation_text import SituationError, parse_situation
 
 RULES = parse("""\
 MEASURE Risk: low < high

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Atom, leaves
-from sleec_verify.cases.choose import choose_cases
-from sleec_verify.cases.goals import CRITERIA, clause_name, conditions_of
-from sleec_verify.cases.read import read_cases
-from sleec_verify.cases.write import json_text, toml
 from sleec_verify.cli import run
+from sleec_verify.conformance.cases.goals import CRITERIA, clause_name, conditions_of
+from sleec_verify.conformance.cases.reader import read_cases
+from sleec_verify.conformance.cases.selection import choose_cases
+from sleec_verify.conformance.cases.writer import json_text, toml
 from tests import brute
 from tests.strategies import rulesets
 from tests.verify.small import small_rulesets

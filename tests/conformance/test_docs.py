@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from sleec_verify.cases.read import read_cases
 from sleec_verify.conformance import Nonconformance, check_conformance
+from sleec_verify.conformance.cases.reader import read_cases
 from sleec_verify.conformance.oracle import Oracle
 from sleec_verify.conformance.suite import PARTS
 

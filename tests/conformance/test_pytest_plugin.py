@@ -11,8 +11,8 @@ import pytest
 
 # Loaded here, because pytester unloads what is loaded within a run, and modules would exist twice in the next one.
 import sleec_verify.pytest_plugin
-import sleec_verify.testing.items
-import sleec_verify.testing.summary  # noqa: F401
+import sleec_verify.pytest_plugin.items
+import sleec_verify.pytest_plugin.summary  # noqa: F401
 from sleec_runtime.language import parse
 from sleec_verify.checks import checks_for
 

@@ -8,12 +8,12 @@ from hypothesis import find, given, settings
 from hypothesis import strategies as st
 
 from sleec_runtime import Sleec
-from sleec_runtime.evaluation import broken_assumptions
+from sleec_runtime.evaluation.evaluation import broken_assumptions
 from sleec_runtime.language import load
 from sleec_runtime.model import Context
 from sleec_verify.conformance import strategies
+from sleec_verify.conformance.feasible_contexts import Assumptions
 from sleec_verify.conformance.oracle import Oracle
-from sleec_verify.conformance.possible import Assumptions
 from sleec_verify.conformance.regions import contexts, givens, number_values, size
 from tests import brute
 from tests.strategies import contexts as any_contexts

@@ -12,7 +12,7 @@ from itertools import chain, combinations
 from typing import NamedTuple
 
 from sleec_runtime.model import Atom, Ruleset, formulas_of, leaves, literals
-from sleec_runtime.model_time import Effect, Lasting, MeasureRelation
+from sleec_runtime.model.time import Effect, Lasting, MeasureRelation
 from tests.explicit.demands import Demand, every, forbids, met_by_silence, progress, strongest
 from tests.explicit.rules import Events, Lastings, Meaning, Values, silence, valuations
 

@@ -30,7 +30,7 @@ from sleec_runtime.model import (
     Value,
     leaves,
 )
-from sleec_runtime.model_time import Effect, EventRelation, Lasting, Length, MeasureRelation
+from sleec_runtime.model.time import Effect, EventRelation, Lasting, Length, MeasureRelation
 from tests.explicit.demands import Demand, Literal, every, some
 
 Values = Mapping[str, Value]

@@ -8,10 +8,10 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from sleec_runtime.certificate import MANIFEST, Demand
+from sleec_runtime.certificate.coverage import MANIFEST, Demand
+from sleec_runtime.certificate.manifest import Required, canonical
 from sleec_runtime.language import parse_source
-from sleec_runtime.language.source import source_of
-from sleec_runtime.manifest import Required, canonical
+from sleec_runtime.language.common.source import source_of
 from sleec_runtime.model import Ruleset
 from sleec_verify.certificates import lrat
 from sleec_verify.certificates.checker import IN_PYTHON
@@ -20,7 +20,7 @@ from sleec_verify.certificates.elaboration import Answer, Elaborator, Learnt, No
 from sleec_verify.certificates.making import Certificate, certify
 from sleec_verify.certificates.recording import Asked
 from sleec_verify.certificates.refutation import Disjunction
-from sleec_verify.solver import MiniSat
+from sleec_verify.encoding.solver import MiniSat
 from tests.fuzz.property import check_error, unless_refused
 
 Clauses = Sequence[Sequence[int]]

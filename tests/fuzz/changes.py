@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from sleec_verify.compare import Relation, compare
+from sleec_verify.changes.compare import Relation, compare
+from sleec_verify.encoding.trace_scope import speaks_of_traces
 from sleec_verify.report.difference import RENDERERS, Compared, Report
 from sleec_verify.report.palette import PLAIN
-from sleec_verify.scope import speaks_of_traces
 from tests.fuzz.rules import little_budget, read
 
 SEPARATOR = b"====\n"

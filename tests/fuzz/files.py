@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from sleec_runtime.evaluation import due
+from sleec_runtime.evaluation.evaluation import due
 from sleec_runtime.language import parse_source
-from sleec_runtime.language.source import source_of
-from sleec_verify.cache import Cache, _encoded, _head
-from sleec_verify.cases.read import read_cases
+from sleec_runtime.language.common.source import source_of
+from sleec_verify.changes.gate.baseline import baseline_text, key, read_baseline
+from sleec_verify.changes.gate.config import OWN, SHARED, read_config
+from sleec_verify.changes.gate.keys import is_assertion
 from sleec_verify.checks import run_checks
-from sleec_verify.finding import CheckResult
-from sleec_verify.gate.baseline import baseline_text, key, read_baseline
-from sleec_verify.gate.config import OWN, SHARED, read_config
-from sleec_verify.gate.keys import is_assertion
+from sleec_verify.cli.cache import Cache, _encoded, _head
+from sleec_verify.conformance.cases.reader import read_cases
+from sleec_verify.results.finding import CheckResult
 from tests.fuzz.property import unless_refused
 
 RULESET = parse_source(

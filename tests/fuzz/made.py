@@ -6,13 +6,13 @@ from pathlib import Path
 from shutil import rmtree
 from typing import TYPE_CHECKING
 
-from sleec_verify.cases.choose import choose_cases
-from sleec_verify.cases.read import read_cases
-from sleec_verify.cases.write import toml
 from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.certificates.checking import check_certificate
 from sleec_verify.certificates.making import certify
-from sleec_verify.scope import speaks_of_traces
+from sleec_verify.conformance.cases.reader import read_cases
+from sleec_verify.conformance.cases.selection import choose_cases
+from sleec_verify.conformance.cases.writer import toml
+from sleec_verify.encoding.trace_scope import speaks_of_traces
 from tests.fuzz.property import unless_refused
 from tests.fuzz.rules import read
 

@@ -11,7 +11,7 @@ from typing import Any
 from sleec_runtime import Sleec, VirtualClock, obligation
 from sleec_runtime.errors import NotEnforced
 from sleec_runtime.language import parse_source
-from sleec_runtime.language.source import source_of
+from sleec_runtime.language.common.source import source_of
 from tests.fuzz.property import unless_refused
 
 SAVED_AT = 1_764_000_000

@@ -6,16 +6,16 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from sleec_runtime.language.source import source_of
+from sleec_runtime.language.common.source import source_of
 from sleec_runtime.model import Context
-from sleec_verify.assertions import Vocabulary, ask, read_assertions
-from sleec_verify.chains import chain
-from sleec_verify.entailment import entail
+from sleec_verify.changes.assertions import Vocabulary, ask, read_assertions
+from sleec_verify.entailment.consequence_tree import chain
+from sleec_verify.entailment.entailment import entail
+from sleec_verify.entailment.schedule import schedule
+from sleec_verify.entailment.situation_text import parse_situation
 from sleec_verify.report.entailment import RENDERERS
 from sleec_verify.report.explanation import render as explanation
 from sleec_verify.report.palette import PLAIN
-from sleec_verify.schedule import schedule
-from sleec_verify.situation import parse_situation
 from tests.fuzz.files import RULESET
 from tests.fuzz.property import unless_refused
 from tests.fuzz.rules import read

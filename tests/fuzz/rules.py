@@ -10,23 +10,23 @@ from typing import TYPE_CHECKING
 from unittest.mock import patch
 from zlib import crc32
 
-from sleec_runtime.evaluation import due
+from sleec_runtime.evaluation.evaluation import due
 from sleec_runtime.language import parse, parse_source, print_ruleset
+from sleec_runtime.language.common.source import source_of
 from sleec_runtime.language.dsl.scanner import scan as scan_dsl
-from sleec_runtime.language.scanner import scan
-from sleec_runtime.language.source import source_of
+from sleec_runtime.language.english.scanner import scan
 from sleec_runtime.model import Context
-from sleec_verify.budget import for_file
+from sleec_verify.changes.gate.suppressions import suppressions
 from sleec_verify.checks import CHECKS, run_checks
-from sleec_verify.compilation import FORMS, compile_to
-from sleec_verify.conversion import TARGETS, convert, of_domain
-from sleec_verify.entailment import entail
-from sleec_verify.finding import Unknown
-from sleec_verify.gate.suppressions import suppressions
+from sleec_verify.encoding.budget import for_file
+from sleec_verify.encoding.trace_scope import speaks_of_traces
+from sleec_verify.entailment.entailment import entail
+from sleec_verify.exchange.compilation import FORMS, compile_to
+from sleec_verify.exchange.conversion import TARGETS, convert, of_domain
 from sleec_verify.report import FORMATS, renderer
 from sleec_verify.report.outcome import Checked
 from sleec_verify.report.palette import PLAIN
-from sleec_verify.scope import speaks_of_traces
+from sleec_verify.results.finding import Unknown
 from tests.fuzz.property import unless_refused
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def assert_oblige_the_same(one: Ruleset, other: Ruleset) -> None:
 @contextmanager
 def little_budget(data: bytes) -> Iterator[None]:
     """Let the work inside take few steps; how many depends on the input, and any number may be the one that fails."""
-    with patch("sleec_verify.budget.FILE", crc32(data) % 30_000), for_file(0):
+    with patch("sleec_verify.encoding.budget.FILE", crc32(data) % 30_000), for_file(0):
         yield
 
 

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain, combinations, product
 
+from sleec_runtime.evaluation.traces import Instant, Trace, broken
 from sleec_runtime.model import Assume, Exclusive, Never, Rule, Ruleset
-from sleec_runtime.model_time import RELATIONS
-from sleec_runtime.trace import Instant, Trace, broken
+from sleec_runtime.model.time import RELATIONS
 
 
 class Game:

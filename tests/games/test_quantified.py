@@ -7,10 +7,10 @@ from random import Random
 
 import pytest
 
-from sleec_verify.games import quantified
+from sleec_verify.encoding.solver import Undecided
+from sleec_verify.games import qbf as quantified
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
-from sleec_verify.games.quantified import winning
-from sleec_verify.solver import Undecided
+from sleec_verify.games.qbf import winning
 
 
 def _random_goal(circuit: Circuit, random: Random, variables: list[int]) -> int:

@@ -9,11 +9,12 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_verify.checks import run_checks
-from sleec_verify.finding import Proved, Refuted, Unknown
-from sleec_verify.games import grid, realizability
-from sleec_verify.games.grid import Grid
+from sleec_verify.encoding.solver import Undecided
+from sleec_verify.games import realizability
+from sleec_verify.games import time_grid as grid
+from sleec_verify.games.time_grid import Grid
 from sleec_verify.report.strategy import in_words
-from sleec_verify.solver import Undecided
+from sleec_verify.results.finding import Proved, Refuted, Unknown
 from tests.games.brute_force import Game
 from tests.games.random_games import drawn
 

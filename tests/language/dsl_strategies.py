@@ -27,7 +27,7 @@ from sleec_runtime.model import (
     Statement,
     Truth,
 )
-from sleec_runtime.model_time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation, Timing, Window
+from sleec_runtime.model.time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation, Timing, Window
 
 EVENTS = ("A", "B", "C")
 BOOLEANS = ("m", "n")

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sleec_runtime.errors import LanguageError
-from sleec_runtime.evaluation import Situation, decide, truth
+from sleec_runtime.evaluation.evaluation import Situation, decide, truth
 from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import (
     And,
@@ -28,7 +28,7 @@ from sleec_runtime.model import (
     Truth,
     literals,
 )
-from sleec_runtime.model_time import (
+from sleec_runtime.model.time import (
     Claim,
     Effect,
     EventRelation,

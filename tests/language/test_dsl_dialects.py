@@ -7,7 +7,7 @@ import pytest
 from sleec_runtime.errors import LanguageError, Unsayable
 from sleec_runtime.language import parse, print_ruleset
 from sleec_runtime.language.dsl.dialects import NAMES_OF_SLEEC_TK
-from sleec_verify.conversion import convert
+from sleec_verify.exchange.conversion import convert
 
 AS_EVENT = """def_start
     event {0}

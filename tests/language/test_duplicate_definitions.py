@@ -11,7 +11,7 @@ import pytest
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, print_ruleset
 from sleec_verify.checks import run_checks
-from sleec_verify.conversion import convert
+from sleec_verify.exchange.conversion import convert
 
 DSL_DEFINITIONS = (
     "event N",

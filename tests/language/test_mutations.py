@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language import parse, print_ruleset
-from sleec_runtime.language.keywords import KEYWORDS, RELATION_WORDS
+from sleec_runtime.language.english.keywords import KEYWORDS, RELATION_WORDS
 from sleec_runtime.model import Ruleset
 from tests.strategies import rulesets
 

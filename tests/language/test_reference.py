@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from sleec_runtime import model
-from sleec_runtime.language import keywords, parse
+from sleec_runtime.language import parse
 from sleec_runtime.language.dsl import scanner as dsl
+from sleec_runtime.language.english import keywords
 
 DOCS = Path(__file__).parents[2] / "docs"
 ENGLISH = (DOCS / "language.md").read_text(encoding="utf-8")

@@ -7,7 +7,7 @@ import pytest
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, print_ruleset
 from sleec_runtime.model import Atom, Clause, Declaration, MeasureRef, Not, Number, Obligation, Or
-from sleec_runtime.model_time import (
+from sleec_runtime.model.time import (
     Claim,
     Effect,
     EventRelation,

@@ -24,7 +24,7 @@ from sleec_runtime.model import (
     ScaleValue,
     Statement,
 )
-from sleec_runtime.model_time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation, Timing, Window
+from sleec_runtime.model.time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation, Timing, Window
 from sleec_verify.conformance.vocabulary import formulas
 from tests.language.dsl_strategies import comments
 

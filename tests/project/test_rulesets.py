@@ -10,8 +10,8 @@ import pytest
 from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import Comparison, Context, Ruleset, Value, formulas_of, leaves
 from sleec_verify.checks import run_checks
-from sleec_verify.entailment import entail
-from sleec_verify.finding import Finding, Unknown
+from sleec_verify.entailment.entailment import entail
+from sleec_verify.results.finding import Finding, Unknown
 
 FOLDER = Path(__file__).parents[2] / "rulesets"
 FILES = sorted(FOLDER.glob("*.sleec"))

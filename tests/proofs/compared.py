@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 from pathlib import Path
 
-from sleec_runtime.conflicts import conflict
-from sleec_runtime.evaluation import broken_assumptions, due
+from sleec_runtime.evaluation.conflicts import conflict
+from sleec_runtime.evaluation.evaluation import broken_assumptions, due
 from sleec_runtime.model import (
     READINGS,
     And,
@@ -27,10 +27,10 @@ from sleec_runtime.model import (
     Statement,
     Truth,
 )
-from sleec_verify.entailment import Definition1
-from sleec_verify.theory.boolean import Boolean
-from sleec_verify.theory.numbered import Numbered
-from sleec_verify.theory.oracle import answers
+from sleec_verify.certificates.theory.boolean import Boolean
+from sleec_verify.certificates.theory.numbering import Numbered
+from sleec_verify.certificates.theory.oracle import answers
+from sleec_verify.entailment.entailment import Definition1
 
 Case = tuple[Ruleset, Sequence[Context]]
 

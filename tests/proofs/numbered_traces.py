@@ -10,6 +10,7 @@ import operator
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import prod
 
+from sleec_runtime.evaluation.traces import Instant, Lawlike, Trace, Untimed
 from sleec_runtime.model import (
     And,
     Assume,
@@ -34,7 +35,7 @@ from sleec_runtime.model import (
     Truth,
     Value,
 )
-from sleec_runtime.model_time import (
+from sleec_runtime.model.time import (
     RELATIONS,
     SECONDS,
     Claim,
@@ -44,7 +45,6 @@ from sleec_runtime.model_time import (
     MeasureRelation,
     Window,
 )
-from sleec_runtime.trace import Instant, Lawlike, Trace, Untimed
 
 OPERATORS = {
     "<": operator.lt,

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
+from sleec_runtime.evaluation.traces import Instant, Trace, Untimed
 from sleec_runtime.model import (
     READINGS,
     And,
@@ -32,7 +33,7 @@ from sleec_runtime.model import (
     Truth,
     Value,
 )
-from sleec_runtime.model_time import (
+from sleec_runtime.model.time import (
     SECONDS,
     Claim,
     Effect,
@@ -46,7 +47,6 @@ from sleec_runtime.model_time import (
     Unit,
     Window,
 )
-from sleec_runtime.trace import Instant, Trace, Untimed
 
 OPERATORS: tuple[Operator, ...] = ("<", "<=", "=", "!=", ">=", ">")
 BETWEEN_EVENTS: tuple[EventRelationKind, ...] = ("witness", "equal", "mutualExclusive", "happenBefore")

@@ -15,18 +15,18 @@ from hypothesis import HealthCheck, given, settings
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.language import parse
 from sleec_runtime.model import NOWHERE, Ruleset
-from sleec_verify.certificates import tying
+from sleec_verify.certificates import verdict_binding as tying
 from sleec_verify.certificates.manifest import Shown
-from sleec_verify.certificates.tying import NotTied, Tied, tie
+from sleec_verify.certificates.theory.findings import FOUND, questions
+from sleec_verify.certificates.theory.oracle import NotRefuted, answers
+from sleec_verify.certificates.theory.proving import Theory, not_modelled
+from sleec_verify.certificates.verdict_binding import NotTied, Tied, tie
 from sleec_verify.checks import CHECKS, Check, run_checks
 from sleec_verify.checks.dead import DEAD_RULE
 from sleec_verify.cli import run
-from sleec_verify.cone import Cones
 from sleec_verify.conformance.rulesets import rulesets
-from sleec_verify.finding import ClauseRef, Finding
-from sleec_verify.theory.found import FOUND, questions
-from sleec_verify.theory.oracle import NotRefuted, answers
-from sleec_verify.theory.proving import Theory, not_modelled
+from sleec_verify.query.cone import Cones
+from sleec_verify.results.finding import ClauseRef, Finding
 from tests.proofs.compared import random_cases
 from tests.proofs.test_tied import checked, program
 

@@ -1,8 +1,8 @@
 """Algorithm 1, Definition 1 and the conflicts of a context, in Python, say what is extracted from the theory says.
 
-One comparison is one context of one ruleset: what is due there and by which clauses (`sleec_runtime.evaluation`), what
-is entailed, all at once and a literal to the letter (`sleec_verify.entailment.Definition1`), whether the context counts
-and whether it conflicts (`sleec_runtime.conflicts`). The oracle answers by a walk of the rules, by the guards of
+One comparison is one context of one ruleset: what is due there and by which clauses (`evaluation.evaluation`), what
+is entailed, all at once and a literal to the letter (`entailment.entailment.Definition1`), whether the context counts
+and whether it conflicts (`evaluation.conflicts`). The oracle answers by a walk of the rules, by the guards of
 Equation 1, and by a table over all interpretations, all proved to agree.
 """
 
@@ -15,8 +15,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from sleec_runtime.model import Atom, Ruleset, formulas_of, leaves
+from sleec_verify.certificates.theory.oracle import NoAnswer, answers
 from sleec_verify.conformance.rulesets import rulesets
-from sleec_verify.theory.oracle import NoAnswer, answers
 from tests import brute
 from tests.coq import require_coq
 from tests.proofs.compared import compare, random_cases

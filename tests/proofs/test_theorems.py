@@ -13,11 +13,11 @@ from pathlib import Path
 import pytest
 
 from sleec_runtime.language import load, parse
+from sleec_verify.certificates.theory import theorems as theorems_module
+from sleec_verify.certificates.theory.proving import not_modelled
+from sleec_verify.certificates.theory.theorems import assumptions, but_steps, file_of, main, modules, theorems
 from sleec_verify.checks import run_checks
-from sleec_verify.finding import Proved
-from sleec_verify.theory import theorems as theorems_module
-from sleec_verify.theory.proving import not_modelled
-from sleec_verify.theory.theorems import assumptions, but_steps, file_of, main, modules, theorems
+from sleec_verify.results.finding import Proved
 from tests.proofs.conftest import PROOFS
 
 RULESETS = sorted((Path(__file__).parents[2] / "rulesets").glob("*.sleec"))

@@ -14,21 +14,21 @@ import sleec_runtime
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset
-from sleec_verify.certificates import tying
+from sleec_verify.certificates import verdict_binding as tying
 from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.certificates.checking import Confirmed, check_certificate
 from sleec_verify.certificates.directory import write_folder
 from sleec_verify.certificates.making import certify
-from sleec_verify.certificates.tying import Tied
+from sleec_verify.certificates.theory import oracle as oracle_module
+from sleec_verify.certificates.theory.boolean import Boolean
+from sleec_verify.certificates.theory.numbering import Numbered
+from sleec_verify.certificates.theory.oracle import NoAnswer, NotRefuted, Oracle, answers
+from sleec_verify.certificates.theory.proving import Theory, not_modelled
+from sleec_verify.certificates.verdict_binding import Tied
 from sleec_verify.checks import run_checks
 from sleec_verify.cli import run
 from sleec_verify.conformance.rulesets import rulesets
-from sleec_verify.finding import Proved, Unknown
-from sleec_verify.theory import oracle as oracle_module
-from sleec_verify.theory.boolean import Boolean
-from sleec_verify.theory.numbered import Numbered
-from sleec_verify.theory.oracle import NoAnswer, NotRefuted, Oracle, answers
-from sleec_verify.theory.proving import Theory, not_modelled
+from sleec_verify.results.finding import Proved, Unknown
 from tests.proofs.compared import random_cases
 
 pytestmark = pytest.mark.timeout(600)

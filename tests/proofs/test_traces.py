@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
+from sleec_runtime.evaluation.traces import Lawlike, broken, broken_so_far, claim_holds
 from sleec_runtime.model import Atom, Calculated, Clause, MeasureRef, leaves, literals
-from sleec_runtime.model_time import RELATIONS, Lasting, relation_name
-from sleec_runtime.trace import Lawlike, broken, broken_so_far, claim_holds
-from sleec_verify.theory.oracle import NoAnswer, answers
+from sleec_runtime.model.time import RELATIONS, Lasting, relation_name
+from sleec_verify.certificates.theory.oracle import NoAnswer, answers
 from tests.proofs.numbered_traces import NumberedTraces
 from tests.proofs.random_traces import Case, random_cases
 

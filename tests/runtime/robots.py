@@ -5,9 +5,9 @@ from __future__ import annotations
 import contextpy3 as cop
 
 from sleec_runtime import Sleec
+from sleec_runtime.dispatch.implementations import recorded
 from sleec_runtime.language import parse
 from sleec_runtime.model import Clause, Ruleset
-from sleec_runtime.obligations import recorded
 
 CURTAINS = """
 RULE dress_assist

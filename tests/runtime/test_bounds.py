@@ -18,14 +18,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sleec_runtime import Monitor, MonotonicClock, Sensors, Sleec, VirtualClock, errors, obligation
+from sleec_runtime.dispatch.monitor import Difference
 from sleec_runtime.language import parse
-from sleec_runtime.messages import LONGEST, represent, text_of
 from sleec_runtime.model import Context
-from sleec_runtime.monitor import Difference
+from sleec_runtime.model.spans import Source, Span
+from sleec_runtime.model.values import exact
 from sleec_runtime.predicates import Direct, Fuzzy, Scale, Threshold, trapezoid
-from sleec_runtime.spans import Source, Span
+from sleec_runtime.support.messages import LONGEST, represent, text_of
 from sleec_runtime.timed.failures import Failure
-from sleec_runtime.values import exact
 
 RULES = """
 MEASURE Age: number

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sleec_runtime.conflicts import Conflict, conflict, find_conflict, missing_for
-from sleec_runtime.evaluation import Situation, truth
+from sleec_runtime.evaluation.conflicts import Conflict, conflict, find_conflict, missing_for
+from sleec_runtime.evaluation.evaluation import Situation, truth
 from sleec_runtime.model import (
     And,
     Atom,

@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sleec_runtime import evaluation
-from sleec_runtime import snapshot as snapshot_module
-from sleec_runtime.chunks import Chunks
+from sleec_runtime.dispatch import snapshot as snapshot_module
 from sleec_runtime.errors import SleecError
+from sleec_runtime.evaluation import evaluation
+from sleec_runtime.support.chunked_sequence import Chunks
 from tests.runtime.robots import CURTAINS, listing_2, running
 
 MEASURES = """

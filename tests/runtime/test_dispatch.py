@@ -8,8 +8,8 @@ from __future__ import annotations
 import contextpy3 as cop
 import pytest
 
-from sleec_runtime.conflicts import Conflict
 from sleec_runtime.errors import ConflictInContext, NotBound, UndeterminedDecision, VariantsFailed
+from sleec_runtime.evaluation.conflicts import Conflict
 from sleec_runtime.model import Obligation
 from tests.runtime.robots import CURTAINS, Log, listing_2, running
 

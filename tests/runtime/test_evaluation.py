@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from sleec_runtime.errors import WrongType
-from sleec_runtime.evaluation import (
+from sleec_runtime.evaluation.evaluation import (
     Decision,
     Undetermined,
     broken_assumptions,

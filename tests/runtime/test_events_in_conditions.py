@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from sleec_runtime import Sleec
 from sleec_runtime.errors import NotEnforced, SnapshotRefused
-from sleec_runtime.evaluation import Decision
+from sleec_runtime.evaluation.evaluation import Decision
 from sleec_runtime.language import parse
 from sleec_runtime.timed.clocks import VirtualClock
 from tests import brute

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from sleec_runtime.files import read_file, read_stream, size_limit
+from sleec_runtime.support.files import read_file, read_stream, size_limit
 
 
 def test_a_regular_file_is_read(tmp_path: Path) -> None:

@@ -17,9 +17,10 @@ from typing import Any
 
 import pytest
 
-from sleec_runtime import MonotonicClock, PolledClock, Sleec, VirtualClock, errors, forks, obligation
-from sleec_runtime.critical import CriticalSection
+from sleec_runtime import MonotonicClock, PolledClock, Sleec, VirtualClock, errors, obligation
 from sleec_runtime.language import parse
+from sleec_runtime.support import fork as forks
+from sleec_runtime.support.critical_section import CriticalSection
 
 ISSUE = """
 RULE a WHEN T1 THEN A WITHIN 1 TO 5 seconds

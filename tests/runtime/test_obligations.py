@@ -8,7 +8,7 @@ import inspect
 import pytest
 
 from sleec_runtime import obligation, recording
-from sleec_runtime.obligations import implementations, obligation_of, snake_case, watched
+from sleec_runtime.dispatch.implementations import implementations, obligation_of, snake_case, watched
 
 
 @pytest.mark.parametrize(

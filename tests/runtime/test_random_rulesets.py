@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sleec_runtime import Sleec
-from sleec_runtime.conflicts import conflict
 from sleec_runtime.errors import ConflictInContext, UndeterminedDecision
-from sleec_runtime.evaluation import decide, due
+from sleec_runtime.evaluation.conflicts import conflict
+from sleec_runtime.evaluation.evaluation import decide, due
 from sleec_runtime.model import READINGS
 from tests import brute
 from tests.runtime.robots import Log, listing_2

@@ -6,7 +6,7 @@ import pytest
 
 import sleec_runtime
 from sleec_runtime import Sleec, errors
-from sleec_runtime.dispatch import plan, run
+from sleec_runtime.dispatch.dispatch import plan, run
 from sleec_runtime.language import parse
 from tests.runtime.robots import CURTAINS, Log, listing_2, running
 

@@ -1,6 +1,6 @@
 """Random rules with times at work: as long as the runtime raises and reports nothing, what happened keeps the rules.
 
-What happened is told by `sleec_runtime.trace`, which shares no code with what keeps the times.
+What happened is told by `sleec_runtime.evaluation.traces`, which shares no code with what keeps the times.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from random import Random
 import pytest
 
 from sleec_runtime import Sleec, VirtualClock, errors, obligation
+from sleec_runtime.evaluation.traces import Instant, Trace, broken, broken_so_far
 from sleec_runtime.language import parse
 from sleec_runtime.model import Value, literals
-from sleec_runtime.trace import Instant, Trace, broken, broken_so_far
 from tests.timed_strategies import BOOLEANS, SCALE, timed_ruleset
 
 STEPS = 8

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from sleec_runtime.language import load, parse
-from sleec_verify.budget import for_file, share
-from sleec_verify.solver import Undecided
+from sleec_verify.encoding.budget import for_file, share
+from sleec_verify.encoding.solver import Undecided
 from sleec_verify.traces.components import components
 from sleec_verify.traces.conflicts import Conflict, ConflictSearch
 from sleec_verify.traces.index import Index

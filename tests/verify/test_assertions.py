@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse
 from sleec_runtime.model import And, Atom, Obligation, Or, Ruleset, Source, Span, Truth
-from sleec_verify.assertions import Assertion, Broken, Vocabulary, ask, read_assertion, read_assertions
+from sleec_verify.changes.assertions import Assertion, Broken, Vocabulary, ask, read_assertion, read_assertions
 from tests import brute
 from tests.verify.small import CONDITIONS, OBLIGATIONS, TRIGGERS, _booleans, _formula, small_rulesets
 

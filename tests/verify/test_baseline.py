@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from sleec_verify.gate.baseline import Key, baseline_text, read_baseline
-from sleec_verify.gate.keys import ConfigError
+from sleec_verify.changes.gate.baseline import Key, baseline_text, read_baseline
+from sleec_verify.changes.gate.keys import ConfigError
 
 KEYS: set[Key] = {
     ("a.sleec", "SLEEC101", ("r", "s"), (("r", 0), ("s", 1)), ("Open", "NOT Close")),

@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 
 from benchmarks import adversarial
 from sleec_runtime.language import parse
-from sleec_verify import budget
-from sleec_verify.arithmetic import values_for
-from sleec_verify.budget import OutOfBudget, limited
 from sleec_verify.checks import CHECKS, run_checks
-from sleec_verify.cone import Cones
-from sleec_verify.finding import Proved, Refuted, Unknown
-from sleec_verify.solver import MiniSat
+from sleec_verify.encoding import budget
+from sleec_verify.encoding.arithmetic import values_for
+from sleec_verify.encoding.budget import OutOfBudget, limited
+from sleec_verify.encoding.solver import MiniSat
+from sleec_verify.query.cone import Cones
+from sleec_verify.results.finding import Proved, Refuted, Unknown
 from tests.verify.small import small_rulesets
 
 QUICK = {name: text for name, text in adversarial.FAMILIES.items() if not name.endswith("-1000")}
@@ -106,7 +106,7 @@ def test_an_exclusive_beside_constraints_that_share_its_names_gives_what_its_pai
     cones = [Cones(parse(f"EXCLUSIVE {names}\n{more}{rules}WHEN T THEN P AND NOT Q\n")) for _ in range(2)]
     few = {(clash.literals, clash.labels) for clash in cones[0].clashes}
     assert cones[0].clashes.exclusions
-    monkeypatch.setattr("sleec_verify.clashes.MOST_LISTED", 100)
+    monkeypatch.setattr("sleec_verify.query.inconsistent_sets.MOST_LISTED", 100)
     assert not cones[1].clashes.exclusions
     assert {(clash.literals, clash.labels) for clash in cones[1].clashes} == few
 
@@ -150,13 +150,13 @@ def test_assumptions_that_are_not_decided_leave_what_rests_on_none_of_them(monke
 
 
 def test_assumptions_known_to_contradict_are_reported_though_not_as_few_as_can_be(monkeypatch):
-    monkeypatch.setattr("sleec_verify.solver.CONFLICT_BUDGET", 2_000)
+    monkeypatch.setattr("sleec_verify.encoding.solver.CONFLICT_BUDGET", 2_000)
     lines = adversarial.pigeonhole(6, 1).splitlines()
     assumed = lines[0].removeprefix("ASSUME ").split(" AND (")
     text = "\n".join(["ASSUME " + ("(" if n else "") + part for n, part in enumerate(assumed)] + lines[1:])
     cones = Cones(parse(text))
     assert not cones.possible
-    monkeypatch.setattr("sleec_verify.solver.CONFLICT_BUDGET", 1)
+    monkeypatch.setattr("sleec_verify.encoding.solver.CONFLICT_BUDGET", 1)
     (finding,) = CHECKS["assumptions"].run(cones)
     assert finding.note is not None
     assert "fewer of these assumptions may be enough" in finding.note

@@ -13,18 +13,18 @@ from hypothesis import strategies as st
 
 import sleec_runtime
 from sleec_runtime.errors import LanguageError, UnsupportedCalculations
-from sleec_runtime.evaluation import Situation, holds, truth
+from sleec_runtime.evaluation.evaluation import Situation, holds, truth
+from sleec_runtime.evaluation.traces import Instant, Trace, broken
 from sleec_runtime.language import parse, print_ruleset
 from sleec_runtime.model import Calculated, Comparison, Context
-from sleec_runtime.trace import Instant, Trace, broken
-from sleec_verify.arithmetic import NotCalculated
-from sleec_verify.calculations import calculations_in
+from sleec_verify.changes.compare import compare
 from sleec_verify.checks import run_checks
 from sleec_verify.cli import run
-from sleec_verify.compare import compare
-from sleec_verify.compilation import FORMS, compile_to
 from sleec_verify.conformance.regions import givens
-from sleec_verify.finding import Proved, Refuted, Unknown
+from sleec_verify.encoding.arithmetic import NotCalculated
+from sleec_verify.encoding.calculations import calculations_in
+from sleec_verify.exchange.compilation import FORMS, compile_to
+from sleec_verify.results.finding import Proved, Refuted, Unknown
 
 TEXT = """def_start
   event A
@@ -394,7 +394,7 @@ NEEDS_Z3 = "R1 when A and (({x} + {y}) > 9) then B", "R2 when A and (({x} < 2) a
 
 @pytest.fixture
 def no_z3(monkeypatch):
-    from sleec_verify import arithmetic
+    from sleec_verify.encoding import arithmetic
 
     arithmetic._answer.cache_clear()
     monkeypatch.setitem(sys.modules, "z3", None)
@@ -504,7 +504,7 @@ def test_a_certificate_does_not_rest_on_z3(tmp_path, capsys):
 
 def test_arithmetic_tells_what_contradicts_what():
     pytest.importorskip("z3")
-    from sleec_verify.arithmetic import values_for
+    from sleec_verify.encoding.arithmetic import values_for
 
     (calculated,) = calculations_in(guard_of("(({x} + (2 * {y})) > 3)"))
     whole = {"x": True, "y": True}
@@ -528,7 +528,7 @@ def test_arithmetic_tells_what_contradicts_what():
 @settings(max_examples=200, deadline=None)
 @given(st.data())
 def test_what_is_found_nearby_makes_all_literals_true(data):
-    from sleec_verify.nearby import nearby
+    from sleec_verify.encoding.local_search import nearby
 
     drawn = data.draw
     terms = [(("x",),), (("y",),), (("x", "y"),), (("x", "x"),), (("y", "z"),)]
@@ -557,7 +557,7 @@ def test_what_is_found_nearby_makes_all_literals_true(data):
 
 def test_what_is_too_hard_is_unknown(monkeypatch):
     pytest.importorskip("z3")
-    from sleec_verify import arithmetic
+    from sleec_verify.encoding import arithmetic
 
     arithmetic._answer.cache_clear()
     monkeypatch.setattr(arithmetic, "RESOURCES", 1)

@@ -13,9 +13,9 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_verify.checks import run_checks
-from sleec_verify.cone import Cones
-from sleec_verify.finding import Unknown
-from sleec_verify.replay import replays
+from sleec_verify.query.cone import Cones
+from sleec_verify.replay.situations import replays
+from sleec_verify.results.finding import Unknown
 
 STUDIES = Path(__file__).parents[3] / "shared" / "case-studies"
 FILES = {

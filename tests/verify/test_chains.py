@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from sleec_runtime.evaluation import decide
+from sleec_runtime.evaluation.evaluation import decide
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
-from sleec_verify.chains import DEEPEST, chain, lines
-from sleec_verify.entailment import entail
+from sleec_verify.entailment.consequence_tree import DEEPEST, chain, lines
+from sleec_verify.entailment.entailment import entail
 from tests.timed_strategies import timed_ruleset
 
 

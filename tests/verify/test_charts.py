@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sleec_verify.report.timeline import chart_of
-from sleec_verify.timeline import Due, Moment, Timeline
+from sleec_verify.results.timeline import Due, Moment, Timeline
 
 LATE = 100
 """Later than all that the tests speak of."""

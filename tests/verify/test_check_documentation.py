@@ -6,7 +6,7 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_verify.checks import CHECKS, checks_for, run_checks
-from sleec_verify.finding import SEVERITIES, Proved
+from sleec_verify.results.finding import SEVERITIES, Proved
 
 KINDS = [(check, kind) for check in CHECKS.values() for kind in check.kinds]
 

@@ -12,7 +12,7 @@ from sleec_runtime.language import parse
 from sleec_runtime.model import Ruleset
 from sleec_verify.checks import run_checks
 from sleec_verify.checks.redundant import without_hedge
-from sleec_verify.finding import Proved, Refuted
+from sleec_verify.results.finding import Proved, Refuted
 from tests import brute
 from tests.verify.edits import forbidding, tied
 from tests.verify.small import small_rulesets
@@ -164,7 +164,7 @@ def test_constraints_as_large_ones_are_asked_about(check):
     @given(BOOLEAN)
     def compare(ruleset):
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr("sleec_verify.clashes.MOST_LISTED", 1)
+            patch.setattr("sleec_verify.query.inconsistent_sets.MOST_LISTED", 1)
             patch.setattr("sleec_verify.checks.causes.MANY_WAYS", 1)
             check(ruleset)
 

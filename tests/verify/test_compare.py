@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from sleec_runtime.errors import Unsayable
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Obligation, Rule
-from sleec_verify import diagram
-from sleec_verify.compare import Difference, NameChange, compare
-from sleec_verify.conversion import convert
-from sleec_verify.conversion.readings import reread
+from sleec_verify.changes import decision_diagram as diagram
+from sleec_verify.changes.compare import Difference, NameChange, compare
+from sleec_verify.exchange.conversion import convert
+from sleec_verify.exchange.conversion.readings import reread
 from tests.verify.small import small_rulesets
 
 RULESETS = Path(__file__).parents[2] / "rulesets"

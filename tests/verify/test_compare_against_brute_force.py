@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sleec_runtime.model import Assume, Never, Rule, Ruleset
-from sleec_verify.compare import compare, relation
+from sleec_verify.changes.compare import compare, relation
 from tests import brute
 from tests.verify.edits import edited, forbidding, forbidding_otherwise, reordered, tied
 from tests.verify.small import small_rulesets

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from itertools import combinations, product
 
+from sleec_runtime.evaluation.traces import Instant, Trace, broken
 from sleec_runtime.language import parse
-from sleec_runtime.trace import Instant, Trace, broken
-from sleec_verify.compare.times import implies
+from sleec_verify.changes.compare.timing_order import implies
 
 RESPONSES = (
     "X",

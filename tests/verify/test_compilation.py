@@ -11,8 +11,8 @@ import z3
 from hypothesis import given, settings
 
 from sleec_runtime.language import parse
-from sleec_verify.compilation import FORMS, compile_to, symbol
-from sleec_verify.compilation.clauses import encoded, variable_names
+from sleec_verify.exchange.compilation import FORMS, compile_to, symbol
+from sleec_verify.exchange.compilation.clauses import encoded, variable_names
 from tests import brute
 from tests.verify.small import small_rulesets
 from tests.verify.test_semantics import EIGHT

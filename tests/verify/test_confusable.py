@@ -13,7 +13,7 @@ from sleec_runtime.language import parse
 from sleec_verify.checks import CHECKS, checks_for, run_checks
 from sleec_verify.checks.skeleton import skeleton
 from sleec_verify.checks.unicode_confusables import LOOKALIKES
-from sleec_verify.finding import Finding
+from sleec_verify.results.finding import Finding
 
 ALIKE, MIXED, ODD, TURNED = (kind.code for kind in CHECKS["confusable"].kinds)
 PAIRS = [(plain, other) for plain, others in LOOKALIKES.items() for other in others]

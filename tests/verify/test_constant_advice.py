@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from sleec_runtime.language import parse
 from sleec_runtime.model import And, Clause, Formula, Not, Or, Rule, Ruleset, Span
+from sleec_verify.changes.compare import compare
 from sleec_verify.checks import run_checks
-from sleec_verify.compare import compare
-from sleec_verify.finding import Finding
+from sleec_verify.results.finding import Finding
 
 MEASURES = "MEASURE heat: number\nMEASURE cold: number\n"
 TRUE, FALSE = "(heat > 3 OR heat <= 3)", "(cold > 3 AND cold < 2)"

@@ -14,8 +14,8 @@ from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import Rule, Ruleset
 from sleec_verify.checks import run_checks
 from sleec_verify.cli.convert import command
-from sleec_verify.conversion import TARGETS, convert, of_domain
-from sleec_verify.conversion.readings import reread
+from sleec_verify.exchange.conversion import TARGETS, convert, of_domain
+from sleec_verify.exchange.conversion.readings import reread
 from tests.brute import contexts, due
 from tests.strategies import rulesets
 from tests.verify.small import small_rulesets

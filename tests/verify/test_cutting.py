@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from sleec_runtime.language import parse
 from sleec_runtime.model import And, Atom, Comparison, Context, MeasureRef, Not, Number, Or, Truth
-from sleec_verify.compare import compare
-from sleec_verify.cutting import Cutting, conjuncts, without
+from sleec_verify.changes.compare import compare
+from sleec_verify.query.assumption_slicing import Cutting, conjuncts, without
 from tests import brute
 
 A, B, C, D = (Atom("trigger", name) for name in "ABCD")

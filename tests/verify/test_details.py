@@ -6,14 +6,14 @@ from itertools import product
 
 import pytest
 
-from sleec_runtime.evaluation import broken_assumptions, holds
+from sleec_runtime.evaluation.evaluation import broken_assumptions, holds
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context, Obligation
 from sleec_verify.checks import run_checks
-from sleec_verify.cone import Cones
-from sleec_verify.entailment import Definition1, entail
-from sleec_verify.finding import ClauseRef
-from sleec_verify.question import Question
+from sleec_verify.entailment.entailment import Definition1, entail
+from sleec_verify.query.cone import Cones
+from sleec_verify.query.question import Question
+from sleec_verify.results.finding import ClauseRef
 
 
 def found(text, check):

@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sleec_runtime.model import Comparison, Measure, MeasureRef, Never, Not, Number, Ruleset
-from sleec_verify import diagram
-from sleec_verify.diagram import FALSE, TRUE, Diagram, TooLarge
+from sleec_verify.changes import decision_diagram as diagram
+from sleec_verify.changes.decision_diagram import FALSE, TRUE, Diagram, TooLarge
 from tests import brute
 from tests.verify.small import CONDITIONS, MEASURES, _booleans, _flipped, _formula, _numeric, _pairs, _scales
 

@@ -8,7 +8,7 @@ from sleec_runtime.language import parse
 from sleec_runtime.model import Atom, Ruleset, formulas_of, leaves
 from sleec_verify.checks import run_checks
 from sleec_verify.report.json import witness_json
-from sleec_verify.report.words import witness_text
+from sleec_verify.results.phrases import witness_text
 from tests.verify.small import small_rulesets
 
 RULES = "RULE s WHEN A THEN X UNLESS B IN WHICH CASE Y\nRULE b WHEN B THEN Z\nRULE t WHEN C THEN NOT X\n"

@@ -6,7 +6,7 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_verify.checks import run_checks
-from sleec_verify.finding import Finding
+from sleec_verify.results.finding import Finding
 
 DOOR = "RULE door\nWHEN Rings THEN Open\n"
 REST = "RULE rest\nWHEN Sleeps THEN NOT Rings\n"

@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sleec_runtime import evaluation
+from sleec_runtime.evaluation import evaluation
 from sleec_runtime.model import Atom, Comparison, Obligation, Ruleset, leaves
-from sleec_verify.compilation import symbol
-from sleec_verify.compilation.clauses import encoded
-from sleec_verify.compilation.formulas import Translator, lines
-from sleec_verify.entailment import Definition1, entail
-from sleec_verify.equation import implications
-from sleec_verify.solver import MiniSat
+from sleec_verify.encoding.equation import implications
+from sleec_verify.encoding.solver import MiniSat
+from sleec_verify.entailment.entailment import Definition1, entail
+from sleec_verify.exchange.compilation import symbol
+from sleec_verify.exchange.compilation.clauses import encoded
+from sleec_verify.exchange.compilation.formulas import Translator, lines
 from tests import brute
 from tests.verify.small import small_rulesets
 

@@ -16,13 +16,13 @@ import pytest
 
 import sleec_verify
 from sleec_runtime.language import load
-from sleec_verify.cache import Cache
 from sleec_verify.certificates import checker
 from sleec_verify.certificates.directory import write_folder
+from sleec_verify.cli.cache import Cache
 from sleec_verify.cli.cases import _create
-from sleec_verify.cli.files import write_whole
-from sleec_verify.finding import CheckResult, Proved
-from sleec_verify.temporary import put_in_place
+from sleec_verify.files.placement import write_whole
+from sleec_verify.files.temporary import put_in_place
+from sleec_verify.results.finding import CheckResult, Proved
 
 OURS = os.path.dirname(sleec_verify.__file__)
 LIBRARY = os.path.dirname(os.__file__)

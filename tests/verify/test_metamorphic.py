@@ -12,7 +12,7 @@ import pytest
 from sleec_runtime.language import parse
 from sleec_runtime.model import NOWHERE
 from sleec_verify.checks import run_checks
-from sleec_verify.finding import Finding, Unknown
+from sleec_verify.results.finding import Finding, Unknown
 from tests.people_rules import peoples_rules
 from tests.timed_english import timed_english, untimed_english
 from tests.timed_strategies import timed_ruleset

@@ -6,17 +6,17 @@ from dataclasses import replace
 
 import pytest
 
+from sleec_runtime.evaluation.traces import Instant, Trace, broken, broken_so_far
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
-from sleec_runtime.trace import Instant, Trace, broken, broken_so_far
-from sleec_verify.chains import chain
-from sleec_verify.entailment import entail
+from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.entailment.consequence_tree import chain
+from sleec_verify.entailment.entailment import entail
+from sleec_verify.entailment.schedule import Entry, schedule
+from sleec_verify.entailment.situation_text import parse_situation
 from sleec_verify.report.entailment import caveats
 from sleec_verify.report.palette import PLAIN
 from sleec_verify.report.schedule import chart, in_words
-from sleec_verify.schedule import Entry, schedule
-from sleec_verify.scope import Untimed
-from sleec_verify.situation import parse_situation
 
 SMOKE = """RULE smoke
 WHEN SmokeDetected

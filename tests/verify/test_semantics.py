@@ -8,10 +8,10 @@ import pytest
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context, Not, Or
 from sleec_verify.checks import run_checks
-from sleec_verify.cnf import Encoder
-from sleec_verify.compilation.clauses import encoded
-from sleec_verify.entailment import entail
-from sleec_verify.equation import implications
+from sleec_verify.encoding.cnf import Encoder
+from sleec_verify.encoding.equation import implications
+from sleec_verify.entailment.entailment import entail
+from sleec_verify.exchange.compilation.clauses import encoded
 from tests import brute
 
 EIGHT = """

@@ -6,14 +6,14 @@ from itertools import combinations, product
 
 import pytest
 
-from sleec_runtime.evaluation import broken_assumptions, holds
+from sleec_runtime.evaluation.evaluation import broken_assumptions, holds
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
-from sleec_verify.entailment import entail
-from sleec_verify.one_instant import of_one_instant
+from sleec_verify.encoding.one_instant import of_one_instant
+from sleec_verify.entailment.entailment import entail
+from sleec_verify.entailment.situation_text import parse_situation
 from sleec_verify.report.entailment import caveats
 from sleec_verify.report.palette import PLAIN
-from sleec_verify.situation import parse_situation
 
 TEXT = """MEASURE level: low < middle < high
 MEASURE n: integer

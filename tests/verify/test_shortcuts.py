@@ -12,12 +12,12 @@ from benchmarks import checking
 from benchmarks.random_rules import random_rules
 from sleec_runtime.language import parse
 from sleec_runtime.model import And, Atom, Comparison, MeasureRef, Not, Number, Or, Rule, Truth
-from sleec_verify import witness
 from sleec_verify.checks import reading, run_checks
-from sleec_verify.cone import Cones
-from sleec_verify.forced import Forced, Impossible, forced
-from sleec_verify.shape import LARGEST, shape_of
-from sleec_verify.witness import smallest_situation
+from sleec_verify.query import witness
+from sleec_verify.query.cone import Cones
+from sleec_verify.query.rule_shape import LARGEST, shape_of
+from sleec_verify.query.unit_propagation import Forced, Impossible, forced
+from sleec_verify.query.witness import smallest_situation
 from tests.verify.small import small_rulesets
 
 _ATOMS = [Atom("trigger", "t"), Atom("trigger", "u"), *(Atom("condition", name) for name in "abcd")]

@@ -9,9 +9,9 @@ from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse
 from sleec_runtime.model import And, Comparison, Not, Or, Ruleset, ScaleValue, formulas_of
 from sleec_verify.checks import checks_for, run_checks
-from sleec_verify.checks.constant import CONSTANT_CONDITION
-from sleec_verify.cone import Cones
-from sleec_verify.finding import Unknown
+from sleec_verify.checks.constant_conditions import CONSTANT_CONDITION
+from sleec_verify.query.cone import Cones
+from sleec_verify.results.finding import Unknown
 from tests import brute
 from tests.verify.small import small_rulesets
 

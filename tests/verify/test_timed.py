@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pytest
 
+from sleec_runtime.dispatch.runtime import Sleec
 from sleec_runtime.errors import UnsupportedTimes
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
-from sleec_runtime.runtime import Sleec
 from sleec_verify.checks import CHECKS, run_checks
-from sleec_verify.compilation import FORMS
-from sleec_verify.entailment import entail
-from sleec_verify.finding import Proved, Refuted, Unknown
+from sleec_verify.entailment.entailment import entail
+from sleec_verify.exchange.compilation import FORMS
+from sleec_verify.results.finding import Proved, Refuted, Unknown
 
 TEXT = """def_start
   event A

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from sleec_runtime.errors import Unsayable
 from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import And, Atom, Comparison, Declaration, Not, Or, Rule, Truth
-from sleec_runtime.model_time import RELATIONS, Claim
-from sleec_verify.conversion import Target, convert
-from sleec_verify.conversion.rules import MAX_RULES
+from sleec_runtime.model.time import RELATIONS, Claim
+from sleec_verify.exchange.conversion import Target, convert
+from sleec_verify.exchange.conversion.rules import MAX_RULES
 from tests.language.dsl_strategies import dsl_rulesets
 from tests.language.timed_strategies import timed_rulesets
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from sleec_runtime.language import parse
 from sleec_verify.checks import run_checks
-from sleec_verify.finding import Proved
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.palette import PLAIN
+from sleec_verify.results.finding import Proved
 
 DOCS = Path(__file__).parents[2] / "docs"
 

@@ -8,11 +8,11 @@ from itertools import combinations, product
 
 import pytest
 
-from sleec_runtime.evaluation import holds
+from sleec_runtime.evaluation.evaluation import holds
+from sleec_runtime.evaluation.traces import Instant, Trace, Untimed, broken, broken_so_far, claim_holds
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
-from sleec_runtime.model_time import claims
-from sleec_runtime.trace import Instant, Trace, Untimed, broken, broken_so_far, claim_holds
+from sleec_runtime.model.time import claims
 from tests import timed_oracle as oracle
 from tests.timed_agreement import conflicts
 from tests.timed_strategies import timed_ruleset

@@ -10,9 +10,9 @@ import pytest
 
 from sleec_runtime.errors import SleecError
 from sleec_runtime.language import parse
-from sleec_verify.cases.case import CasesError
-from sleec_verify.cases.read import read_cases
-from sleec_verify.toml import parse_toml, read_toml
+from sleec_verify.conformance.cases.case import CasesError
+from sleec_verify.conformance.cases.reader import read_cases
+from sleec_verify.files.toml import parse_toml, read_toml
 
 RULES = parse("MEASURE Age: number\nWHEN Ring THEN Open UNLESS Asleep AND Age < 3 IN WHICH CASE Wait")
 CASE = "[[case]]\nobligations = []\n"

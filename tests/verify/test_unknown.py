@@ -6,13 +6,14 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context, Obligation
-from sleec_verify import replay, solver
 from sleec_verify.checks import causes, run_checks
-from sleec_verify.clashes import clashes
-from sleec_verify.cone import Cones
-from sleec_verify.entailment import entail
-from sleec_verify.finding import Proved, Refuted, Unknown
-from sleec_verify.solver import MiniSat, Undecided
+from sleec_verify.encoding import solver
+from sleec_verify.encoding.solver import MiniSat, Undecided
+from sleec_verify.entailment.entailment import entail
+from sleec_verify.query.cone import Cones
+from sleec_verify.query.inconsistent_sets import clashes
+from sleec_verify.replay import situations as replay
+from sleec_verify.results.finding import Proved, Refuted, Unknown
 from sleec_verify.traces import unrolling
 from sleec_verify.traces.index import Index
 from sleec_verify.traces.questions import triggering

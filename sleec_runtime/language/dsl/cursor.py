@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import NoReturn
 
 from sleec_runtime.errors import Problem
+from sleec_runtime.language.common.suggestions import nearest
+from sleec_runtime.language.common.token_reader import MAX_DEPTH, MAX_NAME, TokenReader, composed, quoted
 from sleec_runtime.language.dsl.scanner import BLOCK_MARKS, BLOCKS, DEFINITIONS, KEYWORDS, UNNAMED
 from sleec_runtime.language.dsl.slips import MEANT, Found, help_with, means_when
-from sleec_runtime.language.scanner import Tokens
-from sleec_runtime.language.suggest import nearest
-from sleec_runtime.language.token_reader import MAX_DEPTH, MAX_NAME, TokenReader, composed, quoted
+from sleec_runtime.language.english.scanner import Tokens
 from sleec_runtime.model import Dialect, Source, Span
 
 ITEM_STARTS = BLOCK_MARKS | DEFINITIONS | {"label", UNNAMED, "relation", "end"}

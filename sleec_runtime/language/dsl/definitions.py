@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from sleec_runtime.language.common.suggestions import nearest
+from sleec_runtime.language.common.token_reader import quoted
+from sleec_runtime.language.common.units import UNITS
 from sleec_runtime.language.dsl.formulas import FormulaParser
 from sleec_runtime.language.dsl.operands import Side
 from sleec_runtime.language.dsl.slips import type_meant
-from sleec_runtime.language.suggest import nearest
-from sleec_runtime.language.token_reader import quoted
-from sleec_runtime.language.units import UNITS
 from sleec_runtime.model import Agent, Constant, Declaration, Measure, Span
 
 _TYPES = ("boolean", "numeric", "scale")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sleec_runtime.language.dsl.scanner import DEFINITIONS, UNNAMED
-from sleec_runtime.language.scanner import Tokens
+from sleec_runtime.language.english.scanner import Tokens
 from sleec_runtime.model import Dialect
 
 NAMES_OF_SLEEC_TK = frozenset({"exists", "while", "meanwhile", "until", "for"})

@@ -6,11 +6,11 @@ from dataclasses import replace
 from typing import Literal
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.circles import circular
+from sleec_runtime.language.common.constant_cycles import circular
+from sleec_runtime.language.common.suggestions import Suggester
+from sleec_runtime.language.common.token_reader import quoted
 from sleec_runtime.language.dsl.operands import Side
-from sleec_runtime.language.resolve import MAX_PROBLEMS, did_you_mean
-from sleec_runtime.language.suggest import Suggester
-from sleec_runtime.language.token_reader import quoted
+from sleec_runtime.language.english.resolve import MAX_PROBLEMS, did_you_mean
 from sleec_runtime.model import (
     Constant,
     Declaration,

@@ -11,6 +11,9 @@ from functools import partial
 from typing import TypeVar, cast
 
 from sleec_runtime.errors import LanguageError, Problem
+from sleec_runtime.language.common.gc_pause import uncollected
+from sleec_runtime.language.common.suggestions import nearest
+from sleec_runtime.language.common.token_reader import Abandon, quoted
 from sleec_runtime.language.dsl.blocks import misspelt_marks
 from sleec_runtime.language.dsl.cursor import ITEM_STARTS
 from sleec_runtime.language.dsl.dialects import dialect_of
@@ -26,13 +29,10 @@ from sleec_runtime.language.dsl.scanner import (
     scan,
 )
 from sleec_runtime.language.dsl.terms import Terms
-from sleec_runtime.language.garbage import uncollected
-from sleec_runtime.language.resolve import first_problems
-from sleec_runtime.language.scanner import Tokens
-from sleec_runtime.language.suggest import nearest
-from sleec_runtime.language.token_reader import Abandon, quoted
+from sleec_runtime.language.english.resolve import first_problems
+from sleec_runtime.language.english.scanner import Tokens
 from sleec_runtime.model import Clause, Constant, Formula, Rule, Ruleset, Source, Span, Statement
-from sleec_runtime.model_time import ClaimKind
+from sleec_runtime.model.time import ClaimKind
 
 _Read = TypeVar("_Read")
 _WHAT = {

@@ -11,9 +11,9 @@ import re
 from collections.abc import Iterator, Sequence
 
 from sleec_runtime.errors import Unsayable
-from sleec_runtime.language.formula_printer import print_number
-from sleec_runtime.language.line_printer import behind, comment_lines, split_heading, trimmed, with_gaps
-from sleec_runtime.language.token_reader import MAX_DEPTH
+from sleec_runtime.language.common.formula_printer import print_number
+from sleec_runtime.language.common.line_printer import behind, comment_lines, split_heading, trimmed, with_gaps
+from sleec_runtime.language.common.token_reader import MAX_DEPTH
 from sleec_runtime.model import (
     And,
     Atom,
@@ -37,7 +37,7 @@ from sleec_runtime.model import (
     Term,
     Truth,
 )
-from sleec_runtime.model_time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation, Relation
+from sleec_runtime.model.time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation, Relation
 
 _INDENT = "    "
 _SECOND = re.compile(r"#\d+$")

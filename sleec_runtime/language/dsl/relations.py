@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, cast
 
 from sleec_runtime.errors import Problem
+from sleec_runtime.language.common.suggestions import nearest
+from sleec_runtime.language.common.token_reader import quoted
 from sleec_runtime.language.dsl.responses import ResponseParser
 from sleec_runtime.language.dsl.scanner import UNNAMED
-from sleec_runtime.language.suggest import nearest
-from sleec_runtime.language.token_reader import quoted
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Span
-from sleec_runtime.model_time import (
+from sleec_runtime.model.time import (
     Claim,
     Effect,
     EventRelation,
@@ -19,7 +19,7 @@ from sleec_runtime.model_time import (
 )
 
 if TYPE_CHECKING:
-    from sleec_runtime.model_time import ClaimForm, ClaimKind, EffectKind, EventRelationKind, MeasureRelationKind
+    from sleec_runtime.model.time import ClaimForm, ClaimKind, EffectKind, EventRelationKind, MeasureRelationKind
 
 _EVENT_RELATIONS = ("witness", "equal", "mutualExclusive", "happenBefore")
 OF_MEASURES = ("imply", "iff", "mutualExclusive", "opposite", "invariant")

@@ -8,16 +8,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
+from sleec_runtime.language.common.token_reader import ALTERNATIVE_LEVELS, Abandon, quoted
+from sleec_runtime.language.common.units import UNITS, unit_meant
 from sleec_runtime.language.dsl.cursor import ITEM_STARTS
 from sleec_runtime.language.dsl.definitions import DefinitionParser
 from sleec_runtime.language.dsl.operands import Side
 from sleec_runtime.language.dsl.slips import before_event, number_for, unit_for
-from sleec_runtime.language.token_reader import ALTERNATIVE_LEVELS, Abandon, quoted
-from sleec_runtime.language.units import UNITS, unit_meant
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Number, Obligation, Span
 
 if TYPE_CHECKING:
-    from sleec_runtime.model_time import Length, Timing, Unit, Window
+    from sleec_runtime.model.time import Length, Timing, Unit, Window
 
 
 class ResponseParser(DefinitionParser):
@@ -112,7 +112,7 @@ class ResponseParser(DefinitionParser):
     def _timing(self, window: Window | None, alternatives: dict[str, Clause]) -> Timing | None:
         if window is None and not alternatives:
             return None
-        from sleec_runtime.model_time import Timing
+        from sleec_runtime.model.time import Timing
 
         return Timing(window, alternatives.get("otherwise"), alternatives.get("else"))
 
@@ -122,7 +122,7 @@ class ResponseParser(DefinitionParser):
         first = self.at
         if self.kinds[first] not in ("within", "eventually"):
             return None
-        from sleec_runtime.model_time import Window
+        from sleec_runtime.model.time import Window
 
         self.at += 1
         if self.kinds[first] == "eventually":
@@ -153,7 +153,7 @@ class ResponseParser(DefinitionParser):
 
     def length(self, may_lack_unit: bool = False) -> Length:
         """``5 minutes``; the number may be a constant or a measure. In brackets the unit may stand behind them."""
-        from sleec_runtime.model_time import Length
+        from sleec_runtime.model.time import Length
 
         first = self.at
         if self.kinds[first] == "[" or (self.token_text(first) in UNITS and self.kinds[first + 1] != "word"):
@@ -217,7 +217,7 @@ class ResponseParser(DefinitionParser):
 
     def _same_unit(self, start: Length, end: Length, first: int) -> tuple[Length, Length]:
         """``[a, b] UNIT``: the unit behind the brackets is that of both ends, which then have none of their own."""
-        from sleec_runtime.model_time import Length
+        from sleec_runtime.model.time import Length
 
         bare = [length for length in (start, end) if length.span is NOWHERE]
         if not bare:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from array import array
 
-from sleec_runtime.language.comments import Remark, attach
+from sleec_runtime.language.common.comments import Remark, attach
+from sleec_runtime.language.common.units import UNITS
 from sleec_runtime.language.dsl.gaps import keep_gaps
-from sleec_runtime.language.scanner import Tokens
-from sleec_runtime.language.units import UNITS
+from sleec_runtime.language.english.scanner import Tokens
 
 BLOCKS = {f"{name}_start": f"{name}_end" for name in ("def", "rule", "concern", "purpose", "relation")}
 """The keywords that open a block, each with the one that closes it."""

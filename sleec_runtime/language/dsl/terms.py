@@ -9,11 +9,11 @@ from fractions import Fraction
 from math import ceil, floor, gcd
 from typing import Union
 
+from sleec_runtime.language.common.token_reader import quoted
 from sleec_runtime.language.dsl.names import Names
 from sleec_runtime.language.dsl.operands import Operand, Side, Sum
-from sleec_runtime.language.formulas import MAX_DIGITS
-from sleec_runtime.language.resolve import did_you_mean
-from sleec_runtime.language.token_reader import quoted
+from sleec_runtime.language.english.formulas import MAX_DIGITS
+from sleec_runtime.language.english.resolve import did_you_mean
 from sleec_runtime.model import (
     Calculated,
     Comparison,

@@ -10,10 +10,10 @@ from __future__ import annotations
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from sleec_runtime.untimed import require_untimed
+from sleec_runtime.model.untimed import require_untimed
 from sleec_verify.conformance.structure.kinds import KINDS
 from sleec_verify.conformance.structure.report import NAME
-from sleec_verify.finding import CheckResult, Proved, Refuted, Unknown
+from sleec_verify.results.finding import CheckResult, Proved, Refuted, Unknown
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
@@ -28,7 +28,7 @@ UNDECIDED = KINDS["undecided"].code
 def check_structure(ruleset: Ruleset, files: tuple[PythonFile, ...], domain: str | None = None) -> CheckResult:
     """The verdict on the code in `files`: proved, refuted, or unknown where something could not be decided. With a
     domain, only its rules need code."""
-    from sleec_verify.conformance.structure.whole import findings_on
+    from sleec_verify.conformance.structure.check import findings_on
 
     require_untimed(ruleset, "the structure check")
     started = perf_counter()

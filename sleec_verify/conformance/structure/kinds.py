@@ -20,7 +20,7 @@ from sleec_verify.conformance.structure.examples import (
     TAIL,
     example,
 )
-from sleec_verify.finding import Severity
+from sleec_verify.results.finding import Severity
 
 KINDS: dict[str, FindingKind] = {}
 """By the names that the modules of this check have for them."""

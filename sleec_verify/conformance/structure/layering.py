@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from sleec_runtime.language.suggest import nearest
+from sleec_runtime.language.common.suggestions import nearest
 from sleec_runtime.model import Rule
 from sleec_verify.checks.base import listed
+from sleec_verify.conformance.structure.abstract_execution import Trace, Tracer
 from sleec_verify.conformance.structure.bodies import compare
 from sleec_verify.conformance.structure.methods import Method, Variant, calls_super
 from sleec_verify.conformance.structure.program import Function
 from sleec_verify.conformance.structure.report import Findings, clause_name, expression
-from sleec_verify.conformance.structure.trace import Trace, Tracer
 from sleec_verify.conformance.structure.values import Layer, OwnLayer, Value
-from sleec_verify.finding import ClauseRef
+from sleec_verify.results.finding import ClauseRef
 
 
 @dataclass(eq=False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from sleec_runtime.obligations import snake_case
+from sleec_runtime.dispatch.implementations import snake_case
 from sleec_verify.conformance.structure.program import Function
 from sleec_verify.conformance.structure.resolve import Resolver
 from sleec_verify.conformance.structure.values import ObligationMark

@@ -41,8 +41,11 @@ from sleec_verify.conformance.structure.values import (
     Value,
 )
 
-_RUNTIME = {"sleec_runtime.load", "sleec_runtime.Sleec", "sleec_runtime.runtime.Sleec"}
-_OBLIGATION = {f"sleec_runtime.{name}" for name in ("obligation", "obligations.obligation", "obligations.recorded")}
+_RUNTIME = {"sleec_runtime.load", "sleec_runtime.Sleec", "sleec_runtime.dispatch.runtime.Sleec"}
+_OBLIGATION = {
+    f"sleec_runtime.{name}"
+    for name in ("obligation", "dispatch.implementations.obligation", "dispatch.implementations.recorded")
+}
 _CONTEXTPY3 = (
     "Layer", "active_layer", "active_layers", "inactive_layer", "inactive_layers", "proceed", "before", "after",
     "around", "base", "global_activate_layer", "global_deactivate_layer",

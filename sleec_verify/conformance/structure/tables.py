@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from sleec_runtime.language.suggest import nearest
+from sleec_runtime.language.common.suggestions import nearest
 from sleec_runtime.model import Rule
 from sleec_verify.checks.base import listed
 from sleec_verify.conformance.structure.names import Names

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from sleec_runtime.errors import LanguageError, Problem, SleecError, UnreadableFile
-from sleec_runtime.files import read_file
-from sleec_runtime.language.source import read_standard_input, tidy
+from sleec_runtime.language.common.source import read_standard_input, tidy
 from sleec_runtime.model import Source, Span
-from sleec_verify.folders import leads_below
-from sleec_verify.internal_error import internal_errors_of
+from sleec_runtime.support.files import read_file
+from sleec_verify.files.folders import leads_below
+from sleec_verify.results.internal_error import internal_errors_of
 
 SUFFIX = ".py"
 _STDIN = "-"

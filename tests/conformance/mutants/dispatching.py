@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from sleec_runtime import Sleec
-from sleec_runtime.evaluation import Decision
+from sleec_runtime.evaluation.evaluation import Decision
 from tests.conformance.mutants.robot import DOMAIN, RULES, Instance, instance, mutant, read
 from tests.runtime.robots import Log
 

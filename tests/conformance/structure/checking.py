@@ -9,7 +9,7 @@ from sleec_runtime.model import Ruleset, Source
 from sleec_verify.conformance.structure import check_structure
 from sleec_verify.conformance.structure.kinds import KINDS
 from sleec_verify.conformance.structure.target import PythonFile
-from sleec_verify.finding import CheckResult
+from sleec_verify.results.finding import CheckResult
 
 CODES = {kind.code: name for name, kind in KINDS.items()}
 

@@ -7,7 +7,7 @@ import pytest
 from sleec_verify.checks import CHECKS
 from sleec_verify.conformance.structure.examples import files_of
 from sleec_verify.conformance.structure.kinds import KINDS
-from sleec_verify.finding import SEVERITIES
+from sleec_verify.results.finding import SEVERITIES
 from tests.conformance.structure.checking import kinds
 
 

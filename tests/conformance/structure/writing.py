@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 from hypothesis import strategies as st
 
+from sleec_runtime.dispatch.implementations import snake_case
 from sleec_runtime.model import Ruleset
-from sleec_runtime.obligations import snake_case
 
 
 @dataclass

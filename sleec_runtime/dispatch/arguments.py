@@ -1,0 +1,82 @@
+"""Checking what is given to the runtime, before anything is done with it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from sleec_runtime.errors import SleecError, WrongType
+from sleec_runtime.model import Reading, Ruleset
+from sleec_runtime.support.messages import represent
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from sleec_runtime.certificate.coverage import Demand
+    from sleec_runtime.timed.clocks import Clock, Time
+
+
+def ruleset(given: Ruleset, reading: Reading | None) -> Ruleset:
+    """The rules, under the reading if there is one. Raises WrongType."""
+    if not isinstance(given, Ruleset):
+        hint = "read one: sleec_runtime.language.parse(text), or sleec_runtime.load(path) for a file"
+        raise WrongType("what is to be in force", given, "a Ruleset", hint)
+    return given if reading is None else given.read_as(reading)
+
+
+def check_choices(**choices: object) -> None:
+    """Raises WrongType for one that is neither True nor False."""
+    for name, choice in choices.items():
+        if not isinstance(choice, bool):
+            raise WrongType(name, choice, "a choice, True or False", "give True or False")
+
+
+def demand(
+    certificate: str | Path | None,
+    chains: bool,
+    key: str | Path | None = None,
+    require_proved: bool = False,
+    require_tied: bool = False,
+) -> Demand | None:
+    """What the certificate must say, if there is one.
+
+    Raises SleecError where something is asked of a certificate that is not given, and what `Demand` raises.
+    """
+    if certificate is None:
+        asked = {"key": key is not None, "require_proved": require_proved, "require_tied": require_tied}
+        if any(asked.values()):
+            name = next(name for name, given in asked.items() if given)
+            raise SleecError(f"{name} without a certificate checks nothing", "give certificate= as well")
+        return None
+    from sleec_runtime.certificate.coverage import Demand
+    from sleec_runtime.certificate.manifest import Required
+
+    return Demand(certificate, key, chains, Required(require_proved, require_tied))
+
+
+def check_clock(clock: Clock | None) -> None:
+    """Raises WrongType for a clock that is none."""
+    if clock is not None:
+        from sleec_runtime.timed import clocks
+
+        clocks.check_clock(clock)
+
+
+def world_time(now: Time | None) -> Time:
+    """The time in seconds since 1970. Raises WrongType."""
+    import time
+
+    from sleec_runtime.timed.bounds import checked_time
+
+    return time.time() if now is None else checked_time(now, "now")
+
+
+def triggers(names: Iterable[str]) -> tuple[str, ...]:
+    """The names of triggers, once each. Raises WrongType."""
+    hint = f"give a list: [{represent(names)}]" if isinstance(names, str) else 'give a list: ["A", "B"]'
+    if not isinstance(names, str):
+        try:
+            return tuple(dict.fromkeys(names))
+        except TypeError:
+            pass
+    raise WrongType("what occurs together", names, "a list of names of triggers", hint)

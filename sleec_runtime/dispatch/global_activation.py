@@ -1,0 +1,136 @@
+"""The paper's own mode (Section 4): layers globally active, renewed on each change of context.
+
+For code that calls layered methods itself, as ROS callbacks of the paper's Listing 2 do. It cannot be made safe:
+ContextPy3's global layers are one tuple that is swapped a layer at a time, so a call that comes while two layers
+change sees one changed and the other not; and each call walks all active layers (about 0.5 µs each).
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+import contextpy3
+
+from sleec_runtime.dispatch.dispatch import due_in
+from sleec_runtime.dispatch.layers import RuleLayer
+from sleec_runtime.errors import SleecError
+from sleec_runtime.evaluation.evaluation import Decision
+from sleec_runtime.model.untimed import require_untimed
+from sleec_runtime.support.critical_section import CriticalSection
+
+if TYPE_CHECKING:
+    from sleec_runtime.dispatch.runtime import Sleec
+    from sleec_runtime.dispatch.snapshot import Snapshot
+    from sleec_runtime.model import Rule
+
+# ContextPy3 has one tuple of global layers for the process, and reads and writes it without a lock.
+_GLOBAL_LAYERS = CriticalSection()
+
+
+class GlobalActivation:
+    """Keeps the layers of the active clauses globally active: the layer manager LM, for every rule as if its trigger
+    occurred. Use `trigger` wherever you can; use this where something else makes the call.
+
+    What it does not do: check each call for conflicts, tell a guard that is false from a rule's ε, or change several
+    layers at once. A new layer is activated before the old one of its rule is deactivated, because ContextPy3 lets the
+    last activated one decide; the other way round the base would run in between.
+    """
+
+    def __init__(self, sleec: Sleec) -> None:
+        self._sleec = sleec
+        self._active: dict[str, RuleLayer] = {}
+        self._end = self._not_started
+
+    def start(self) -> GlobalActivation:
+        """Activates the layers of now, and renews them on each change. O(rules).
+
+        Raises UnsupportedTimes for rules with times, ConflictInContext (or UndeterminedDecision) if some trigger could
+        not be answered in this context,
+        Unbindable for a bound method that a plain call would not dispatch by the layers, and SleecError if this is on
+        already, or one of the layers is active: then nothing is activated. As long as this is on, a change into a
+        context in which some trigger could not be answered, or to a layer that someone else activated, is refused, and
+        so is binding such a method.
+        """
+        self._sleec.hold(lambda snapshot: _GLOBAL_LAYERS.run(partial(self._start, snapshot)))
+        return self
+
+    def _start(self, snapshot: Snapshot) -> None:
+        _refuse_times(snapshot)
+        if self._sleec.activated_globally:
+            raise SleecError("global activation is on already", "stop() it first")
+        self._sleec.allow_calls()
+        for trigger in snapshot.program.number_of:
+            due_in(snapshot, (trigger,))
+        layers = self._due_layers(snapshot, snapshot.program.ruleset.rules)
+        self._refuse_active(layers)
+        self._renew(layers)
+        self._end = self._sleec.listen(self._changed, self._refuse)
+
+    def stop(self) -> None:
+        """Deactivates what this activated."""
+        self._sleec.hold(lambda snapshot: _GLOBAL_LAYERS.run(self._stop))
+
+    def _stop(self) -> None:
+        self._end()
+        self._end = self._not_started
+        self._renew(dict.fromkeys(self._active))
+
+    def __enter__(self) -> GlobalActivation:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+    def _refuse(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
+        _GLOBAL_LAYERS.refuse_reentry()
+        _refuse_times(after)
+        # What a NEVER says of the context may be at odds with rules that do not mention what changed.
+        everything = before.mark is not after.mark
+        for trigger in after.program.number_of if everything else dict.fromkeys(rule.trigger for rule in rules):
+            due_in(after, (trigger,))
+        self._refuse_active(self._due_layers(after, rules))
+
+    def _refuse_active(self, layers: dict[str, RuleLayer | None]) -> None:
+        for label, layer in layers.items():
+            if layer is not None and layer is not self._active.get(label) and layer in contextpy3._BASELAYERS:
+                raise SleecError(f"layer {layer.name} is globally active already", "deactivate it first")
+
+    def _changed(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
+        layers = self._due_layers(after, rules)
+        if before.program is not after.program:
+            layers = {**dict.fromkeys(self._active), **layers}
+        _GLOBAL_LAYERS.run(partial(self._renew, layers))
+
+    def _due_layers(self, snapshot: Snapshot, rules: tuple[Rule, ...]) -> dict[str, RuleLayer | None]:
+        outcomes = {rule.label: snapshot.outcome(rule) for rule in rules}
+        return {
+            label: self._sleec.layers.of(outcome.layer) if isinstance(outcome, Decision) else None
+            for label, outcome in outcomes.items()
+        }
+
+    def _renew(self, layers: dict[str, RuleLayer | None]) -> None:
+        for label, layer in layers.items():
+            old = self._active.get(label)
+            if layer is old:
+                continue
+            if layer is not None:
+                contextpy3.global_activate_layer(layer)
+                self._active[label] = layer
+            if old is not None:
+                # Unless someone else did.
+                if old in contextpy3._BASELAYERS:
+                    contextpy3.global_deactivate_layer(old)
+                if layer is None:
+                    del self._active[label]
+
+    @staticmethod
+    def _not_started() -> None:
+        raise SleecError("global activation is not on", "start() it first")
+
+
+def _refuse_times(snapshot: Snapshot) -> None:
+    require_untimed(snapshot.program.ruleset, "global activation, where nothing is watched,")

@@ -1,0 +1,106 @@
+"""Reading a text of rules from a file or from standard input, as people's editors leave it."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING
+
+from sleec_runtime.errors import UnreadableFile
+from sleec_runtime.model import Source
+from sleec_runtime.support.files import read_file, read_stream
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+STDIN = "-"
+_BYTE_ORDER_MARK = "\ufeff"
+_UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
+
+
+def read_source(path: str | Path) -> Source:
+    """The text at `path`, or standard input for ``-``.
+
+    A byte order mark and any kind of line break are tolerated.
+
+    Raises:
+        UnreadableFile: the file is missing, forbidden, too large or no regular file, is not UTF-8, or holds a NUL byte.
+    """
+    name, data = _read_bytes(path)
+    return source_of(name, data)
+
+
+def source_of(name: str, data: bytes) -> Source:
+    """The text that these bytes are, by the name that messages call it.
+
+    Raises:
+        UnreadableFile: they are not UTF-8, or hold a NUL byte.
+    """
+    from hashlib import sha256
+
+    return Source(name, _decode(data, name), sha256(data).hexdigest())
+
+
+def tidy(text: str) -> str:
+    """`text` without a byte order mark and with ``\\n`` for every lone ``\\r``, so that lines count as in an editor.
+
+    ``\\r\\n`` stays: its ``\\n`` ends the line.
+    """
+    text = text.removeprefix(_BYTE_ORDER_MARK)
+    if "\r" in text:
+        import re
+
+        text = re.sub(r"\r(?!\n)", "\n", text)
+    return text
+
+
+def _read_bytes(path: str | Path) -> tuple[str, bytes]:
+    name = os.fspath(path)
+    if name == STDIN:
+        return "<stdin>", read_standard_input()
+    try:
+        return name, read_file(name)
+    except FileNotFoundError:
+        raise UnreadableFile(f"there is no file {name}", "check the spelling of its name and folder") from None
+    except IsADirectoryError:
+        raise UnreadableFile(f"{name} is a folder, not a file", "name one of the files in it") from None
+    except PermissionError:
+        raise UnreadableFile(f"{name} may not be read", "ask for the right to read it") from None
+    except (OSError, ValueError) as error:
+        raise UnreadableFile(f"{name} cannot be read: {getattr(error, 'strerror', None) or error}") from None
+
+
+def read_standard_input() -> bytes:
+    """All of standard input.
+
+    Raises:
+        UnreadableFile: it is closed, too large, or cannot be read.
+    """
+    if sys.stdin is None:  # what Python has in place of a stream that was closed when it was started
+        raise UnreadableFile("there is no standard input: it is closed", "name a file, or redirect one to it")
+    try:
+        return read_stream(sys.stdin.buffer)
+    except OSError as error:
+        raise UnreadableFile(f"standard input cannot be read: {error.strerror}") from None
+
+
+def _decode(data: bytes, name: str) -> str:
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        if data.startswith(_UTF16_MARKS):
+            raise UnreadableFile(f"{name} is saved as UTF-16, not as UTF-8", "save it again as UTF-8") from None
+        line = data.count(b"\n", 0, error.start) + 1
+        raise UnreadableFile(
+            f"{name} is not UTF-8 text: line {line} holds the byte 0x{data[error.start]:02x}"
+            f" (byte {error.start + 1} of the file)",
+            "save it again as UTF-8; most editors offer this under 'Save as'",
+        ) from None
+    nul = text.find("\0")
+    if nul >= 0:
+        line = text.count("\n", 0, nul) + 1
+        raise UnreadableFile(
+            f"{name} is not a text of rules: line {line} holds a NUL byte",
+            "it may be a document of a word processor: save it as plain text",
+        )
+    return tidy(text)

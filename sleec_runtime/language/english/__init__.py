@@ -1,0 +1,1 @@
+"""Structured English: text to `Ruleset` and back (docs/language.md)."""

@@ -1,0 +1,264 @@
+"""The structured-English form: a text as a whole, its constraints and settings (docs/language.md).
+
+A statement ends where the keyword of the next one stands, so line breaks are only blanks. Declarations are read first,
+wherever they stand, and NEVER and ASSUME last: what a name in them is depends on its use in the rules.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from sleec_runtime.errors import LanguageError, Problem
+from sleec_runtime.language.common.gc_pause import uncollected
+from sleec_runtime.language.common.suggestions import near_keyword, nearest
+from sleec_runtime.language.common.token_reader import Abandon, quoted
+from sleec_runtime.language.english.keywords import CLAIMS, DECLARATIONS, OPENINGS, RULE_STARTS, STATEMENTS
+from sleec_runtime.language.english.relations import RelationParser
+from sleec_runtime.language.english.resolve import Names, first_problems
+from sleec_runtime.language.english.scanner import scan
+from sleec_runtime.model import (
+    READINGS,
+    Assume,
+    Atom,
+    Constant,
+    Exclusive,
+    Never,
+    Reading,
+    Ruleset,
+    Source,
+    Span,
+    Statement,
+    leaves,
+)
+
+EVERYWHERE = "everywhere"
+DEFAULT_READING: Reading = "cascade"
+
+_Read = TypeVar("_Read")
+
+
+def parse_english(source: Source) -> Ruleset:
+    """The ruleset that `source` spells out.
+
+    Raises:
+        LanguageError: with every problem, in the order of the text.
+    """
+    problems: list[Problem] = []
+    with uncollected():
+        tokens = scan(source.text)
+        parser = EnglishParser(source, tokens, problems, Names(source, problems))
+        statements = parser.statements()
+    if problems:
+        raise LanguageError(source, first_problems(problems))
+    return Ruleset(
+        statements=tuple(statements),
+        reading=parser.reading or DEFAULT_READING,
+        syntax="english",
+        inferred=tuple(measure for _, measure in sorted(parser.names.inferred.items())),
+        reading_stated=parser.reading is not None,
+        source=source,
+        closing_comments=tokens.closing,
+    )
+
+
+class EnglishParser(RelationParser):
+    """Reads a whole text, once."""
+
+    def statements(self) -> list[Statement]:
+        """Everything in the text, in its order; what could not be read is among the problems instead."""
+        self.domains = None
+        self.reading: Reading | None = None
+        self.rules_so_far = 0
+        self.numbered = {}
+        self.constants = {}
+        self._reading_span: Span | None = None
+        self._found: list[Statement | None] = []
+        self._postponed: list[tuple[int, int, tuple[str, ...] | None]] = []
+        declared = self._declarations()
+        self._in_order(declared)
+        # Assumptions first: a name of theirs is a condition for the prohibitions too.
+        for keyword in ("ASSUME", "NEVER"):
+            for index, token, domains in self._postponed:
+                if self.kinds[token] == keyword:
+                    self.at = token
+                    self.domains = domains
+                    read: Callable[[], Assume | Never] = self._assume if keyword == "ASSUME" else self._never
+                    self._found[index] = self._read(read)
+        self.names.numbered(self.numbered)
+        self.names.finish()
+        if not self.rules_so_far and not self.problems:
+            self.problems.append(
+                Problem(
+                    "there are no rules in this text",
+                    Span(0, 0),
+                    "a rule looks like this: WHEN CurtainOpenRequest THEN OpenCurtains",
+                )
+            )
+        return [statement for statement in self._found if statement is not None]
+
+    def _declarations(self) -> dict[int, tuple[Statement | None, int]]:
+        """The declarations by the token they start at, each with the token behind it."""
+        declared: dict[int, tuple[Statement | None, int]] = {}
+        for token in [token for token, kind in enumerate(self.kinds) if kind in DECLARATIONS]:
+            self.at = token
+            declared[token] = (self._declaration(), self.at)
+        # A hedge may name the trigger of a rule further down.
+        openings = [token for token, kind in enumerate(self.kinds) if kind in OPENINGS]
+        self.names.triggers.update(self.name_at(token + 1) for token in openings)
+        self.names.declare_constants(self.constants)
+        self.names.check_scales()
+        return declared
+
+    def _declaration(self) -> Statement | None:
+        statement = self._read(self.declaration)
+        if statement is None:
+            self.names.complete = False
+        return statement
+
+    def _in_order(self, declared: dict[int, tuple[Statement | None, int]]) -> None:
+        found, kinds = self._found, self.kinds
+        self.at = 0
+        while True:
+            token = self.at = self._next_statement()
+            kind = kinds[token]
+            if kind in RULE_STARTS:
+                found.append(self.rule())
+            elif kind in DECLARATIONS:
+                statement, self.at = declared.get(token) or (self._declaration(), self.at)
+                if isinstance(statement, Constant):
+                    statement = self.names.constants.get(statement.name)
+                found.append(statement)
+            elif kind in ("NEVER", "ASSUME"):
+                self._postponed.append((len(found), token, self.domains))
+                found.append(None)
+                self.at += 1
+                self.skip(STATEMENTS)
+            elif kind == "EXCLUSIVE":
+                found.append(self._read(self._exclusive))
+            elif kind == "DOMAIN":
+                self._read(self._domain)
+            elif kind == "READING":
+                self._read(self._reading)
+            elif kind == "end":
+                return
+            else:
+                found.append(self._read(self.claim if kind in CLAIMS else self.relation))
+
+    def _next_statement(self) -> int:
+        """The token at hand if a statement starts there; else it is reported, and the next one that does."""
+        if self.at == 0 and self.kinds[0] not in STATEMENTS and self.kinds[0] != "end":
+            self.begin_clause()
+            try:
+                self._no_statement()
+            except Abandon:
+                self.names.complete = False
+                self.skip(STATEMENTS)
+        return self.at
+
+    def _no_statement(self) -> None:
+        if self.kinds[0] == "word":
+            written = self.token_text(0).upper()
+            keyword = written if written in STATEMENTS else near_keyword(written)
+            if keyword in STATEMENTS:
+                self.misspelt(0, keyword)
+                return
+        if self.kinds[1] == ":":
+            self.at = 1
+        if self.kinds[0] == "UNLESS":
+            self.expected(
+                "a rule before this UNLESS", "an exception belongs to a rule: WHEN trigger THEN response UNLESS ..."
+            )
+        self.expected("a statement, such as RULE or WHEN", "a rule looks like this: WHEN trigger THEN response")
+
+    def _read(self, read: Callable[[], _Read]) -> _Read | None:
+        """What `read` reads, to the end of the statement; None if there was a problem."""
+        self.begin_clause()
+        try:
+            found = read()
+            self.end_of_statement("the next statement")
+        except Abandon:
+            self.skip(STATEMENTS)
+            return None
+        return None if self.hurt else found
+
+    # Settings -------------------------------------------------------------------------------------------------
+
+    def _domain(self) -> None:
+        self.at += 1
+        first = self.at
+        names, _ = self.names_in_list("the name of a domain")
+        if EVERYWHERE in names and len(names) > 1:
+            self.fail(
+                f"{quoted(EVERYWHERE)} is all domains, and cannot stand in a list with others",
+                self.span(first),
+                "write DOMAIN everywhere, or the names of the domains",
+            )
+        self.domains = None if EVERYWHERE in names else tuple(dict.fromkeys(names))
+
+    def _reading(self) -> None:
+        first = self.at
+        self.at += 1
+        at_name = self.at
+        name = self.name("cascade or priority") or self.expected("cascade or priority")
+        if name not in READINGS:
+            near = nearest(name, READINGS)
+            self.fail(
+                f"there is no reading {quoted(name)}",
+                self.span(at_name),
+                f"did you mean {near}?" if near else "write READING cascade or READING priority",
+            )
+        if self._reading_span is not None:
+            place = self.source.place(self._reading_span)
+            self.fail(
+                f"the reading is stated twice; the first time in line {place.line}",
+                self.span(first),
+                "one text has one reading: delete one of them",
+            )
+        self._reading_span = self.span(first)
+        self.reading = "cascade" if name == "cascade" else "priority"
+
+    # Constraints ----------------------------------------------------------------------------------------------
+
+    def _exclusive(self) -> Exclusive:
+        first = self.at
+        self.at += 1
+        names, spans = self.names_in_list("the name of an obligation")
+        seen: set[str] = set()
+        for name, span in zip(names, spans):
+            if name in seen:
+                self.fail(
+                    f"{quoted(name)} stands twice in this EXCLUSIVE",
+                    span,
+                    f"name it once; if it must never be due at all, write NEVER {name}",
+                )
+            seen.add(name)
+            if not self.hurt:
+                self.names.use("obligation", name, span)
+        if len(names) < 2:
+            self.expected(
+                "a comma and another obligation",
+                f"EXCLUSIVE says which obligations exclude each other; to forbid one, write NEVER {names[0]}",
+            )
+        return Exclusive(names, self.domains, self.span(first), spans, self.comments_of(first))
+
+    def _never(self) -> Never:
+        first = self.at
+        self.at += 1
+        self.leaf = self.names.forbidden
+        formula = self.formula()
+        span = self.span(first)
+        if not any(isinstance(leaf, Atom) and leaf.kind == "obligation" for leaf in leaves(formula)):
+            self.problem(
+                "this NEVER names no obligation, so there is nothing that the robot could avoid",
+                span,
+                "if this situation cannot occur, write ASSUME NOT (...)",
+            )
+        return Never(formula, self.domains, span, self.comments_of(first))
+
+    def _assume(self) -> Assume:
+        first = self.at
+        self.at += 1
+        self.leaf = self.names.assumed
+        formula = self.formula()
+        return Assume(formula, self.domains, self.span(first), self.comments_of(first))

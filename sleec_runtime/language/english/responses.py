@@ -1,0 +1,245 @@
+"""Responses: obligations joined by AND, each maybe with a time and with what is due in its place, and chains of hedges.
+
+``OTHERWISE`` and ``ELSE`` belong to the nearest obligation before them, and take one obligation or a chain in
+parentheses. What could be read in two ways must have parentheses: an AND behind them, a choice behind IN WHICH CASE.
+"""
+
+from __future__ import annotations
+
+from sleec_runtime.language.common.suggestions import edits
+from sleec_runtime.language.common.token_reader import ALTERNATIVE_LEVELS, MAX_DEPTH
+from sleec_runtime.language.english.cursor import OBLIGATION
+from sleec_runtime.language.english.keywords import ALTERNATIVES, IN_WHICH_CASE, STATEMENTS
+from sleec_runtime.language.english.times import TimeParser
+from sleec_runtime.model import Clause, Obligation
+
+RULE_STOPS = STATEMENTS | {"UNLESS"}
+_Response = tuple[tuple[Obligation, ...], tuple[Clause, ...]]
+
+
+class ResponseParser(TimeParser):
+    """Reads responses and hedges."""
+
+    def hedge(self) -> Clause:
+        """``UNLESS condition [IN WHICH CASE response]``."""
+        first = self.at
+        self.at += 1
+        self.leaf = self.names.condition
+        condition = self.formula()
+        self.comma_before(IN_WHICH_CASE)
+        obligations: tuple[Obligation, ...] = ()
+        hedges: tuple[Clause, ...] = ()
+        kind = self.kinds[self.at]
+        if kind == IN_WHICH_CASE or kind == "IN":
+            self._in_which_case()
+            obligations, hedges = self._response_of_hedge()
+        elif kind in ("WHICH", "CASE", "THEN", *ALTERNATIVES):
+            self.expected(
+                "IN WHICH CASE after the condition", "as in: UNLESS UserUndressed IN WHICH CASE RefuseRequest"
+            )
+        return Clause(condition, obligations, hedges, self.span(first), self.comments_of(first))
+
+    def _in_which_case(self) -> None:
+        self.at += 1
+        if self.kinds[self.at - 1] == IN_WHICH_CASE:
+            return
+        for keyword in ("WHICH", "CASE"):
+            at = self.at
+            if self.kinds[at] == keyword:
+                self.at += 1
+            elif self.kinds[at] == "word" and edits(self.token_text(at)[:20].upper(), keyword, 3) < 3:
+                self.misspelt(at, keyword)
+                self.at += 1
+            else:
+                self.problem(
+                    f"expected {keyword}, but found {self.found(at)}",
+                    self.token_span(at),
+                    "the three words IN WHICH CASE stand before what is to be done",
+                )
+
+    def _response_of_hedge(self) -> _Response:
+        in_parentheses = self.kinds[self.at] == "("
+        # The printer may write parentheses around the rest: what is nested in that is one level further in.
+        self.depth += not in_parentheses
+        obligations, hedges = self.response(of_hedge=True)
+        self.depth -= not in_parentheses
+        if len(obligations) > 1 and not hedges:
+            self.leave_room(self.depth)
+        return obligations, hedges
+
+    def response(self, of_hedge: bool = False, may_be_empty: bool = False) -> _Response:
+        """Obligations, or a whole chain in parentheses, which may start with UNLESS if `may_be_empty`."""
+        if self.kinds[self.at] != "(":
+            return self._obligations([], of_hedge), ()
+        obligations, hedges = self._in_parentheses(of_hedge or may_be_empty)
+        if self.kinds[self.at] == "AND":
+            if hedges:
+                self.expected(
+                    "the end of the response", "UNLESS in parentheses is the whole response: write a rule for the rest"
+                )
+            self.at += 1
+            self.depth += of_hedge
+            obligations = self._obligations(list(obligations), of_hedge)
+            self.depth -= of_hedge
+        return obligations, hedges
+
+    def _in_parentheses(self, may_be_empty: bool) -> _Response:
+        opened = self.at
+        self.deeper()
+        self.at += 1
+        obligations: tuple[Obligation, ...] = ()
+        inner: tuple[Clause, ...] = ()
+        if not may_be_empty or self.kinds[self.at] != "UNLESS":
+            obligations, inner = self.response(may_be_empty=may_be_empty)
+        hedges = list(inner)
+        while self.kinds[self.at] == "UNLESS":
+            if inner:
+                self.expected(
+                    "a closing parenthesis", "a chain in parentheses has its exceptions inside the same parentheses"
+                )
+            hedges.append(self.hedge())
+        self._close(opened)
+        return obligations, tuple(hedges)
+
+    # Obligations ----------------------------------------------------------------------------------------------
+
+    def _obligations(self, found: list[Obligation], of_hedge: bool = False) -> tuple[Obligation, ...]:
+        self._literals(found, of_hedge)
+        while self.kinds[self.at] == "AND":
+            self.at += 1
+            self._literals(found, of_hedge)
+        return tuple(found)
+
+    def _literals(self, found: list[Obligation], of_hedge: bool) -> None:
+        """One obligation, or several in parentheses."""
+        first = self.at
+        if self.kinds[first] != "(":
+            obligation = self._literal()
+            if of_hedge and is_choice(obligation):
+                self.problem(
+                    "this leaves a choice where the condition is true, and could be meant for where it is false",
+                    self.span(first),
+                    "if the choice is meant, put it into parentheses: IN WHICH CASE (A ELSE B)",
+                )
+            found.append(obligation)
+            return
+        self.deeper()
+        self.at += 1
+        self._obligations(found)
+        if self.kinds[self.at] == "UNLESS":
+            self.expected("a closing parenthesis", "a chain in parentheses must be the whole response")
+        self._close(first)
+
+    def _literal(self) -> Obligation:
+        first = self.at
+        negated = self.kinds[first] == "NOT"
+        if negated:
+            self.at += 1
+            if self.kinds[self.at] in ("(", "NOT"):
+                self.expected(
+                    "the name of an obligation after NOT",
+                    "NOT forbids one obligation: write NOT A AND NOT B, or forbid both together with NEVER A AND B",
+                )
+        at_name = self.at
+        if self.kinds[at_name] != "word":
+            self.no_name(OBLIGATION, self._hint_at_obligation())
+        name = self.name(OBLIGATION)
+        if not name:
+            return self._literal()
+        span = self.span(at_name)
+        if not self.hurt:
+            self.names.use("obligation", name, span)
+        timed = self._timed(name, negated, first) if self.kinds[self.at] in _BEHIND_A_NAME else None
+        return timed or Obligation(name, negated, self.span(first) if negated else span)
+
+    def _timed(self, name: str, negated: bool, first: int) -> Obligation:
+        """The obligation with the time and the alternatives at hand."""
+        from sleec_runtime.model.time import Timing
+
+        window = self.window()
+        alternatives: dict[str, Clause] = {}
+        for word in ("OTHERWISE", "ELSE"):
+            if self.kinds[self.at] == word:
+                self.at += 1
+                alternatives[word] = self._alternative(word)
+        if alternatives:
+            self._end_of_alternatives(next(reversed(alternatives)))
+        timing = Timing(window, alternatives.get("OTHERWISE"), alternatives.get("ELSE"))
+        return Obligation(name, negated, self.span(first), timing)
+
+    def _alternative(self, word: str) -> Clause:
+        """What is due in place of an obligation: another one, or a chain in parentheses."""
+        self.deeper(ALTERNATIVE_LEVELS)
+        first = self.at
+        if self.kinds[first] != "(":
+            if self.kinds[first] not in ("word", "NOT"):
+                self.no_name(f"an obligation after {word}", f"say what is due instead: {word} CallForHelp")
+            obligations: tuple[Obligation, ...] = (self._literal(),)
+            hedges: tuple[Clause, ...] = ()
+        else:
+            self.depth -= 1  # these parentheses are one of the levels that were counted above
+            obligations, hedges = self._in_parentheses(may_be_empty=False)
+            self.depth += 1
+        self.depth -= ALTERNATIVE_LEVELS
+        return Clause(None, obligations, hedges, self.span(first))
+
+    def _end_of_alternatives(self, word: str) -> None:
+        """Refuses what could belong to the obligation or to its last alternative, behind `word`."""
+        kind = self.kinds[self.at]
+        if kind in ALTERNATIVES:
+            self.expected(
+                "the end of the response",
+                "an obligation has one OTHERWISE, then one ELSE; parentheses nest them",
+            )
+        if kind == "AND":
+            self.expected(
+                "the end of the response",
+                f"{word} takes one obligation: write {word} (B AND C), or (A {word} B) AND C",
+            )
+
+    def _close(self, opened: int) -> None:
+        if self.kinds[self.at] == "OR":
+            self.no_choice()
+        if self.kinds[self.at] != ")":
+            self.missing_parenthesis(opened)
+        self.at += 1
+        self.depth -= 1
+
+    # Small things ---------------------------------------------------------------------------------------------
+
+    def leave_room(self, depth: int) -> None:
+        """The printer adds parentheses here, and what it prints must be readable again."""
+        if depth >= MAX_DEPTH:
+            self.too_deep()
+
+    def comma_before(self, keyword: str) -> None:
+        """Prose has commas before its clauses; they do no harm."""
+        if self.kinds[self.at] == "," and self.kinds[self.at + 1] in (keyword, keyword[:2]):
+            self.at += 1
+
+    def no_choice(self) -> None:
+        self.expected(
+            "the end of the response",
+            "a response is not a choice: join obligations with AND, say with UNLESS when another one is due, "
+            "or write ELSE if either will do",
+        )
+
+    def _hint_at_obligation(self) -> str | None:
+        kind = self.kinds[self.at]
+        if kind in ("AND", "OR", ")"):
+            return f"there is nothing before {kind}" if kind != ")" else "there is nothing in the parentheses"
+        if kind == "end" or kind in RULE_STOPS:
+            return "say what is to be done"
+        return None
+
+
+_BEHIND_A_NAME = frozenset({"WITHIN", "EVENTUALLY", "OTHERWISE", "ELSE"})
+
+
+def is_choice(obligation: Obligation) -> bool:
+    """Whether another response may be given in place of an obligation from the beginning, and not only when its window
+    has closed."""
+    timing = obligation.timing
+    return timing is not None and (
+        timing.instead is not None or (timing.otherwise is not None and timing.window is None)
+    )

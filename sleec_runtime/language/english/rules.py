@@ -1,0 +1,189 @@
+"""Rules: ``WHEN trigger AND guard THEN response UNLESS condition IN WHICH CASE response …``."""
+
+from __future__ import annotations
+
+import re
+from typing import NoReturn
+
+from sleec_runtime.language.common.token_reader import Abandon, quoted
+from sleec_runtime.language.english.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
+from sleec_runtime.language.english.responses import RULE_STOPS, ResponseParser
+from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Or, Rule, Span
+
+_LABEL = re.compile(r"\w(?:[\w.'\u2019-]*\w)?")
+
+
+class RuleParser(ResponseParser):
+    """Reads rules. A problem in one clause leaves the others readable."""
+
+    domains: tuple[str, ...] | None
+    rules_so_far: int
+    numbered: dict[str, Span]
+
+    def rule(self) -> Rule | None:
+        """The rule at hand, or None if a part of it could not be read."""
+        first = self.at
+        self.rules_so_far += 1
+        label, label_span = self._label() if self.kinds[first] == "RULE" else ("", NOWHERE)
+        at_when = self.at
+        if self.kinds[at_when] not in ("WHEN", "IF"):
+            return None
+        self._unbalanced = False
+        opening: tuple[str, Span, Formula | None, Clause] | None = None
+        self.begin_clause()
+        try:
+            opening = self._opening(first != at_when)
+            end = self.at
+            self._end_of_clause("AND, UNLESS or the next rule")
+        except Abandon:
+            self._recover()
+        hedges: list[Clause] = []
+        while self.kinds[self.at] == "UNLESS":
+            self.begin_clause()
+            try:
+                hedge = self.hedge()
+                hedges.append(hedge)
+                end = self.at
+                self._end_of_clause("AND, UNLESS or the next rule" if hedge.obligations else "AND, OR or IN WHICH CASE")
+            except Abandon:
+                self._recover()
+        if opening is None:
+            return None
+        if not label:
+            label = f"rule_{self.rules_so_far}"
+            self.numbered[label] = self.token_span(first)
+        trigger, trigger_span, guard, default = opening
+        return Rule(
+            label,
+            trigger,
+            guard,
+            default,
+            tuple(hedges),
+            self.domains,
+            label_span is not NOWHERE,
+            Span(self.starts[first], self.ends[end - 1]),
+            label_span,
+            trigger_span,
+            self.comments_of(first),
+        )
+
+    def begin_clause(self) -> None:
+        """From here on a problem is a new one."""
+        self.hurt = False
+        self.depth = 0
+        self.deepest = 0
+
+    def _recover(self) -> None:
+        self._unbalanced = True
+        self.skip(RULE_STOPS)
+
+    # Parts of a rule ------------------------------------------------------------------------------------------
+
+    def _label(self) -> tuple[str, Span]:
+        self.begin_clause()
+        self.at += 1
+        try:
+            label, span = self.label_word("RULE", "dress_assist", ("WHEN", "IF"))
+            self.names.label(label, span, "rule")
+            if self.kinds[self.at] not in ("WHEN", "IF"):
+                self.expected("WHEN after the label of the rule", "as in: RULE dress_assist WHEN trigger THEN response")
+            return label, span
+        except Abandon:
+            self.skip(STATEMENTS)
+            return "", NOWHERE
+
+    def label_word(self, keyword: str, example: str, behind: tuple[str, ...]) -> tuple[str, Span]:
+        """Reads the label behind `keyword`; one of the keywords `behind` comes next."""
+        at = self.at
+        match = (
+            _LABEL.match(self.text, self.starts[at]) if self.kinds[at] in PHRASE or self.kinds[at] == "dotted" else None
+        )
+        if match is None:
+            self.expected(f"a label after {keyword}", f"a label is one word, as in: {keyword} {example}")
+        span = Span(*match.span())
+        while self.starts[self.at] < span.end:
+            self.at += 1
+        if self.kinds[self.at] in PHRASE:
+            meant = self.keyword_meant(self.at, self.token_text(self.at), at)
+            if meant not in behind:
+                self._long_label(at, keyword)
+            self.misspelt(self.at, meant)
+        return match[0], span
+
+    def _long_label(self, first: int, keyword: str) -> NoReturn:
+        while self.kinds[self.at] in PHRASE:
+            self.at += 1
+        label = self.text[self.starts[first] : self.ends[self.at - 1]]
+        self.fail(
+            f"a label is one word, but found {quoted(label)}",
+            self.span(first),
+            f"write {keyword} {'_'.join(label.split())[:60]}",
+        )
+
+    def _opening(self, labelled: bool) -> tuple[str, Span, Formula | None, Clause]:
+        first = self.at
+        self.at += 1
+        at_trigger = self.at
+        if self.kinds[at_trigger] != "word":
+            self.no_name("a trigger", self._hint_at_trigger())
+        trigger = self.name("a trigger") or self.expected("a trigger")
+        trigger_span = self.span(at_trigger)
+        if not self.hurt:
+            self.names.use("trigger", trigger, trigger_span)
+        guard = None
+        if self.kinds[self.at] == "AND":
+            self.at += 1
+            self.leaf = self.names.condition
+            guard = self.formula()
+            if isinstance(guard, Or):
+                self.leave_room(self.deepest)
+        self.comma_before("THEN")
+        if self.kinds[self.at] != "THEN":
+            self._no_then(guard is not None)
+        self.at += 1
+        obligations, hedges = self.response()
+        comments = self.comments_of(first) if labelled else NO_COMMENTS
+        return trigger, trigger_span, guard, Clause(None, obligations, hedges, self.span(first), comments)
+
+    def _end_of_clause(self, what: str) -> None:
+        self.comma_before("UNLESS")
+        if self.kinds[self.at] == "." and self.kinds[self.at + 1] in (*RULE_STOPS, "end"):
+            self.at += 1
+        kind = self.kinds[self.at]
+        while kind == ")" and self._unbalanced:
+            self.at += 1
+            kind = self.kinds[self.at]
+        if kind in RULE_STOPS or kind == "end":
+            return
+        if kind == "OR":
+            self.no_choice()
+        if kind == "THEN":
+            self.expected(what, "a rule has one THEN; each exception is UNLESS condition IN WHICH CASE response")
+        if kind in ("IN", IN_WHICH_CASE):
+            self.expected(what, "IN WHICH CASE follows the condition of an UNLESS; is UNLESS missing?")
+        self.end_of_statement(what)
+
+    # Explanations ---------------------------------------------------------------------------------------------
+
+    def _no_then(self, guarded: bool) -> None:
+        kind = self.kinds[self.at]
+        if kind == "OR" and not guarded:
+            self.expected("AND or THEN after the trigger", "a rule has one trigger: write one rule for each")
+        if kind == "operator" and not guarded:
+            self.expected(
+                "AND or THEN after the trigger",
+                "a rule begins with something that happens: WHEN Trigger AND UserAge < 18 THEN ...",
+            )
+        if kind == "end" or kind in RULE_STOPS:
+            self.expected("THEN and a response", "every rule says what is to be done: WHEN trigger THEN response")
+        self.expected("THEN after the condition" if guarded else "THEN after the trigger")
+
+    def _hint_at_trigger(self) -> str | None:
+        kind = self.kinds[self.at]
+        if kind == "(":
+            return "the trigger is a single name, without parentheses; what follows it after AND may have them"
+        if kind == "NOT":
+            return "a trigger is something that happens; write WHEN Trigger AND NOT condition THEN ..."
+        if kind == "THEN":
+            return "every rule says what sets it off: WHEN trigger THEN response"
+        return None

@@ -1,0 +1,136 @@
+"""From characters to tokens: one regular expression over the whole text.
+
+Tokens live in parallel sequences, not in objects, and are made a block of lines at a time, so that a text of 100,000
+rules stays small and most of the work is done inside Python's own loops.
+"""
+
+from __future__ import annotations
+
+import re
+from array import array
+from itertools import accumulate, compress
+from operator import sub
+from typing import NamedTuple
+
+from sleec_runtime.language.common.comments import Remark, attach
+from sleec_runtime.language.english.keywords import CLAIMS, IN_WHICH_CASE, KEYWORDS, OCCASION, PHRASE
+from sleec_runtime.model import Comments
+
+_BLOCK = 1 << 16
+
+# Letters with marks of their own (accents typed apart, Hebrew, Arabic, Indic and Thai vowels): \w leaves them out.
+_MARKS = "\u0300-\u036f\u0591-\u05bd\u064b-\u065f\u0900-\u0963\u0966-\u0dff\u0e31-\u0eff"
+_REST = rf"[\w{_MARKS}'\u2019-]"
+
+# Every match begins where the one before it ended, blanks first: offsets are sums of lengths because of that.
+_TOKEN = re.compile(
+    r"\s*(?:"
+    rf"IN\s+WHICH\s+CASE(?!{_REST})"
+    rf"|[^\W\d]{_REST}*(?:\.\w[\w.{_MARKS}'\u2019-]*)?"
+    r"|[(),.]|:(?!=)"
+    r"|<=|>=|<>|!=|==|=(?![<>])|[<>\u2264\u2265\u2260]"
+    rf"|-?[0-9]+(?:\.[0-9]+)?(?!{_REST}|\.[0-9])"
+    r"|(?://|\#)[^\n]*"
+    rf"|\d{_REST}*"
+    r"|&&|\|\||=[<>]|-+>|:=|\S"
+    r")|\s+"
+)
+_NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]+)?")
+
+
+class _Kinds(dict[str, str]):
+    """The kind of each token by its text: keywords and marks are known, the rest is told from how it begins."""
+
+    def __missing__(self, token: str) -> str:
+        first = token[:1]
+        if not first.isdecimal() and (first.isalnum() or first == "_"):
+            if "." in token:
+                return "dotted"
+            return IN_WHICH_CASE if token.startswith("IN") and token[2:3].isspace() else "word"
+        if first == "#" or token.startswith("//"):
+            return "comment"
+        if _NUMBER.fullmatch(token):
+            return "number"
+        return "digits" if first.isdecimal() else "strange"
+
+
+_KINDS = _Kinds(
+    {
+        **{word: word for word in KEYWORDS},
+        **dict.fromkeys(["<", "<=", ">", ">=", "=", "==", "!=", "<>", "≤", "≥", "≠"], "operator"),
+        **{mark: mark for mark in "(),:."},
+        IN_WHICH_CASE: IN_WHICH_CASE,
+        "": "blank",
+    }
+)
+
+
+class Tokens(NamedTuple):
+    """The tokens of a text: `kinds[i]` is a keyword, a punctuation mark or a kind in lower case, and the token is
+    ``text[starts[i]:ends[i]]``. Three tokens of kind ``end`` close the sequence, so that one may look ahead.
+
+    `comments` holds the comments of the tokens that start a line of rules; `closing` those after all of them.
+    """
+
+    kinds: list[str]
+    starts: array[int]
+    ends: array[int]
+    comments: dict[int, Comments]
+    closing: tuple[str, ...]
+
+
+def scan(text: str) -> Tokens:
+    """The tokens of `text`, in time linear in its length. Nothing is refused here; the parser says what is wrong."""
+    kinds: list[str] = []
+    starts = array("q")
+    ends = array("q")
+    remarks: list[Remark] = []
+    at = 0
+    while at < len(text):
+        # No token reaches over a line break; an IN WHICH CASE that does is three tokens.
+        stop = text.find("\n", at + _BLOCK) + 1 or len(text)
+        pieces = _TOKEN.findall(text, at, stop)
+        tokens = list(map(str.lstrip, pieces))
+        new_kinds = list(map(_KINDS.__getitem__, tokens))
+        new_ends = array("q", accumulate(map(len, pieces), initial=at))[1:]
+        new_starts = array("q", map(sub, new_ends, map(len, tokens)))
+        if new_kinds[-1] == "blank":
+            new_kinds.pop()
+            new_starts.pop()
+            new_ends.pop()
+        if "comment" in new_kinds:
+            keep = [kind != "comment" for kind in new_kinds]
+            token = len(kinds)
+            for kept, start, end in zip(keep, new_starts, new_ends):
+                token += kept
+                if not kept:
+                    remarks.append(Remark(start, end, token))
+            new_kinds = list(compress(new_kinds, keep))
+            new_starts = array("q", compress(new_starts, keep))
+            new_ends = array("q", compress(new_ends, keep))
+        kinds += new_kinds
+        starts += new_starts
+        ends += new_ends
+        at = stop
+    for _ in range(3):
+        kinds.append("end")
+        starts.append(len(text))
+        ends.append(len(text))
+    _mark_occasions(kinds)
+    comments, closing = attach(remarks, text, kinds, starts, ends)
+    return Tokens(kinds, starts, ends, comments, closing)
+
+
+def _mark_occasions(kinds: list[str]) -> None:
+    """Marks each WHEN that belongs to a concern, purpose or relation."""
+    for keyword in (*CLAIMS, "RELATION", "MEANWHILE"):
+        at = -1
+        for _ in range(kinds.count(keyword)):
+            at = kinds.index(keyword, at + 1)
+            behind = at + 1
+            while keyword in CLAIMS and (kinds[behind] in PHRASE or kinds[behind] == "dotted"):
+                behind += 1
+            if keyword == "MEANWHILE" and kinds[behind] == "(":
+                behind += 1
+            if kinds[behind] in ("WHEN", "IF"):
+                kinds[behind] = OCCASION

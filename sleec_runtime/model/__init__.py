@@ -1,0 +1,55 @@
+"""The model: rules as values. Both roads to an answer share only this."""
+
+from __future__ import annotations
+
+from sleec_runtime.model.calculation import Calculated as Calculated
+from sleec_runtime.model.rules import NO_COMMENTS as NO_COMMENTS
+from sleec_runtime.model.rules import READINGS as READINGS
+from sleec_runtime.model.rules import Agent as Agent
+from sleec_runtime.model.rules import And as And
+from sleec_runtime.model.rules import Assume as Assume
+from sleec_runtime.model.rules import Atom as Atom
+from sleec_runtime.model.rules import Clause as Clause
+from sleec_runtime.model.rules import Comments as Comments
+from sleec_runtime.model.rules import Comparison as Comparison
+from sleec_runtime.model.rules import Constant as Constant
+from sleec_runtime.model.rules import Constraint as Constraint
+from sleec_runtime.model.rules import Context as Context
+from sleec_runtime.model.rules import Declaration as Declaration
+from sleec_runtime.model.rules import DeclaredKind as DeclaredKind
+from sleec_runtime.model.rules import Defect as Defect
+from sleec_runtime.model.rules import DefectKind as DefectKind
+from sleec_runtime.model.rules import Dialect as Dialect
+from sleec_runtime.model.rules import Exclusive as Exclusive
+from sleec_runtime.model.rules import Formula as Formula
+from sleec_runtime.model.rules import Kind as Kind
+from sleec_runtime.model.rules import Measure as Measure
+from sleec_runtime.model.rules import MeasureKind as MeasureKind
+from sleec_runtime.model.rules import MeasureRef as MeasureRef
+from sleec_runtime.model.rules import Never as Never
+from sleec_runtime.model.rules import Not as Not
+from sleec_runtime.model.rules import Number as Number
+from sleec_runtime.model.rules import Obligation as Obligation
+from sleec_runtime.model.rules import Operator as Operator
+from sleec_runtime.model.rules import Or as Or
+from sleec_runtime.model.rules import Rational as Rational
+from sleec_runtime.model.rules import Reading as Reading
+from sleec_runtime.model.rules import Rule as Rule
+from sleec_runtime.model.rules import Ruleset as Ruleset
+from sleec_runtime.model.rules import ScaleValue as ScaleValue
+from sleec_runtime.model.rules import Statement as Statement
+from sleec_runtime.model.rules import Syntax as Syntax
+from sleec_runtime.model.rules import Term as Term
+from sleec_runtime.model.rules import Truth as Truth
+from sleec_runtime.model.rules import Value as Value
+from sleec_runtime.model.rules import conditions_in as conditions_in
+from sleec_runtime.model.rules import formulas_of as formulas_of
+from sleec_runtime.model.rules import in_text_order as in_text_order
+from sleec_runtime.model.rules import leaves as leaves
+from sleec_runtime.model.rules import literals as literals
+from sleec_runtime.model.rules import measures_of as measures_of
+from sleec_runtime.model.rules import names_of as names_of
+from sleec_runtime.model.spans import NOWHERE as NOWHERE
+from sleec_runtime.model.spans import Place as Place
+from sleec_runtime.model.spans import Source as Source
+from sleec_runtime.model.spans import Span as Span

@@ -1,0 +1,1 @@
+"""Support: files, messages, forks and critical sections. Nothing here knows of rules."""

@@ -1,0 +1,73 @@
+"""Changes that exclude one another, also within one thread."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from functools import partial, wraps
+from typing import Concatenate, ParamSpec, Protocol, TypeVar
+
+from sleec_runtime.errors import Reentrant
+from sleec_runtime.support.fork import renew_after_fork
+
+T = TypeVar("T")
+P = ParamSpec("P")
+
+
+class CriticalSection:
+    """Makes one change at a time. Another thread waits; the same thread is refused.
+
+    The same thread comes a second time if a signal handler or a finalizer, which Python runs between any two steps of
+    a thread, calls what is being changed. It cannot wait, and must not see half of a change.
+    """
+
+    def __init__(self, undo: Callable[[], object] | None = None) -> None:
+        """`undo` undoes a change of another thread, which a forked process finds half made."""
+        # Reentrant, because a handler may also come just before or after a change, while the thread has the lock.
+        self._lock = threading.RLock()
+        self._changing = False
+        self._undo = undo
+        renew_after_fork(self)
+
+    def run(self, change: Callable[[], T]) -> T:
+        """Makes the change. Raises Reentrant within another one of this thread."""
+        with self._lock:
+            self.refuse_reentry()
+            try:
+                self._changing = True
+                return change()
+            finally:
+                self._changing = False
+
+    def refuse_reentry(self) -> None:
+        """Raises Reentrant within a change of this thread."""
+        with self._lock:
+            if self._changing:
+                raise Reentrant
+
+    def after_fork(self) -> None:
+        if self._lock.acquire(blocking=False):
+            # Nobody has it, or the thread that forked.
+            self._lock.release()
+            return
+        self._lock = threading.RLock()
+        self._changing = False
+        if self._undo is not None:
+            self._undo()
+
+
+class _HasSection(Protocol):
+    _section: CriticalSection
+
+
+S = TypeVar("S", bound=_HasSection)
+
+
+def exclusive(method: Callable[Concatenate[S, P], T]) -> Callable[Concatenate[S, P], T]:
+    """Makes a method a change in the critical section of its object."""
+
+    @wraps(method)
+    def change(self: S, /, *args: P.args, **kwargs: P.kwargs) -> T:
+        return self._section.run(partial(method, self, *args, **kwargs))
+
+    return change

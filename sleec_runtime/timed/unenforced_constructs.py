@@ -1,0 +1,99 @@
+"""What of a ruleset its runtime does not see to, said when the rules are put in force."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Iterator
+
+from sleec_runtime.errors import NotEnforced, UnsupportedTimes
+from sleec_runtime.model import (
+    Atom,
+    Clause,
+    Obligation,
+    Rule,
+    Ruleset,
+    Span,
+    formulas_of,
+    in_text_order,
+    leaves,
+    literals,
+)
+from sleec_runtime.model.time import RELATIONS, relation_name
+from sleec_runtime.support.messages import listed
+
+
+def has_times(ruleset: Ruleset) -> bool:
+    """Whether a response of the rules says when it is due, or what is due in its place."""
+    return any(
+        obligation.timing is not None
+        for rule in ruleset.rules
+        for clause in rule.clauses()
+        for obligation in clause.obligations
+    )
+
+
+def name_limits(ruleset: Ruleset, chains: bool, strict: bool) -> None:
+    """Warns of what the runtime does not enforce, by NotEnforced; if `strict`, raises UnsupportedTimes instead.
+
+    O(size of the rules).
+    """
+    found = [(name, ruleset.source.place(span).line) for name, span in not_enforced(ruleset, chains)]
+    if not found:
+        return
+    message = "the runtime does not enforce: " + listed([f"{name}, line {line}" for name, line in found], "; ")
+    if strict:
+        raise UnsupportedTimes(
+            message,
+            [line for _, line in found],
+            "leave these out, or load the ruleset without strict_times and see to them yourself",
+        )
+    warnings.warn(NotEnforced(message, found), stacklevel=_outside())
+
+
+def _outside() -> int:
+    """How many calls up the code is that uses the runtime: a warning is to point there."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "sleec_runtime":
+        level, frame = level + 1, frame.f_back
+    return level
+
+
+def not_enforced(ruleset: Ruleset, chains: bool) -> Iterator[tuple[str, Span]]:
+    """What each is called, and where it stands, in the order of the text."""
+    triggers = {rule.trigger for rule in ruleset.rules} if has_times(ruleset) and not chains else set()
+    done = {o.name for rule in ruleset.rules for clause in rule.clauses() for o in literals(clause) if not o.negated}
+    for statement in ruleset.statements:
+        if isinstance(statement, RELATIONS):
+            yield f"the relation {relation_name(statement)}", statement.span
+        elif isinstance(statement, Rule):
+            for leaf in (leaf for formula in formulas_of(statement) for leaf in leaves(formula)):
+                if isinstance(leaf, Atom) and leaf.kind == "trigger" and leaf.name in done:
+                    yield f"conditions of {statement.label} on {leaf.name} where that is done as a response", leaf.span
+            for clause in statement.clauses():
+                for obligation in _asked(clause):
+                    yield from _limits(obligation)
+                    if not obligation.negated and obligation.name in triggers:
+                        what = f"that {obligation.name} triggers rules when it is done (chains=True does)"
+                        yield what, obligation.span
+
+
+def _asked(clause: Clause) -> Iterator[Obligation]:
+    """What a clause asks for, and what comes in place of that."""
+    for obligation in clause.obligations:
+        yield obligation
+        if obligation.timing is not None:
+            for alternative in obligation.timing.alternatives():
+                for inner in in_text_order(alternative):
+                    yield from _asked(inner)
+
+
+def _limits(obligation: Obligation) -> Iterator[tuple[str, Span]]:
+    window = None if obligation.timing is None else obligation.timing.window
+    if window is None:
+        return
+    if window.end is None and not obligation.negated:
+        yield f"{obligation.name} eventually (it is begun, and has no deadline)", window.span
+    for length in (window.start, window.end):
+        for name in length.measures if length is not None else ():
+            yield f"a window for as long as {name} says, while that has no value", window.span

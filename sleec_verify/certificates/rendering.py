@@ -1,0 +1,140 @@
+"""What people, or programs, are told of a certificate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from sleec_verify.certificates.checker import IN_PYTHON
+from sleec_verify.report.escape import as_text
+from sleec_verify.report.json import VERDICTS, Json, dump
+from sleec_verify.report.outcome import counted
+from sleec_verify.results.finding import Refuted
+
+if TYPE_CHECKING:
+    from sleec_runtime.errors import CertificateRefused
+    from sleec_runtime.model import Ruleset
+    from sleec_verify.certificates.checker import Checker
+    from sleec_verify.certificates.manifest import Shown
+    from sleec_verify.certificates.verdict_binding import Tied
+    from sleec_verify.results.finding import Verdict
+
+SHOWN_BY = {
+    "trivial": "no question to refute, so the formula says nothing",
+    "witnesses": "witnesses",
+    "situations": "a situation for each, found again by --check",
+    "text": "read off the text",
+    "none": "no proof, as there is no verdict",
+}
+
+
+def told(
+    form: str,
+    ruleset: Ruleset,
+    folder: str,
+    manifest: Mapping[str, Any],
+    shown: Sequence[Shown],
+    judge: Checker | None,
+    tied: Sequence[Tied] = (),
+) -> Iterator[str]:
+    """That a certificate that says `manifest` was written, or (`judge`) that it holds, and how its verdicts are tied to
+    the rules."""
+    if form == "json":
+        yield dump(_json(ruleset, folder, manifest, shown, judge, tied))
+    else:
+        yield from _in_words(ruleset, folder, manifest, shown, judge, tied)
+
+
+@as_text
+def _in_words(
+    ruleset: Ruleset,
+    folder: str,
+    manifest: Mapping[str, Any],
+    shown: Sequence[Shown],
+    judge: Checker | None,
+    tied: Sequence[Tied],
+) -> Iterator[str]:
+    made = "a certificate" if judge is None else "the certificate holds"
+    yield f"{folder}: {made} of {ruleset.source.path} ({covered(manifest)})"
+    widest = max(len(one.result.name) for one in shown)
+    for one in shown:
+        yield f"  {one.result.name:{widest}}  {VERDICTS[type(one.result.verdict)]:8}  {_shown_by(one)}"
+    if judge is not None:
+        if judge is IN_PYTHON:
+            more = "; `make -C proofs/checker` builds a checker that is proved correct"
+        else:
+            more = ", which is proved correct" if judge.proved else ""
+        yield f"proofs checked by {judge.name}{more}"
+    verdicts = {one.result.name: one.result.verdict for one in shown}
+    for one_tied in tied:
+        yield _tied(one_tied, verdicts[one_tied.check])
+
+
+def stated(manifest: Mapping[str, Any]) -> dict[str, Json]:
+    """What a certificate is for, for programs."""
+    return {key: manifest[key] for key in ("reading", "domain", "untimed", "chains", "required")}
+
+
+def covered(manifest: Mapping[str, Any]) -> str:
+    """What a certificate is for."""
+    words = [f"reading {manifest['reading']}"]
+    domains = manifest["ruleset"]["domains"] if manifest["domain"] is None else [manifest["domain"]]
+    if domains:
+        words.append(f"each of the domains {', '.join(domains)}" if len(domains) > 1 else f"domain {domains[0]}")
+    if manifest["untimed"] is not None:
+        words.append(f"untimed {manifest['untimed']}")
+    words.append("with chains" if manifest["chains"] else "without chains")
+    words += [f"required: {name}" for name, required in manifest["required"].items() if required]
+    return "; ".join(words)
+
+
+def _tied(tied: Tied, verdict: Verdict) -> str:
+    if not tied.proved:
+        return f"{tied.check}: that the formula is that of the rules is not proved: {tied.reason}"
+    if isinstance(verdict, Refuted):
+        what = f"{counted(len(verdict.findings), 'finding')} proved"
+    elif tied.check == "vacuous-conflict":
+        what = "that the other rules are never triggered is proved"
+    else:
+        what = "proved"
+    return f"{tied.check}: {what} of the rules as they were read, by what is extracted from the theory in Coq"
+
+
+def _shown_by(one: Shown) -> str:
+    if one.evidence != "proof":
+        return SHOWN_BY[one.evidence]
+    return f"{counted(one.refuted, 'question')} refuted: {', '.join(one.files)}"
+
+
+def _json(
+    ruleset: Ruleset,
+    folder: str,
+    manifest: Mapping[str, Any],
+    shown: Sequence[Shown],
+    judge: Checker | None,
+    tied: Sequence[Tied],
+) -> Json:
+    checks: list[Json] = [
+        {
+            "name": one.result.name,
+            "verdict": VERDICTS[type(one.result.verdict)],
+            "evidence": one.evidence,
+            "files": list(one.files),
+        }
+        for one in shown
+    ]
+    return {
+        "certificate": folder,
+        "path": ruleset.source.path,
+        "sha256": ruleset.source.sha256,
+        **stated(manifest),
+        **({} if judge is None else {"holds": True, "checker": {"name": judge.name, "proved": judge.proved}}),
+        **({} if judge is None else {"theory": {t.check: {"proved": t.proved, "reason": t.reason} for t in tied}}),
+        "checks": checks,
+    }
+
+
+def refused(folder: str, refusal: CertificateRefused) -> Iterator[str]:
+    """Why a certificate is refused, for programs."""
+    problems: list[Json] = [{"reason": reason, "message": message} for reason, message in refusal.problems]
+    yield dump({"certificate": folder, "holds": False, "problems": problems})

@@ -1,0 +1,1 @@
+"""Changes to rules: comparison of two rulesets, assertions, revisions in git, and the gate."""

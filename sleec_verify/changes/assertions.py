@@ -1,0 +1,468 @@
+"""Properties asked of rules: ``never RefuseRequest when MedicalEmergency``, ``always CallNurse when FallDetected``.
+
+An assertion is about what clauses that decide call for, at once or within a time, in every situation that the
+assumptions allow. Whether the rules also contradict one another there is for the check `conflict`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal, NamedTuple, NoReturn, Union
+
+from sleec_runtime.errors import LanguageError, Problem
+from sleec_runtime.evaluation.evaluation import decide, holds
+from sleec_runtime.language.english.formulas import OPERATORS
+from sleec_runtime.model import (
+    And,
+    Assume,
+    Atom,
+    Comparison,
+    Formula,
+    Measure,
+    MeasureRef,
+    Not,
+    Number,
+    Obligation,
+    Or,
+    Rational,
+    Ruleset,
+    ScaleValue,
+    Source,
+    Span,
+    Term,
+    Truth,
+    leaves,
+    measures_of,
+)
+from sleec_verify.changes.compare.result import Deciding
+from sleec_verify.changes.compare.sides import instants
+from sleec_verify.encoding.equation import conjunction, disjunction, implications
+from sleec_verify.encoding.solver import Undecided
+from sleec_verify.query.cone import Cones
+from sleec_verify.query.witness import smallest_situation
+from sleec_verify.results.finding import Witness
+
+Kind = Literal["never", "always"]
+
+
+@dataclass(frozen=True)
+class Assertion:
+    """Where `when` holds, never all of `literals` are called for, or always each of them is."""
+
+    kind: Kind
+    literals: tuple[Obligation, ...]
+    when: Formula
+    source: Source
+    span: Span
+
+    @property
+    def text(self) -> str:
+        """As it was written."""
+        return " ".join(self.source.text[self.span.start : self.span.end].split())
+
+
+class Broken(NamedTuple):
+    """A smallest situation in which an assertion does not hold, with the clauses that decide there. `domain` is the one
+    in which that is so, if the ruleset has any."""
+
+    witness: Witness
+    deciding: tuple[Deciding, ...]
+    domain: str | None = None
+
+
+class Asked(NamedTuple):
+    """The answer for one ruleset: None where the assertion holds, else the counterexample, or why it is not decided."""
+
+    assertion: Assertion
+    ruleset: Ruleset
+    answer: Union[Broken, str, None]
+
+
+# Asking ---------------------------------------------------------------------------------------------------
+
+
+def ask(ruleset: Ruleset, assertion: Assertion, domain: str | None = None, known: Vocabulary | None = None) -> Asked:
+    """Whether the assertion holds of the rules in every situation, in every domain, or in `domain`.
+
+    Unsatisfiable exactly when it holds: the situation of the assertion, and every literal of a `never` obliged, or some
+    literal of an `always` obliged by no rule. A model is a counterexample; the smallest is replayed by the evaluator.
+    """
+    apart = next(_read_otherwise(ruleset, assertion, known), None) if known is not None else None
+    if apart is not None:
+        return Asked(assertion, ruleset, apart)
+    domains: Sequence[str | None] = ruleset.domains or (None,) if domain is None else (domain,)
+    measures = {**(known.measures if known is not None else {}), **ruleset.measures}
+    try:
+        for one in domains:
+            broken = _broken(ruleset if one is None else ruleset.in_domain(one), assertion, measures)
+            if broken is not None:
+                return Asked(assertion, ruleset, broken._replace(domain=one))
+    except Undecided as error:
+        return Asked(assertion, ruleset, str(error))
+    return Asked(assertion, ruleset, None)
+
+
+def _read_otherwise(ruleset: Ruleset, assertion: Assertion, known: Vocabulary) -> Iterator[str]:
+    """The names of the assertion that these rules take for something else than `known` does, by which it was read."""
+    kinds = (
+        ("a trigger", ruleset.triggers, known.triggers),
+        ("a condition", ruleset.conditions, known.conditions),
+        ("a measure", ruleset.measures.keys(), known.measures.keys()),
+    )
+    for leaf in leaves(assertion.when):
+        for name in (leaf.name,) if isinstance(leaf, Atom) else measures_of(leaf):
+            mine, theirs = ([kind for kind, *names in kinds if name in names[side]] for side in (0, 1))
+            if mine and mine != theirs:
+                yield f"{name} is {mine[0]} in these rules, and {theirs[0]} where the assertion was read"
+            elif name in ruleset.measures and ruleset.measures[name].values != known.measures[name].values:
+                yield f"{name} has another scale in these rules than where the assertion was read"
+        for side in () if isinstance(leaf, Atom) else (leaf.left, leaf.right):
+            if not isinstance(side, Number) or side.constant is None or side.constant not in ruleset.constants:
+                continue
+            if ruleset.constants[side.constant].value != side.value:
+                yield f"{side.constant} is another number in these rules than where the assertion was read"
+
+
+def _broken(ruleset: Ruleset, assertion: Assertion, measures: Mapping[str, Measure]) -> Broken | None:
+    given = [c.formula for c in ruleset.constraints if isinstance(c, Assume)]
+    given += [formula for _, formula in instants(ruleset)] if ruleset.is_timed else []
+    cones = Cones(Ruleset((*measures.values(), *map(Assume, given), *ruleset.rules)))
+    if not cones.possible:
+        return None
+    called = [_called_for(ruleset, literal) for literal in assertion.literals]
+    if assertion.kind == "never":
+        questions = [conjunction([assertion.when, *called])]
+    else:
+        questions = [conjunction([assertion.when, Not(formula)]) for formula in called]
+    found = [w for w in (smallest_situation(cones, question) for question in questions) if w is not None]
+    if not found:
+        return None
+    witness = min(found, key=lambda w: len(w.triggers) + len(w.conditions))
+    return Broken(witness, _replayed(ruleset, assertion, witness, given, measures))
+
+
+def _called_for(ruleset: Ruleset, literal: Obligation) -> Formula:
+    """Where some clause that decides obliges the literal, whenever it is due."""
+    return disjunction(
+        [
+            guard
+            for rule in ruleset.rules
+            if any(_is(o, literal) for clause in rule.clauses() for o in clause.obligations)
+            for _, guard, clause in implications(rule, ruleset.reading)
+            if any(_is(o, literal) for o in clause.obligations)
+        ]
+    )
+
+
+def _is(one: Obligation, literal: Obligation) -> bool:
+    return one.name == literal.name and one.negated == literal.negated
+
+
+def _replayed(
+    ruleset: Ruleset, assertion: Assertion, witness: Witness, given: Iterable[Formula], measures: Mapping[str, Measure]
+) -> tuple[Deciding, ...]:
+    context = witness.context()
+    found = []
+    for rule in ruleset.rules:
+        decision = decide(rule, context, ruleset.reading, ruleset.measures)
+        if decision is not None:
+            span = list(rule.clauses())[decision.clause].span
+            found.append(Deciding(rule.label, decision.clause, decision.obligations, span))
+    due = [any(_is(o, literal) for one in found for o in one.obligations) for literal in assertion.literals]
+    broken = all(due) if assertion.kind == "never" else not all(due)
+    if not (broken and all(holds(formula, context, measures) for formula in (assertion.when, *given))):
+        raise Undecided("a situation did not replay, which is a bug in sleec-verify")
+    return tuple(found)
+
+
+# Reading --------------------------------------------------------------------------------------------------
+
+
+class Vocabulary:
+    """The names that assertions may use: those of some rulesets. Where these take a name for different things, the
+    first of them says what it is."""
+
+    def __init__(self, rulesets: Iterable[Ruleset]) -> None:
+        self.triggers: set[str] = set()
+        self.conditions: set[str] = set()
+        self.obligations: set[str] = set()
+        self.measures: dict[str, Measure] = {}
+        self.constants: dict[str, Rational] = {}
+        for ruleset in rulesets:
+            said = self.triggers | self.conditions | self.measures.keys()
+            self.triggers |= ruleset.triggers - said
+            self.conditions |= ruleset.conditions - said
+            self.obligations |= ruleset.obligations
+            for name, measure in ruleset.measures.items():
+                if name not in said:
+                    self.measures[name] = measure
+            for name, constant in ruleset.constants.items():
+                self.constants.setdefault(name, constant.value)
+
+
+class _Token(NamedTuple):
+    kind: str
+    text: str
+    span: Span
+
+
+_TOKENS = re.compile(
+    r"(?P<operator><=|>=|!=|<>|==|[<>=\u2264\u2265\u2260])|(?P<parenthesis>[()])|(?P<comma>,)"
+    r"|(?P<number>[+-]?[0-9]{1,100}(?:\.[0-9]{1,100})?)(?![\w.])|(?P<word>[^\s()<>=!,\u2264\u2265\u2260]+)|(?P<other>\S)"
+)
+_JOINING = ("and", "or", "not", "when")
+_EXAMPLE = "as in: never RefuseRequest when MedicalEmergency"
+_DEEPEST = 200
+
+
+def read_assertion(text: str, known: Vocabulary, path: str = "--assert") -> Assertion:
+    """The assertion that `text` says, over the names of `known`.
+
+    Raises:
+        LanguageError: it is none, with the place, what is wrong and what to try.
+    """
+    return _Reader(Source(path, text), Span(0, len(text)), known).assertion()
+
+
+def read_assertions(source: Source, known: Vocabulary) -> list[Assertion]:
+    """The assertions of a text, one a line; ``#`` starts a comment.
+
+    Raises:
+        LanguageError: with the problem of each line that is none.
+    """
+    found: list[Assertion] = []
+    problems: list[Problem] = []
+    start = 0
+    for line in source.text.splitlines(keepends=True):
+        said = line.partition("#")[0]
+        if said.strip():
+            try:
+                found.append(_Reader(source, Span(start, start + len(said)), known).assertion())
+            except LanguageError as error:
+                problems += error.problems
+        start += len(line)
+    if problems:
+        raise LanguageError(source, problems)
+    if not found:
+        raise LanguageError(source, [Problem("there is no assertion in this file", Span(0, 0), _EXAMPLE)])
+    return found
+
+
+class _Reader:
+    def __init__(self, source: Source, span: Span, known: Vocabulary) -> None:
+        self._source = source
+        self._known = known
+        self._tokens = [
+            _Token(str(match.lastgroup), match.group(), Span(*match.span()))
+            for match in _TOKENS.finditer(source.text, span.start, span.end)
+        ]
+        text = source.text[span.start : span.end]
+        end = span.start + len(text.rstrip())
+        start = min(end, span.start + len(text) - len(text.lstrip()))
+        self._span = Span(start, end)
+        self._tokens.append(_Token("end", "", Span(end, end)))
+        self._at = 0
+        self._depth = 0
+
+    # The assertion -----------------------------------------------------------------------------------------
+
+    def assertion(self) -> Assertion:
+        word = self._word()
+        if word not in ("never", "always"):
+            self._fail("an assertion begins with never or always", _EXAMPLE)
+        self._at += 1
+        literals = [self._obligation()]
+        while self._word() == "and" or self._here.kind == "comma":
+            self._at += 1
+            literals.append(self._obligation())
+        if self._word() == "or":
+            self._fail("an assertion joins obligations with and only", "write an assertion for each of them")
+        when: Formula = Truth(True)
+        if self._here.kind != "end":
+            if self._word() != "when":
+                self._fail(f"{self._shown()} is unexpected here", "behind the obligations stands when, or nothing")
+            self._at += 1
+            when = self._formula()
+            if self._here.kind != "end":
+                self._fail(f"{self._shown()} is unexpected here", "join conditions with and or or")
+        return Assertion("never" if word == "never" else "always", tuple(literals), when, self._source, self._span)
+
+    def _obligation(self) -> Obligation:
+        negated = self._word() == "not" and self._name_of(self._known.obligations) is None
+        if negated:
+            self._at += 1
+        name = self._name_of(self._known.obligations)
+        if name is None:
+            self._unknown("an obligation", self._known.obligations, "name what is to be done")
+        self._at += name.count(" ") + 1
+        return Obligation(name, negated)
+
+    # Formulas ----------------------------------------------------------------------------------------------
+
+    def _formula(self) -> Formula:
+        self._depth += 1
+        if self._depth > _DEEPEST:
+            self._fail(f"parentheses and nots are nested more than {_DEEPEST} deep", "say it in simpler words")
+        operands = [self._conjunction()]
+        while self._word() == "or":
+            self._at += 1
+            operands.append(self._conjunction())
+        self._depth -= 1
+        return operands[0] if len(operands) == 1 else Or(tuple(operands))
+
+    def _conjunction(self) -> Formula:
+        operands = [self._unary()]
+        while self._word() == "and":
+            self._at += 1
+            operands.append(self._unary())
+        return operands[0] if len(operands) == 1 else And(tuple(operands))
+
+    def _unary(self) -> Formula:
+        if self._here.text == "(":
+            opened = self._here
+            self._at += 1
+            formula = self._formula()
+            if self._here.text != ")":
+                self._fail("this parenthesis is not closed", "put the closing one behind what belongs together", opened)
+            self._at += 1
+            return formula
+        name = self._name_of(self._names())
+        if name is None and self._word() == "not":
+            self._at += 1
+            self._depth += 1
+            if self._depth > _DEEPEST:
+                self._fail(f"parentheses and nots are nested more than {_DEEPEST} deep", "say it in simpler words")
+            operand = self._unary()
+            self._depth -= 1
+            return Not(operand)
+        if name is None and self._word() in ("true", "false"):
+            self._at += 1
+            return Truth(self._tokens[self._at - 1].text.lower() == "true")
+        return self._leaf(name)
+
+    def _leaf(self, name: str | None) -> Formula:
+        words = 1 if name is None else name.count(" ") + 1
+        follows = self._tokens[min(self._at + words, len(self._tokens) - 1)]
+        if self._here.kind == "number" or follows.kind == "operator":
+            return self._comparison()
+        if name is None:
+            self._unknown("a trigger, condition or measure", self._names(), "say in which situations")
+        known = self._known
+        if name in known.triggers or name in known.conditions:
+            self._at += words
+            return Atom("trigger" if name in known.triggers else "condition", name)
+        if name in known.measures:
+            value = (18, *known.measures[name].values)[-1]
+            self._fail(f"{name} is a measure, neither true nor false", f"compare it: {name} >= {value}")
+        return self._fail(f"{name} is a number by itself", f"compare a measure with it, as in: UserAge < {name}")
+
+    def _comparison(self) -> Formula:
+        first = self._at
+        left = self._side()
+        if self._here.kind != "operator":
+            self._fail("a comparison such as < or >= is missing behind the number", "as in: 18 <= UserAge")
+        operator = OPERATORS[self._here.text]
+        self._at += 1
+        right = self._side()
+        span = Span(self._tokens[first].span.start, self._tokens[self._at - 1].span.end)
+        return Comparison(self._term(left, right, span), operator, self._term(right, left, span), span)
+
+    def _side(self) -> str | Rational:
+        token = self._here
+        if token.kind == "number":
+            self._at += 1
+            from fractions import Fraction
+
+            value = Fraction(token.text)
+            return int(value) if value.denominator == 1 else value
+        known = self._known
+        values = {value for measure in known.measures.values() for value in measure.values}
+        name = self._name_of({*known.measures, *known.constants, *values})
+        if name is None:
+            self._unknown("a measure, a constant or a value of a scale", {*known.measures, *known.constants}, _EXAMPLE)
+        self._at += name.count(" ") + 1
+        return name
+
+    def _term(self, side: str | Rational, other: str | Rational, span: Span) -> Term:
+        opposite = self._known.measures.get(other) if isinstance(other, str) else None
+        if not isinstance(side, str):
+            if opposite is None or opposite.kind == "scale":
+                hint = "as in: UserAge < 18" if opposite is None else f"its values are {' < '.join(opposite.values)}"
+                self._fail(f"{other} is not compared with a number", hint, span=span)
+            return Number(side)
+        if opposite is not None and side in opposite.values:
+            return ScaleValue(side, opposite.values.index(side))
+        measure = self._known.measures.get(side)
+        if measure is not None:
+            if opposite is not None and measure.values != opposite.values:
+                self._fail(f"{side} and {other} cannot be compared: they have different scales", None, span=span)
+            if opposite is None and measure.kind == "scale" and other not in measure.values:
+                self._fail(f"{other} is no value of {side}", f"its values are {' < '.join(measure.values)}", span=span)
+            return MeasureRef(side)
+        if side in self._known.constants and opposite is not None and opposite.kind != "scale":
+            return Number(self._known.constants[side], side)
+        return self._fail(f"{side} and {other} cannot be compared", "compare a measure with a number", span=span)
+
+    # Tokens ------------------------------------------------------------------------------------------------
+
+    @property
+    def _here(self) -> _Token:
+        return self._tokens[self._at]
+
+    def _word(self) -> str | None:
+        """The word at hand in small letters."""
+        return self._here.text.lower() if self._here.kind == "word" else None
+
+    def _names(self) -> set[str]:
+        known = self._known
+        return {*known.triggers, *known.conditions, *known.measures, *known.constants}
+
+    def _words(self) -> Iterator[_Token]:
+        at = self._at
+        while self._tokens[at].kind in ("word", "number"):
+            yield self._tokens[at]
+            at += 1
+
+    def _name_of(self, names: Iterable[str]) -> str | None:
+        """The longest of `names` that stands here, word by word."""
+        words = [token.text for token in self._words()]
+        found = [name for name in names if name.split(" ") == words[: name.count(" ") + 1]]
+        return max(found, key=len, default=None)
+
+    def _unknown(self, what: str, names: Iterable[str], missing: str) -> NoReturn:
+        words = []
+        for token in self._words():
+            if token.text.lower() in _JOINING:
+                break
+            words.append(token)
+        if not words:
+            self._fail(f"{what} is missing here", missing)
+        name = " ".join(token.text for token in words)
+        span = Span(words[0].span.start, words[-1].span.end)
+        from sleec_runtime.language.common.suggestions import nearest
+
+        known = self._known
+        for kind, others in (
+            ("an obligation", known.obligations),
+            ("a trigger", known.triggers),
+            ("a condition", known.conditions),
+            ("a measure", set(known.measures)),
+        ):
+            if name in others:
+                hint = "never and always speak of obligations, when of triggers, conditions and measures"
+                self._fail(f"{name} is {kind}, and {what} is wanted here", hint, span=span)
+        near = nearest(name, sorted(names))
+        shown = sorted(names)
+        listed = (
+            f"there are {', '.join(shown[:8])}{', …' if len(shown) > 8 else ''}" if shown else "the rules have none"
+        )
+        self._fail(f"the rules do not know {name}", f"did you mean {near}?" if near else listed, span=span)
+
+    def _shown(self) -> str:
+        return self._here.text
+
+    def _fail(self, message: str, hint: str | None, token: _Token | None = None, span: Span | None = None) -> NoReturn:
+        where = span or (token or self._here).span
+        raise LanguageError(self._source, [Problem(message, where, hint)])

@@ -1,0 +1,52 @@
+"""Responses with what is due in their place, told apart by the hedges in that: in each situation one of them counts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from itertools import product
+
+from sleec_runtime.model import Clause, Formula, Obligation, Reading, Truth
+from sleec_verify.changes.compare.timing_order import asks_for_nothing
+from sleec_verify.encoding.equation import chain, conjunction
+from sleec_verify.encoding.trace_scope import Untimed
+
+
+def plainly(obligation: Obligation, reading: Reading, untimed: Untimed) -> Iterator[tuple[Formula, Obligation]]:
+    """Where what: the response with no hedges in what is due in its place, for each way in which these decide. Those
+    that ask for nothing are left out. As many as the product of the hedges."""
+    for where, plain in _ways(obligation, reading):
+        if plain is not None and not asks_for_nothing(plain, untimed):
+            yield where, plain
+
+
+def here(
+    obligations: tuple[Obligation, ...], reading: Reading, untimed: Untimed, holds: Callable[[Formula], bool]
+) -> tuple[Obligation, ...]:
+    """The responses as they are in one situation, where `holds` tells what is true."""
+    return tuple(o for one in obligations for where, o in plainly(one, reading, untimed) if holds(where))
+
+
+def _ways(obligation: Obligation, reading: Reading) -> Iterator[tuple[Formula, Obligation | None]]:
+    timing = obligation.timing
+    if timing is None or not any(timing.alternatives()):
+        yield Truth(True), obligation
+        return
+    for (where, otherwise), (there, instead) in product(
+        list(_members(timing.otherwise, reading)), list(_members(timing.instead, reading))
+    ):
+        # Where nothing is due in its place, the response may as well be left.
+        left = any(one is not None and not one.obligations for one in (otherwise, instead))
+        plain = replace(obligation, timing=replace(timing, otherwise=otherwise, instead=instead))
+        yield conjunction([where, there]), None if left else plain
+
+
+def _members(clause: Clause | None, reading: Reading) -> Iterator[tuple[Formula, Clause | None]]:
+    """The members of a chain of its own, each where it decides and with no hedges left in it."""
+    if clause is None:
+        yield Truth(True), None
+        return
+    for where, member in chain(clause, reading):
+        for ways in product(*(list(_ways(obligation, reading)) for obligation in member.obligations)):
+            due = tuple(plain for _, plain in ways if plain is not None)
+            yield conjunction([where, *(there for there, _ in ways)]), Clause(None, due)

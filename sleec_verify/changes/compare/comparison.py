@@ -1,0 +1,282 @@
+"""Two rulesets in one domain, as formulas over the situations that both allow.
+
+What is asked about a rule concerns the rules of the triggers that its own trigger brings along (`cone`): any other
+trigger need not occur, and where it does not, its rules oblige nothing and conflict with nothing. So whatever differs
+anywhere differs in a situation in which nothing else occurs, and it is looked for only there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cached_property
+from typing import Literal, NamedTuple
+
+from sleec_runtime.model import (
+    Assume,
+    Context,
+    Exclusive,
+    Formula,
+    Measure,
+    Never,
+    Not,
+    Obligation,
+    Rule,
+    Ruleset,
+    Truth,
+)
+from sleec_verify.changes.compare.alternatives import plainly
+from sleec_verify.changes.compare.rule_alignment import Pair, align, depends_on_reading
+from sleec_verify.changes.compare.sides import Side, common, mentions, side
+from sleec_verify.changes.compare.timing_order import implies
+from sleec_verify.encoding.equation import Implication, conjunction, disjunction, implications
+from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.query.assumption_slicing import Cutting
+from sleec_verify.query.cone import Cones, Name, names_in, names_of_rule
+from sleec_verify.query.inconsistent_sets import Clash, clashes, opposite
+
+Which = Literal["old", "new"]
+SIDES: tuple[Which, Which] = ("old", "new")
+
+
+def other(which: Which) -> Which:
+    return "new" if which == "old" else "old"
+
+
+class Row(NamedTuple):
+    """A rule on one side, or one that is equal on both."""
+
+    old: Rule | None
+    new: Rule | None
+
+    def on(self, which: Which) -> Rule | None:
+        return self.old if which == "old" else self.new
+
+
+class Cone(NamedTuple):
+    """The rows that may have to be at work where some triggers occur, and the assumptions that count there: what these
+    say where no trigger of another row occurs."""
+
+    rows: list[int]
+    cones: Cones
+
+    def in_force(self, formula: Formula) -> list[Formula]:
+        """The assumptions that share names with a formula, directly or through one another."""
+        return [assumption.formula for assumption in self.cones.assumptions_about(names_in(formula))]
+
+
+class World:
+    """The rules of both sides, aligned, and what is due, contradictory and possible, as formulas."""
+
+    def __init__(self, old: Ruleset, new: Ruleset, untimed: Untimed) -> None:
+        self.untimed = untimed
+        self.vocabulary = common(old, new)
+        self.sides: dict[Which, Side] = {"old": side(old, self.vocabulary), "new": side(new, self.vocabulary)}
+        same_reading, scales = old.reading == new.reading, self.vocabulary.scales
+
+        def cancels(rule: Rule) -> bool:
+            if not same_reading and depends_on_reading(rule):
+                return False
+            return not (scales and mentions(rule, scales))
+
+        self.aligned = align(old.rules, new.rules, cancels)
+        self.rows = [Row(one, other) for one, other in self.aligned.same]
+        self.changed: list[tuple[Pair, dict[Which, int]]] = []
+        for pair in self.aligned.changed:
+            places: dict[Which, int] = {}
+            for which, rule in (("old", pair.old), ("new", pair.new)):
+                if rule is not None:
+                    places["old" if which == "old" else "new"] = len(self.rows)
+                    self.rows.append(Row(rule, None) if which == "old" else Row(None, rule))
+            self.changed.append((pair, places))
+        self._guards: dict[tuple[int, Which], list[Implication]] = {}
+        self._said: dict[tuple[int, Which], list[tuple[Formula, Obligation]]] = {}
+        self._cones_of: dict[frozenset[str], Cone] = {}
+        self._conflicts: dict[tuple[Which, tuple[int, ...]], Formula] = {}
+        given = [one.formula for which in SIDES for one in self.sides[which].given]
+        self.cones = self._cones([self._plain(row) for row in self.rows], given)
+
+    def _plain(self, row: Row) -> Rule:
+        which: Which = "new" if row.new is not None else "old"
+        rule = row.on(which)
+        assert rule is not None
+        return self.sides[which].plain(rule)
+
+    def _cones(self, rules: Iterable[Rule], given: Iterable[Formula]) -> Cones:
+        assumed = [Assume(formula) for formula in dict.fromkeys(given)]
+        return Cones(Ruleset((*self.vocabulary.measures.values(), *assumed, *rules)))
+
+    @property
+    def measures(self) -> dict[str, Measure]:
+        return self.vocabulary.measures
+
+    def situations_of(self, which: Which) -> Cones:
+        """The assumptions of one side alone."""
+        return self._situations[which]
+
+    @cached_property
+    def _situations(self) -> dict[Which, Cones]:
+        return {which: self._cones((), [one.formula for one in self.sides[which].given]) for which in SIDES}
+
+    @cached_property
+    def _cutting_of(self) -> dict[Which, Cutting]:
+        return {which: Cutting([one.formula for one in self.sides[which].given], ()) for which in SIDES}
+
+    def situations_about(self, which: Which, formula: Formula) -> Cones:
+        """The assumptions of one side alone that may matter to the formula, where no trigger occurs that need not."""
+        cutting, named = self._cutting_of[which], set(names_in(formula))
+        return self._cones(
+            (), cutting.kept_by(named, cutting.occurring_with(name for kind, name in named if kind == "trigger"))
+        )
+
+    @cached_property
+    def _constraints(self) -> dict[Which, Cones]:
+        return {which: Cones(Ruleset(tuple(self.sides[which].constraints))) for which in SIDES}
+
+    def constraints_about(self, which: Which, names: Iterable[str]) -> list[Exclusive | Never]:
+        """The constraints that may conflict with these obligations, and those that rule out a situation by
+        themselves. Raises `Undecided` where the constraints are too entangled."""
+        cones = self._constraints[which]
+        return list(dict.fromkeys((*cones.constraints_about(names), *cones.constraints_on_situations)))
+
+    # The cone ----------------------------------------------------------------------------------------------
+
+    def cone(self, triggers: Iterable[str]) -> Cone:
+        """What may have to be at work where these triggers occur, by assumptions or because a constraint on what is due
+        then speaks of another trigger."""
+        given = frozenset(triggers)
+        found = self._cones_of.get(given)
+        if found is None:
+            found = self._cones_of[given] = self._cone(given)
+        return found
+
+    def _cone(self, given: frozenset[str]) -> Cone:
+        wanted, names = self._cutting.reached(given, self._named_at)
+        # A situation that is shown keeps the other assumptions as well. It can, without any other trigger.
+        return Cone(self.rows_of(wanted), self._cones((), self._cutting.kept_by(names, wanted)))
+
+    def _named_at(self, triggers: set[str]) -> Iterator[Name]:
+        """What the rules of these triggers speak of, and the constraints on them."""
+        rows = self.rows_of(triggers)
+        for row in rows:
+            yield from names_of_rule(self._plain(self.rows[row]))
+        for constraint in self._constraints_on(rows):
+            yield from names_in(constraint.formula)
+
+    def rows_of(self, triggers: Iterable[str]) -> list[int]:
+        """The rows of these triggers, in the order of the text."""
+        return sorted(row for trigger in triggers for row in self.cones.by_trigger.get(trigger, ()))
+
+    @cached_property
+    def _cutting(self) -> Cutting:
+        assumed = (one.formula for one in self.cones.assumptions)
+        return Cutting(assumed, self._triggers_forbidden, self.vocabulary.measures.values())
+
+    @cached_property
+    def _triggers_forbidden(self) -> set[str]:
+        """The triggers that constraints speak of: without one of these, what was no conflict might be one."""
+        return {
+            name
+            for which in SIDES
+            for constraint in self.sides[which].constraints
+            if isinstance(constraint, Never)
+            for kind, name in names_in(constraint.formula)
+            if kind == "trigger"
+        }
+
+    def _constraints_on(self, rows: Iterable[int]) -> list[Never]:
+        """The constraints that speak of situations too, and may forbid something that these rows oblige."""
+        return [
+            constraint
+            for which in SIDES
+            for constraint in self.constraints_about(which, {o.name for row in rows for o in self.literals(row, which)})
+            if isinstance(constraint, Never)
+        ]
+
+    # Formulas ----------------------------------------------------------------------------------------------
+
+    def guards(self, row: int, which: Which) -> list[Implication]:
+        """Equation 1 of a rule on one side; nothing where it is not there."""
+        key = row, which
+        found = self._guards.get(key)
+        if found is None:
+            rule, of = self.rows[row].on(which), self.sides[which]
+            found = [] if rule is None else list(implications(of.plain(rule), of.stated.reading))
+            self._guards[key] = found
+        return found
+
+    def said(self, row: int, which: Which) -> list[tuple[Formula, Obligation]]:
+        """What a rule obliges on one side, and where, in the order of the text."""
+        key = row, which
+        found = self._said.get(key)
+        if found is None:
+            of = self.sides[which]
+            found = self._said[key] = [
+                (conjunction([guard, of.formula(where)]), plain)
+                for _, guard, clause in self.guards(row, which)
+                for obligation in clause.obligations
+                for where, plain in plainly(obligation, of.stated.reading, self.untimed)
+            ]
+        return found
+
+    def literals(self, row: int, which: Which) -> list[Obligation]:
+        """All that a rule obliges on one side, each once, in the order of the text."""
+        return list(dict.fromkeys(literal for _, literal in self.said(row, which)))
+
+    def obliges(self, row: int, which: Which, wanted: Callable[[Obligation], object]) -> Formula:
+        """Where the rule obliges a literal that is `wanted`."""
+        return disjunction(list(dict.fromkeys(where for where, literal in self.said(row, which) if wanted(literal))))
+
+    def due(self, rows: Iterable[int], which: Which, literal: Obligation) -> Formula:
+        """Where one of these rules obliges the literal, or one that asks for at least as much."""
+
+        def enough(one: Obligation) -> bool:
+            return implies(one, literal, self.untimed) is True
+
+        found = (self.obliges(row, which, enough) for row in rows if self.rows[row].on(which) is not None)
+        return disjunction([formula for formula in found if formula != Truth(False)])
+
+    def conflict(self, rows: Sequence[int], which: Which) -> Formula:
+        """Where what these rules oblige at once cannot all be done. Raises `Undecided` where constraints are too
+        entangled."""
+        key = which, tuple(rows)
+        found = self._conflicts.get(key)
+        if found is None:
+            found = self._conflicts[key] = self._conflicting(rows, which)
+        return found
+
+    def _conflicting(self, rows: Sequence[int], which: Which) -> Formula:
+        at_once = {o for row in rows for o in self.literals(row, which) if o.timing is None}
+        parts = []
+        for clash in self.clashes(which, at_once):
+            due = [self._due_exactly(rows, which, literal) for literal in sorted(clash.literals, key=str)]
+            parts.append(conjunction([*due, *sorted(clash.labels, key=repr)]))
+        return disjunction(parts)
+
+    def clashes(self, which: Which, literals: set[Obligation]) -> list[Clash]:
+        """The minimal sets of these literals that cannot all be due on one side."""
+        direct = [
+            Clash(frozenset((one, opposite(one)))) for one in sorted(literals, key=str) if opposite(one) in literals
+        ]
+        declared = self.constraints_about(which, {literal.name for literal in literals})
+        return list(dict.fromkeys(direct)) + (list(clashes(declared, literals)) if declared else [])
+
+    def _due_exactly(self, rows: Iterable[int], which: Which, literal: Obligation) -> Formula:
+        return disjunction([self.obliges(row, which, literal.__eq__) for row in rows])
+
+    def label(self, row: int, which: Which) -> str:
+        rule = self.rows[row].on(which)
+        assert rule is not None, "asked of a rule that this side has"
+        return rule.label
+
+
+def not_both(conflicts: Iterable[Formula]) -> list[Formula]:
+    """That none of these comes true; nothing for those that never do."""
+    return [Not(formula) for formula in conflicts if formula != Truth(False)]
+
+
+def triggered(world: World, which: Which, context: Context) -> Iterator[Rule]:
+    """The rules of one side, as they stand in its text, whose trigger occurs."""
+    for row in world.rows_of(context.triggers):
+        rule = world.rows[row].on(which)
+        if rule is not None:
+            yield rule

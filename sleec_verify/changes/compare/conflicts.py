@@ -1,0 +1,164 @@
+"""Situations in which what is due cannot all be done on one side only. Definition 1 to the letter would have everything
+due there, which is no list of things to do: so they are told as conflicts, and never as obligations gained."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import product
+from typing import Union
+
+from sleec_runtime.model import Exclusive, Formula, Never, Not, Obligation, Truth
+from sleec_verify.changes.compare.comparison import SIDES, Which, World, not_both, other
+from sleec_verify.changes.compare.replay import conflicts as conflicting
+from sleec_verify.changes.compare.replay import deciding, possible
+from sleec_verify.changes.compare.result import ConflictChange, Undecidable, Way
+from sleec_verify.changes.compare.situation_count import Counting, all_of, conditions_of, named_in, not_counted
+from sleec_verify.changes.decision_diagram import FALSE, TooLarge
+from sleec_verify.encoding.equation import disjunction
+from sleec_verify.encoding.solver import Undecided
+from sleec_verify.query.inconsistent_sets import Clash
+from sleec_verify.query.witness import smallest_situation
+
+MOST, MOST_PER_RULE = 2_000, 10
+"""How many causes are tried on each side: so many, and so many more for each rule. Contradicting rules multiply."""
+
+
+def conflict_changes(world: World) -> Iterator[Union[ConflictChange, Undecidable]]:
+    """For each minimal set of literals that clash and each set of rules that oblige them, where that is so on one side
+    and nothing conflicts on the other.
+
+    Complete: a situation that conflicts on one side only has a clash there of which either a literal is obliged by a
+    rule that is not the same on both sides, or a constraint of it is not.
+    """
+    for way, which in (("removed", SIDES[0]), ("added", SIDES[1])):
+        try:
+            yield from _on(world, which, "added" if way == "added" else "removed")
+        except Undecided as error:
+            yield Undecidable("conflicts", str(error))
+
+
+def _on(world: World, which: Which, way: Way) -> Iterator[Union[ConflictChange, Undecidable]]:
+    seen: dict[frozenset[Obligation], list[tuple[frozenset[int], Formula]]] = {}
+    most = MOST + MOST_PER_RULE * len(world.rows)
+    for tried, (clash, rows) in enumerate(_causes(world, which)):
+        if tried >= most:
+            yield Undecidable("conflicts", f"only the first {most:,} sets of rules that might clash were tried")
+            return
+        within = [region for smaller, region in seen.get(clash.literals, ()) if smaller < rows]
+        region = _region(world, which, clash, rows)
+        found = _found(world, which, way, clash, rows, region, within)
+        if found is not None:
+            seen.setdefault(clash.literals, []).append((rows, region))
+            yield found
+
+
+def _causes(world: World, which: Which) -> Iterator[tuple[Clash, frozenset[int]]]:
+    """The clashes that a changed rule or a changed constraint may bring, each with the rules that oblige its literals;
+    smaller sets of rules first."""
+    changed = {places[which] for _, places in world.changed if which in places}
+    mine, theirs = (_constraints(world, side) for side in (which, other(which)))
+    new_constraints = [constraint for constraint in mine if constraint not in theirs]
+    names = {o.name for row in changed for o in world.literals(row, which)}
+    names.update(name for constraint in new_constraints for name in _names(constraint))
+    if not names and not new_constraints:
+        return
+    tied = world.constraints_about(which, names)
+    names.update(name for constraint in tied for name in _names(constraint))
+    obliging = _obliging(world, which, names)
+    for clash in world.clashes(which, set(obliging)):
+        is_new = any(origin in new_constraints for origin in clash.origins)
+        chosen = {
+            frozenset(rows)
+            for rows in product(*(obliging[literal] for literal in sorted(clash.literals, key=str)))
+            if is_new or not changed.isdisjoint(rows)
+        }
+        for rows in sorted(chosen, key=lambda rows: (len(rows), sorted(rows))):
+            yield clash, rows
+
+
+def _constraints(world: World, which: Which) -> list[Exclusive | Never]:
+    return world.sides[which].constraints
+
+
+def _names(constraint: Exclusive | Never) -> Iterator[str]:
+    from sleec_verify.query.cone import obligations_in
+
+    return obligations_in(constraint)
+
+
+def _obliging(world: World, which: Which, names: set[str]) -> dict[Obligation, list[int]]:
+    """The rows that oblige each literal of these names at once. Where no constraint ties names, a literal that nothing
+    forbids matters to no clash."""
+    found: dict[Obligation, list[int]] = {}
+    for row, (old, new) in enumerate(world.rows):
+        rule = old if which == "old" else new
+        if rule is None:
+            continue
+        for clause in rule.clauses():
+            for literal in clause.obligations:
+                if literal.name in names and literal.timing is None:
+                    rows = found.setdefault(literal, [])
+                    if not rows or rows[-1] != row:
+                        rows.append(row)
+    return found
+
+
+def _region(world: World, which: Which, clash: Clash, rows: Iterable[int]) -> Formula:
+    """Where these rules oblige every literal of the clash, and the situation allows it to come true."""
+    parts = [
+        disjunction(
+            [f for f in (world.obliges(row, which, literal.__eq__) for row in sorted(rows)) if f != Truth(False)]
+        )
+        for literal in sorted(clash.literals, key=str)
+    ]
+    return all_of([*parts, *sorted(clash.labels, key=repr)])
+
+
+def _found(
+    world: World,
+    which: Which,
+    way: Way,
+    clash: Clash,
+    rows: frozenset[int],
+    region: Formula,
+    within: list[Formula],
+) -> ConflictChange | None:
+    rules = [rule for rule in (world.rows[row].on(which) for row in sorted(rows)) if rule is not None]
+    triggers = {rule.trigger for rule in rules}
+    cone = world.cone(triggers)
+    peace = world.conflict(cone.rows, other(which))
+    excluded = [*within, peace]
+    situation = all_of([region, *not_both(excluded)])
+    own = conditions_of(world.sides[which].plain(rule) for rule in rules)
+    try:
+        everything = [*own, region, *excluded]
+        counting = Counting(everything, cone.in_force(all_of(everything)), triggers, world.measures)
+        node = counting.where(region, excluded)
+        if node == FALSE:
+            return None
+        free = counting.where(region)
+        situation = all_of([region, *(Not(formula) for formula in excluded if counting.meets(free, formula))])
+        extent = counting.extent(node, [*named_in(own), *named_in(clash.labels)])
+    except TooLarge as error:
+        extent = not_counted(triggers, str(error))
+    witness = smallest_situation(cone.cones, situation)
+    if witness is None:
+        assert extent.affected is None, "a solver and a diagram disagree"
+        return None
+    context = witness.context()
+    said = {one: deciding(world, one, context) for one in SIDES}
+    replayed = all(possible(world, one, context) for one in SIDES) and all(
+        conflicting(world, one, context, said[one]) == (one == which) for one in SIDES
+    )
+    if not replayed:
+        raise Undecided("a situation did not replay, which is a bug in sleec-verify")
+    return ConflictChange(
+        way,
+        tuple(sorted(clash.literals, key=str)),
+        tuple(rule.label for rule in rules),
+        tuple(origin.span for origin in clash.origins),
+        witness,
+        said["old"],
+        said["new"],
+        extent,
+    )

@@ -1,0 +1,75 @@
+"""Every situation that a comparison shows is replayed: the evaluator must find in it what is said of both sides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from sleec_runtime.evaluation.conflicts import has_conflict
+from sleec_runtime.evaluation.evaluation import Situation, decide, holds
+from sleec_runtime.model import Context, Exclusive, Formula, Never, Obligation
+from sleec_verify.changes.compare.alternatives import here
+from sleec_verify.changes.compare.comparison import SIDES, Which, World, triggered
+from sleec_verify.changes.compare.result import Deciding
+from sleec_verify.changes.compare.timing_order import implies
+
+
+def deciding(world: World, which: Which, context: Context) -> tuple[Deciding, ...]:
+    """The clauses that decide on one side, in the order of its text, as the evaluator has it."""
+    stated = world.sides[which].stated
+
+    def true(formula: Formula) -> bool:
+        return holds(formula, context, stated.measures)
+
+    found = []
+    for rule in triggered(world, which, context):
+        decision = decide(rule, context, stated.reading, stated.measures)
+        if decision is not None:
+            span = list(rule.clauses())[decision.clause].span
+            due = here(
+                decision.obligations, stated.reading, world.untimed, lambda f: holds(f, context, stated.measures)
+            )
+            found.append(Deciding(rule.label, decision.clause, due, span))
+    return tuple(sorted(found, key=lambda one: one.span))
+
+
+def possible(world: World, which: Which, context: Context) -> bool:
+    """Whether the situation keeps what the side takes for granted."""
+    stated = world.sides[which].stated
+    fits = all(
+        context.conditions[name] in values
+        for name, values in world.sides[which].scales.items()
+        if name in context.conditions
+    )
+    return fits and all(
+        one.stated is None or holds(one.stated, context, stated.measures) for one in world.sides[which].given
+    )
+
+
+def conflicts(world: World, which: Which, context: Context, said: Iterable[Deciding]) -> bool:
+    """Whether what these clauses oblige at once cannot all be done."""
+    literals = tuple(dict.fromkeys(o for one in said for o in one.obligations if o.timing is None))
+    stated = world.sides[which].stated
+    forbidding = [c for c in stated.constraints if isinstance(c, (Exclusive, Never))]
+    return has_conflict(literals, forbidding, Situation(context, stated.measures))
+
+
+def is_due(world: World, said: Iterable[Deciding], literal: Obligation) -> bool:
+    """Whether one of these clauses obliges the literal, or one that asks for at least as much."""
+    return any(implies(o, literal, world.untimed) is True for one in said for o in one.obligations)
+
+
+def shows_change(
+    world: World,
+    context: Context,
+    said: dict[Which, tuple[Deciding, ...]],
+    added: Sequence[Obligation],
+    removed: Sequence[Obligation],
+) -> bool:
+    """Whether both sides allow the situation, neither conflicts in it, and what is due differs as is said."""
+    if not all(possible(world, which, context) for which in SIDES):
+        return False
+    if any(conflicts(world, which, context, said[which]) for which in SIDES):
+        return False
+    return all(is_due(world, said["new"], o) and not is_due(world, said["old"], o) for o in added) and all(
+        is_due(world, said["old"], o) and not is_due(world, said["new"], o) for o in removed
+    )

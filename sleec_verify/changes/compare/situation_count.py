@@ -1,0 +1,82 @@
+"""Counting situations, exactly, over the names that a change involves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from sleec_runtime.model import Atom, Formula, Measure, Rule, Truth
+from sleec_verify.changes.compare.result import Extent
+from sleec_verify.changes.decision_diagram import FALSE, TRUE, Diagram
+from sleec_verify.encoding.equation import conjunction
+from sleec_verify.query.cone import Name, names_in
+
+
+class Counting:
+    """The diagram of one question: some formulas, under assumptions, where the `given` triggers occur."""
+
+    def __init__(
+        self,
+        formulas: Sequence[Formula],
+        assumed: Sequence[Formula],
+        given: Iterable[str],
+        measures: dict[str, Measure],
+    ) -> None:
+        """Raises `TooLarge` past a bound of the diagram, as the methods do."""
+        self.given = tuple(sorted(given))
+        occurring = [Atom("trigger", name) for name in self.given]
+        self.diagram = Diagram([*occurring, *formulas, *assumed], measures)
+        self._possible = TRUE
+        for formula in (*occurring, *assumed):
+            self._possible = self.diagram.both(self._possible, self.diagram.node(formula))
+
+    def where(self, formula: Formula, never: Iterable[Formula] = ()) -> int:
+        """The node of the possible situations that make `formula` true and none of `never`."""
+        node = self.diagram.both(self._possible, self.diagram.node(formula))
+        for forbidden in never:
+            node = self.diagram.both(node, self.diagram.opposite(self.diagram.node(forbidden)))
+        return node
+
+    def meets(self, node: int, formula: Formula) -> bool:
+        """Whether some situation of the node makes `formula` true."""
+        return self.diagram.both(node, self.diagram.node(formula)) != FALSE
+
+    def extent(self, node: int, named: Iterable[Name]) -> Extent:
+        """How many situations the node has, counted over these names and all others that it depends on."""
+        wanted = set(named)
+        over = self.diagram.support(node)
+        over.update(at for at, part in enumerate(self.diagram.parts) if not wanted.isdisjoint(part.names))
+        shown = [
+            self.diagram.parts[at]
+            for at in sorted(over)
+            if not all(kind == "trigger" and name in self.given for kind, name in self.diagram.parts[at].names)
+        ]
+        possible = self.diagram.some(self._possible, over)
+        counted = over | self.diagram.support(possible)
+        return Extent(
+            self.diagram.count(node, counted), self.diagram.count(possible, counted), tuple(shown), self.given
+        )
+
+
+def not_counted(given: Iterable[str], why: str) -> Extent:
+    """The extent of what could not be counted."""
+    return Extent(None, None, (), tuple(sorted(given)), why)
+
+
+def conditions_of(rules: Iterable[Rule | None]) -> list[Formula]:
+    """The guards and hedges' conditions of some rules, without those of what is due in place of a response."""
+    found: list[Formula] = []
+    for rule in rules:
+        if rule is not None:
+            found += [] if rule.guard is None else [rule.guard]
+            found += [clause.condition for clause in rule.clauses() if clause.condition is not None]
+    return found
+
+
+def named_in(formulas: Iterable[Formula]) -> list[Name]:
+    """The names that formulas speak of, each once."""
+    return list(dict.fromkeys(name for formula in formulas for name in names_in(formula)))
+
+
+def all_of(formulas: Iterable[Formula]) -> Formula:
+    """The conjunction of formulas, those that are always true left out."""
+    return conjunction([formula for formula in formulas if formula != Truth(True)])

@@ -1,0 +1,79 @@
+"""Situations that only one side allows: its assumptions, its relations and its scales leave others than the other's."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Union
+
+from sleec_runtime.model import Formula, Not
+from sleec_verify.changes.compare.comparison import Which, World, other
+from sleec_verify.changes.compare.replay import possible
+from sleec_verify.changes.compare.result import SituationChange, Undecidable, Way
+from sleec_verify.changes.compare.sides import Given
+from sleec_verify.changes.compare.situation_count import Counting, named_in, not_counted
+from sleec_verify.changes.decision_diagram import FALSE, TooLarge
+from sleec_verify.encoding.solver import Undecided
+from sleec_verify.query.witness import smallest_situation
+
+
+def situation_changes(world: World) -> Iterator[Union[SituationChange, Undecidable]]:
+    """For each thing that one side takes for granted and the other does not say, the situations that only the other
+    side allows, if there are any: what the other side's assumptions give anyway is no change."""
+    for which in ("old", "new"):
+        mine: Which = "old" if which == "old" else "new"
+        theirs = {given.formula for given in world.sides[other(mine)].given}
+        way: Way = "added" if mine == "old" else "removed"
+        for given in world.sides[mine].given:
+            if given.formula not in theirs:
+                try:
+                    found = _allowed(world, other(mine), given, way)
+                except Undecided as error:
+                    yield Undecidable(given.words, str(error))
+                else:
+                    yield from () if found is None else (found,)
+    yield from _fractions(world)
+
+
+def _allowed(world: World, by: Which, given: Given, way: Way) -> SituationChange | None:
+    """The situations that `by` allows and that break `given`."""
+    broken = Not(given.formula)
+    cones = world.situations_about(by, broken)
+    witness = smallest_situation(cones, broken)
+    if witness is None or not world.situations_of(by).possible:
+        return None
+    context = witness.context()
+    if not possible(world, by, context) or _keeps(world, other(by), given, context):
+        raise Undecided("a situation did not replay, which is a bug in sleec-verify")
+    named = named_in([given.formula])
+    assumed = [assumption.formula for assumption in cones.assumptions_about(named)]
+    try:
+        counting = Counting([broken], assumed, (), world.measures)
+        node = counting.where(broken)
+        assert node != FALSE, "a solver and a diagram disagree"
+        extent = counting.extent(node, named)
+    except TooLarge as error:
+        extent = not_counted((), str(error))
+    return SituationChange(way, given.words, witness, extent)
+
+
+def _keeps(world: World, which: Which, given: Given, context: object) -> bool:
+    from sleec_runtime.evaluation.evaluation import holds
+    from sleec_runtime.model import Context
+
+    assert isinstance(context, Context)
+    formula: Formula = given.formula if given.stated is None else given.stated
+    measures = world.measures if given.stated is None else world.sides[which].stated.measures
+    values = {name: world.sides[which].scales[name] for name in world.sides[which].scales}
+    if any(context.conditions.get(name, of[0]) not in of for name, of in values.items()):
+        return False
+    return holds(formula, context, measures)
+
+
+def _fractions(world: World) -> Iterator[SituationChange]:
+    """Numbers that one side takes for whole ones. The DSL has only these: between the languages it is a note."""
+    if world.sides["old"].stated.syntax != world.sides["new"].stated.syntax:
+        return
+    for name in world.vocabulary.whole:
+        old = world.sides["old"].stated.measures[name].kind
+        way: Way = "added" if old == "integer" else "removed"
+        yield SituationChange(way, f"{name} is a whole number", None, None)

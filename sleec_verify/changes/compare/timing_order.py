@@ -1,0 +1,144 @@
+"""Which of two literals asks for more, where they say when.
+
+"X within 5 minutes" asks for more than "X within 10 minutes", and a prohibition for less. So a literal is taken for
+due wherever one is due that asks for at least as much, and a longer window is laxer without being a case of its own.
+With what is due in its place, a literal is a formula over what occurs when, and asks for more if the other follows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from itertools import product
+from typing import TYPE_CHECKING
+
+from sleec_runtime.model import Obligation
+from sleec_verify.encoding.solver import Undecided
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Rational
+    from sleec_runtime.model.time import Timing, Window
+    from sleec_verify.encoding.trace_scope import Untimed
+    from sleec_verify.traces.demands import Demand, Occurs
+
+MOST_WAYS = 10_000
+"""Ways to keep one response, times ways to break another, that are looked at."""
+
+
+def implies(one: Obligation, other: Obligation, untimed: Untimed = "at") -> bool | None:
+    """Whether whoever keeps `one` keeps `other`, of two literals with no hedges in what is due in their place; None
+    where that is not known."""
+    if one == other:
+        return True
+    if _has_alternatives(one) or _has_alternatives(other):
+        return _follows(one, other, untimed)
+    if one.name != other.name or one.negated != other.negated:
+        return False
+    if one.timing is None and other.timing is None:
+        return True
+    mine, theirs = _span_of_time(one.timing, untimed), _span_of_time(other.timing, untimed)
+    if mine is None or theirs is None:
+        return None
+    narrow, wide = (theirs, mine) if one.negated else (mine, theirs)
+    return wide[0] <= narrow[0] and (wide[1] is None or (narrow[1] is not None and narrow[1] <= wide[1]))
+
+
+def asks_for_nothing(obligation: Obligation, untimed: Untimed) -> bool:
+    """Whether a literal is kept whatever happens, as ``A else NOT A`` is."""
+    return _has_alternatives(obligation) and _follows(None, obligation, untimed) is True
+
+
+def why_not(one: Obligation, other: Obligation) -> str:
+    """Why `implies` has no answer."""
+    try:
+        _demand(one, "at")
+        _demand(other, "at")
+    except Undecided:
+        return "a window whose length is a measure's"
+    return "there are too many ways to keep it"
+
+
+def _has_alternatives(obligation: Obligation) -> bool:
+    timing = obligation.timing
+    return timing is not None and (timing.otherwise is not None or timing.instead is not None)
+
+
+# What is due in place of a response -----------------------------------------------------------------------
+
+
+@lru_cache(maxsize=10_000)
+def _follows(one: Obligation | None, other: Obligation, untimed: Untimed) -> bool | None:
+    """Whether every way to keep `one` (None: of doing anything) leaves no way to break `other`."""
+    try:
+        kept = [[]] if one is None else _ways(_demand(one, untimed))
+        broken = _ways(_demand(other, untimed, kept=False))
+    except Undecided:
+        return None
+    if len(kept) * len(broken) > MOST_WAYS:
+        return None
+    return not any(_possible([*keeping, *breaking]) for keeping, breaking in product(kept, broken))
+
+
+def _demand(obligation: Obligation, untimed: Untimed, kept: bool = True) -> Demand:
+    from sleec_verify.traces.demands import Responses
+
+    # What is due in place of a response has no hedges here, so that it decides.
+    return Responses(untimed).of((obligation,), lambda clause: [_DECIDES], kept)
+
+
+_DECIDES = 1
+
+
+def _ways(demand: Demand) -> list[list[Occurs]]:
+    """The ways to meet a demand, each as what has to occur and what must not."""
+    from sleec_verify.traces.demands import Every, Some
+
+    if isinstance(demand, int):
+        return [[]] if demand == _DECIDES else []
+    if isinstance(demand, Some):
+        return [way for part in demand.parts for way in _ways(part)]
+    if isinstance(demand, Every):
+        found: list[list[Occurs]] = [[]]
+        for part in demand.parts:
+            found = [[*way, *more] for way, more in product(found, _ways(part))]
+            if len(found) > MOST_WAYS:
+                raise Undecided("too many ways")
+        return found
+    return [[demand]]
+
+
+def _possible(way: Sequence[Occurs]) -> bool:
+    """Whether each thing that has to occur has a time at which it may. Events have nothing to do with each other."""
+    return all(
+        _has_room(what, [ban for ban in way if ban.negated and ban.event == what.event])
+        for what in way
+        if not what.negated
+    )
+
+
+def _has_room(what: Occurs, bans: Sequence[Occurs]) -> bool:
+    """Whether some second of a window is in none of the others."""
+    second = what.start or 0
+    for ban in sorted(bans, key=lambda ban: ban.start or 0):
+        if (ban.start or 0) <= second:
+            if ban.end is None:
+                return False
+            second = max(second, ban.end + 1)
+    return what.end is None or second <= what.end
+
+
+# Windows --------------------------------------------------------------------------------------------------
+
+
+def _span_of_time(timing: Timing | None, untimed: Untimed) -> tuple[Rational, Rational | None] | None:
+    """From when to when, in seconds after the trigger; None where a measure says it."""
+    window: Window | None = None if timing is None else timing.window
+    if window is None:
+        return (0, None) if untimed == "eventually" else (0, 0)
+    start = 0 if window.start is None else window.start.seconds
+    if start is None:
+        return None
+    if window.end is None:
+        return start, None
+    end = window.end.seconds
+    return None if end is None else (start, end)

@@ -1,0 +1,76 @@
+"""Asking assertions of the rulesets that they are about."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from sleec_runtime.model import Atom, Ruleset, Source, leaves, measures_of
+from sleec_verify.changes.gate.result import Examined, Gated
+from sleec_verify.results.internal_error import InternalError, internal_errors_of
+
+if TYPE_CHECKING:
+    from sleec_runtime.errors import Problem
+    from sleec_verify.changes.assertions import Asked, Assertion, Vocabulary
+
+
+class Asserting:
+    """The assertions of the configuration and the command line, as texts; files of them are read already."""
+
+    def __init__(self, texts: Sequence[str] = (), sources: Sequence[Source] = ()) -> None:
+        self.texts = texts
+        self.sources = sources
+
+    def __bool__(self) -> bool:
+        return bool(self.texts or self.sources)
+
+
+class Sides(NamedTuple):
+    """A ruleset as it is now, and as it was."""
+
+    new: Ruleset
+    old: Ruleset
+
+
+def ask_all(found: Gated, asked: Sequence[Sides], asserting: Asserting) -> tuple[Asked, ...]:
+    """The answers. An assertion is asked of each ruleset that knows one of its names, or did in the base: others are
+    about other things, and a ruleset that is gone obliges nothing."""
+    from sleec_runtime.errors import LanguageError
+    from sleec_verify.changes.assertions import Vocabulary, ask, read_assertion, read_assertions
+
+    vocabulary = Vocabulary(side for sides in asked for side in sides)
+    said: list[Assertion] = []
+    for text in asserting.texts:
+        said.append(read_assertion(text, vocabulary, "assertion"))
+    problems: list[tuple[Source, tuple[Problem, ...]]] = []
+    for source in asserting.sources:
+        try:
+            said += read_assertions(source, vocabulary)
+        except LanguageError as error:
+            problems.append((source, error.problems))
+    if problems:
+        raise LanguageError(*problems[0])
+    answers = []
+    for new, old in asked:
+        path = found.paths[new.source.path]
+        try:
+            with internal_errors_of(path):
+                known = _names(Vocabulary((new, old)))
+                answers += [ask(new, one, known=vocabulary) for one in said if not known.isdisjoint(_names_in(one))]
+        except InternalError as error:
+            examined = next((one for one in found.examined if one.path == path), None)
+            if examined is None:
+                found.examined.append(examined := Examined(path))
+            examined.errors.append(error)
+    return tuple(answers)
+
+
+def _names(vocabulary: Vocabulary) -> set[str]:
+    return {*vocabulary.triggers, *vocabulary.conditions, *vocabulary.obligations, *vocabulary.measures}
+
+
+def _names_in(assertion: Assertion) -> set[str]:
+    names = {literal.name for literal in assertion.literals}
+    for leaf in leaves(assertion.when):
+        names.update((leaf.name,) if isinstance(leaf, Atom) else measures_of(leaf))
+    return names

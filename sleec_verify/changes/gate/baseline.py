@@ -1,0 +1,86 @@
+"""Findings that were there when a team began: a file of them, so that only new ones block.
+
+A finding is known again by its ruleset, its code, and the rules, clauses and obligations that it names; lines may move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from sleec_verify.changes.gate.keys import ConfigError
+from sleec_verify.results.phrases import shortened
+
+if TYPE_CHECKING:
+    from sleec_verify.results.finding import Finding
+
+Key = tuple[str, str, tuple[str, ...], tuple[tuple[str, int], ...], tuple[str, ...]]
+_VERSION = 1
+
+
+def key(path: str, finding: Finding) -> Key:
+    """What a finding is known by."""
+    clauses = tuple((clause.rule, clause.clause) for clause in finding.clauses)
+    return path, finding.code, finding.rules, clauses, finding.obligations
+
+
+class Known:
+    """The findings of a baseline, and those of them that there are still."""
+
+    def __init__(self, keys: Collection[Key] = ()) -> None:
+        self.keys = frozenset(keys)
+        self.met: set[Key] = set()
+
+    def has(self, finding: Finding, paths: Sequence[str]) -> bool:
+        """Whether it is known under one of the paths that its ruleset has had."""
+        its = {key(path, finding) for path in paths}
+        self.met |= its
+        return not its.isdisjoint(self.keys)
+
+
+def read_baseline(data: bytes, called: str) -> frozenset[Key]:
+    """The findings of a baseline file, which messages call `called`. Raises `ConfigError`."""
+    import json
+
+    try:
+        table = json.loads(data)
+        if type(table["version"]) is not int or table["version"] != _VERSION:
+            raise ConfigError(f"{called} is a baseline of version {shortened(repr(table['version']))}", _RENEW)
+        return frozenset(map(_key, _list(table["findings"])))
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        raise ConfigError(f"{called} is no baseline", _RENEW) from None
+
+
+_RENEW = "make it anew: sleec-verify gate --write-baseline …"
+
+
+def _key(entry: Mapping[str, Any]) -> Key:
+    clauses = tuple((clause["rule"], clause["clause"]) for clause in _list(entry["clauses"]))
+    rules, obligations = tuple(_list(entry["rules"])), tuple(_list(entry["obligations"]))
+    texts = [entry["ruleset"], entry["code"], *rules, *obligations, *(rule for rule, _ in clauses)]
+    if not all(type(text) is str for text in texts) or not all(type(number) is int for _, number in clauses):
+        raise TypeError("names are texts, and clauses have numbers")
+    return entry["ruleset"], entry["code"], rules, clauses, obligations
+
+
+def _list(value: object) -> list[Any]:
+    if type(value) is not list:
+        raise TypeError("several things are a list")
+    return value
+
+
+def baseline_text(keys: Iterable[Key]) -> str:
+    """A baseline file of these findings, sorted, so that versions of it can be compared."""
+    findings = [
+        {
+            "ruleset": path,
+            "code": code,
+            "rules": list(rules),
+            "clauses": [{"rule": rule, "clause": clause} for rule, clause in clauses],
+            "obligations": list(obligations),
+        }
+        for path, code, rules, clauses, obligations in sorted(set(keys))
+    ]
+    import json
+
+    return json.dumps({"version": _VERSION, "findings": findings}, indent=2) + "\n"

@@ -1,0 +1,33 @@
+"""Whether the certificate beside a ruleset holds: ``household.certificate/`` beside ``household.sleec``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from sleec_runtime.certificate.coverage import Use
+from sleec_runtime.certificate.manifest import Manifest, Required
+from sleec_runtime.errors import SleecError
+from sleec_runtime.model import Ruleset
+from sleec_verify.changes.gate.keys import Policy
+from sleec_verify.encoding.trace_scope import Untimed
+
+SUFFIX = ".certificate"
+
+
+def certificate(ruleset: Ruleset, untimed: Untimed, policy: Policy) -> Manifest | str:
+    """What the certificate beside a ruleset says, or why none holds of the ruleset as it is checked: its whole text in
+    its own reading, with `untimed`, and with what the `policy` requires. Costs what ``certify --check`` does."""
+    from sleec_verify.certificates.checker import checker
+    from sleec_verify.certificates.checking import check_certificate
+    from sleec_verify.certificates.theory.oracle import built
+
+    path = Path(ruleset.source.path)
+    folder = path.with_name(path.name.removesuffix(".sleec") + SUFFIX)
+    if not folder.exists():
+        return f"there is no {folder.name} beside it (sleec-verify certify {path.name} -o {folder.name})"
+    try:
+        use = Use(ruleset.reading, untimed=untimed)
+        required = Required(policy.require_proved, policy.require_tied)
+        return check_certificate(ruleset, str(folder), checker(), use, required, oracle=built()).manifest
+    except SleecError as error:
+        return f"{folder.name} is refused: {error.message}"

@@ -1,0 +1,146 @@
+"""Examining one ruleset of a change: its checks, what differs from the base, its cases and its certificate."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+from sleec_runtime.errors import SleecError
+from sleec_runtime.language import parse_source
+from sleec_runtime.model import Ruleset, Source
+from sleec_verify.changes.compare import compare
+from sleec_verify.changes.gate.baseline import Known
+from sleec_verify.changes.gate.keys import Policy
+from sleec_verify.changes.gate.result import Examined
+from sleec_verify.changes.gate.suppressions import Suppression, new_suppressions, suppressions
+from sleec_verify.checks import CHECKS, run_checks
+from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.results.finding import CheckResult
+from sleec_verify.results.internal_error import InternalError, internal_errors_of
+
+if TYPE_CHECKING:
+    from sleec_runtime.errors import Problem
+    from sleec_verify.changes.revisions.revisions import Versions
+
+Check = Callable[[Ruleset], tuple[CheckResult, ...]]
+"""What checks a ruleset, or knows what came of it."""
+
+Locate = Callable[[str], str]
+"""From a path of the repository to the file that it is now. Raises `SleecError` for one outside the repository."""
+
+CONFLICT = "conflict"
+
+
+def evidence(path: str, policy: Policy) -> list[str]:
+    """The files and folders beside a ruleset that the policy asks for."""
+    stem = path.removesuffix(".sleec")
+    cases = [f"{stem}.cases.toml"] if policy.clause_coverage is not None else []
+    return cases + ([f"{stem}.certificate"] if policy.certificates else [])
+
+
+class Examiner(NamedTuple):
+    """How rulesets are examined: against the base, which messages call `base`, by `policy` and with the `known`
+    findings. A response without a window is read as `untimed`."""
+
+    base: str
+    policy: Policy
+    known: Known
+    check: Check
+    locate: Locate
+    untimed: Untimed
+
+    def examine(self, versions: Versions, was: str | None) -> Examined:
+        """A ruleset in two versions, the older one at the path `was` if that is another."""
+        found = Examined(versions.path, was)
+        try:
+            with internal_errors_of(versions.path):
+                self._fill_in(found, versions)
+        except InternalError as error:
+            found.errors.append(error)
+        return found
+
+    def _fill_in(self, found: Examined, versions: Versions) -> None:
+        sides: list[Ruleset | None] = []
+        for place in (versions.old, versions.new):
+            try:
+                sides.append(None if place is None else parse_source(place.read()))
+            except SleecError as error:
+                found.errors.append(error)
+                sides.append(None)
+        old, found.ruleset = sides
+        if found.ruleset is not None:
+            allowing, found.problems = suppressions_of(found.ruleset)
+            found.new = new_suppressions([] if old is None else suppressions_of(old)[0], allowing)
+            check_ruleset(
+                found,
+                found.ruleset,
+                self.known,
+                self.check,
+                allowing,
+                refused=found.new if self.policy.new_suppressions else (),
+            )
+            for path in evidence(found.path, self.policy):
+                try:
+                    self.locate(path)
+                except SleecError as error:
+                    found.errors.append(error)
+            if self.policy.clause_coverage is not None and not found.errors:
+                from sleec_verify.changes.gate.case_coverage import coverage
+
+                found.coverage = coverage(found.ruleset, found.errors)
+            if self.policy.certificates and not found.errors:
+                from sleec_verify.changes.gate.certificates import certificate
+
+                found.certificate = certificate(found.ruleset, self.untimed, self.policy)
+        if not found.errors:
+            new = found.ruleset
+            found.difference = compare(
+                old if old is not None else _nothing(new, f"{self.base}: no {versions.path}"),
+                new if new is not None else _nothing(old, f"no {versions.path}"),
+                untimed=self.untimed,
+            )
+            if old is not None and any(f.check == CONFLICT for f in found.known):
+                found.conflicting = _conflicting(old, self.untimed)
+
+
+def _conflicting(ruleset: Ruleset, untimed: Untimed) -> frozenset[frozenset[str]]:
+    """The rules of each conflict."""
+    (result,) = run_checks(ruleset, [CONFLICT], untimed=untimed)
+    return frozenset(frozenset(finding.rules) for finding in result.findings)
+
+
+def _nothing(other: Ruleset | None, called: str) -> Ruleset:
+    """No rules, on the side that has no such file."""
+    assert other is not None, "one side has it"
+    return replace(other, statements=(), inferred=(), defects=(), source=Source(called, ""))
+
+
+def suppressions_of(ruleset: Ruleset) -> tuple[list[Suppression], list[Problem]]:
+    codes = {kind.code for one in CHECKS.values() for kind in one.kinds}
+    return suppressions(ruleset, {*codes, *CHECKS})
+
+
+def check_ruleset(
+    found: Examined,
+    ruleset: Ruleset,
+    known: Known,
+    check: Check,
+    allowing: Sequence[Suppression],
+    refused: Collection[Suppression] = (),
+) -> None:
+    """Check a ruleset. Of what is `allowing`, the suppressions that are `refused` allow nothing."""
+    found.results = check(ruleset)
+    used = set()
+    paths = [found.path, *([] if found.was is None else [found.was])]
+    for finding in (finding for result in found.results for finding in result.findings):
+        covering = [one for one in allowing if one.covers(ruleset, finding)]
+        used.update(covering[:1])
+        allowed_by = next((one for one in covering if one not in refused), None)
+        if allowed_by is not None:
+            found.allowed.append((finding, allowed_by))
+        elif known.has(finding, paths):
+            found.known.append(finding)
+        else:
+            found.findings.append(finding)
+    found.unused = [one for one in allowing if one not in used]

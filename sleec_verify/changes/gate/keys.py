@@ -1,0 +1,200 @@
+"""The keys of a configuration, and the values that they take.
+
+Every key is checked, because a misspelt one would let through what it was meant to block. Paths stay inside the
+repository.
+"""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal, NamedTuple
+
+from sleec_runtime.errors import SleecError
+from sleec_verify.results.finding import SEVERITIES, Severity
+
+
+class ConfigError(SleecError):
+    """A configuration that cannot be used: missing, no TOML, or with a key or value that there is not."""
+
+
+class Target(NamedTuple):
+    """A robot's code, and the rules whose structure it is to have. Paths are from `folder`, that of the settings."""
+
+    code: str
+    rules: str
+    domain: str | None = None
+    folder: str = "."
+
+    def at(self, path: str) -> str:
+        """One of its paths, from the top of the repository."""
+        return joined(self.folder, path)
+
+
+class Policy(NamedTuple):
+    """What blocks.
+
+    `findings`: findings of `check` and `conform` at least as grave as this; "never" for none. `new_conflicts`:
+    situations that conflict now and did not in the base. `lost_obligations`: patterns (``Call*``, ``NOT Speak``) of
+    obligations that some situation loses. `ruled_out_situations`: situations that the assumptions of now do not allow,
+    and those of the base did. `dead_hedges`: a hedge that decides nowhere. `unknown`: whatever is not
+    decided. `unused_suppressions`: a suppression that nothing needs. `clause_coverage`: fewer clauses than this, in
+    percent, reached by the cases beside a ruleset; None asks nothing. `certificates`: a ruleset without one beside it
+    that holds. `require_proved` and `require_tied` ask for `certificates`, and for more of them
+    (`certificate.manifest.Required`). `policy_changes`: a change to the configuration, the baseline or the
+    assertions. `new_suppressions`: a suppression that the base does not have, which allows nothing then.
+    """
+
+    findings: Severity | Literal["never"] = "error"
+    new_conflicts: bool = True
+    lost_obligations: tuple[str, ...] = ()
+    ruled_out_situations: bool = False
+    dead_hedges: bool = False
+    unknown: bool = True
+    unused_suppressions: bool = False
+    clause_coverage: float | None = None
+    certificates: bool = False
+    require_proved: bool = False
+    require_tied: bool = False
+    policy_changes: bool = True
+    new_suppressions: bool = True
+
+    def requiring(self, proved: bool, tied: bool) -> Policy:
+        """This policy, with what is required of certificates besides. Whoever requires anything asks for them."""
+        proved, tied = proved or self.require_proved, tied or self.require_tied
+        asked = self.certificates or proved or tied
+        return self._replace(certificates=asked, require_proved=proved, require_tied=tied)
+
+
+def settings(table: object, called: str, where: str, folder: str) -> dict[str, Any]:
+    """The fields of a `Config` that a table sets, for paths from `folder`. Messages call the file `called`, and the
+    table in it `where`. Raises `ConfigError`."""
+    return _Reader(called, where, folder).read(table, _SETTINGS, "")
+
+
+def is_assertion(entry: str) -> bool:
+    """Whether an entry of `assertions` is an assertion; the others are files of them."""
+    return entry.split(" ")[0].lower() in ("never", "always")
+
+
+def joined(folder: str, path: str) -> str:
+    """A path of `folder`, from the top of the repository."""
+    return posixpath.normpath(posixpath.join(folder, path))
+
+
+class _Reader:
+    """Reads tables, and says of what does not fit where it stands."""
+
+    def __init__(self, path: str, where: str, folder: str) -> None:
+        self._path = path
+        self._where = where
+        self.folder = folder
+
+    def read(self, table: object, keys: Mapping[str, _Read], at: str) -> dict[str, Any]:
+        if not isinstance(table, dict):
+            self.fail(at or "the table", table, "a table of keys and values")
+        assert isinstance(table, dict)
+        found = {}
+        for key, value in table.items():
+            name = f"{at}.{key}" if at else key
+            if key not in keys:
+                from sleec_runtime.language.common.suggestions import nearest
+
+                near = nearest(key, sorted(keys))
+                hint = f"did you mean {near}?" if near else f"there are {', '.join(sorted(keys))}"
+                raise ConfigError(f"{self._path}: {self._where}has an unknown key {name}", hint)
+            found[key.replace("-", "_")] = keys[key](self, name, value)
+        return found
+
+    def fail(self, name: str, value: object, wanted: str) -> Any:
+        shown = repr(value)
+        shown = f"{shown[:37]}..." if len(shown) > 40 else shown
+        raise ConfigError(f"{self._path}: {self._where}{name} is {shown}", f"it is {wanted}")
+
+
+_Read = Callable[[_Reader, str, object], Any]
+
+
+def _text(reader: _Reader, name: str, value: object) -> str:
+    return value if isinstance(value, str) and value else str(reader.fail(name, value, "a text"))
+
+
+def _path(reader: _Reader, name: str, value: object) -> str:
+    path = _text(reader, name, value)
+    if posixpath.isabs(path) or joined(reader.folder, path).split("/")[0] == "..":
+        reader.fail(name, value, "a path inside the repository, from the folder of the configuration")
+    return path
+
+
+def _truth(reader: _Reader, name: str, value: object) -> bool:
+    return value if isinstance(value, bool) else bool(reader.fail(name, value, "true or false"))
+
+
+def _texts(reader: _Reader, name: str, value: object) -> tuple[str, ...]:
+    if isinstance(value, str) and value:
+        return (value,)
+    if not isinstance(value, list) or not all(isinstance(one, str) and one for one in value):
+        reader.fail(name, value, "a list of texts")
+    return tuple(value)  # type: ignore[arg-type]
+
+
+def _paths(reader: _Reader, name: str, value: object) -> tuple[str, ...]:
+    return tuple(_path(reader, name, one) for one in _texts(reader, name, value))
+
+
+def _assertions(reader: _Reader, name: str, value: object) -> tuple[str, ...]:
+    return tuple(one if is_assertion(one) else _path(reader, name, one) for one in _texts(reader, name, value))
+
+
+def _severity(reader: _Reader, name: str, value: object) -> str:
+    allowed = (*SEVERITIES, "never")
+    return str(value) if value in allowed else str(reader.fail(name, value, f"one of {', '.join(allowed)}"))
+
+
+def _percent(reader: _Reader, name: str, value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value <= 100:
+        reader.fail(name, value, "a number from 0 to 100")
+    return float(value)  # type: ignore[arg-type]
+
+
+def _targets(reader: _Reader, name: str, value: object) -> tuple[Target, ...]:
+    tables: Sequence[object] = value if isinstance(value, list) else [value]
+    found = []
+    for number, table in enumerate(tables, 1):
+        at = f"{name} {number}" if len(tables) > 1 else name
+        settings = reader.read(table, {"code": _path, "rules": _path, "domain": _text}, at)
+        for key in ("code", "rules"):
+            if key not in settings:
+                raise ConfigError(f"{reader._path}: {reader._where}{at} has no {key}", "code and rules belong together")
+        found.append(Target(folder=reader.folder, **settings))
+    return tuple(found)
+
+
+def _policy(reader: _Reader, name: str, value: object) -> Policy:
+    return Policy(**reader.read(value, _POLICIES, name))
+
+
+_POLICIES: Mapping[str, _Read] = {
+    "findings": _severity,
+    "new-conflicts": _truth,
+    "lost-obligations": _texts,
+    "ruled-out-situations": _truth,
+    "dead-hedges": _truth,
+    "unknown": _truth,
+    "unused-suppressions": _truth,
+    "clause-coverage": _percent,
+    "certificates": _truth,
+    "require-proved": _truth,
+    "require-tied": _truth,
+    "policy-changes": _truth,
+    "new-suppressions": _truth,
+}
+
+_SETTINGS: Mapping[str, _Read] = {
+    "rulesets": _paths,
+    "base": _text,
+    "baseline": _path,
+    "assertions": _assertions,
+    "targets": _targets,
+    "block": _policy,
+}

@@ -1,0 +1,212 @@
+"""From what was found to what blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING
+
+from sleec_runtime.model.spans import NOWHERE, Span
+from sleec_verify.changes.compare import by_obligation
+from sleec_verify.changes.gate.keys import Policy
+from sleec_verify.changes.gate.result import NEW_SUPPRESSIONS, POLICY_CHANGES, Block, Conformed, Examined, Gated
+from sleec_verify.checks import CHECKS
+from sleec_verify.results.deduplication import told_once
+from sleec_verify.results.finding import SEVERITIES, ClauseRef, Finding, Severity, Unknown
+from sleec_verify.results.phrases import in_short, listed
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Ruleset
+    from sleec_verify.changes.compare.result import Deciding
+    from sleec_verify.results.finding import Witness
+
+DEAD_HEDGE = CHECKS["dead-hedge"].kinds[0].code
+CONFLICT = CHECKS["conflict"].kinds[0].code
+
+POLICIES: Mapping[str, str] = {
+    POLICY_CHANGES: "what decides about changes is changed",
+    NEW_SUPPRESSIONS: "a suppression that the base does not have",
+    "suppressions": "a suppression without a reason, or of a finding that there is not",
+    "unused-suppressions": "a suppression that no finding needs",
+    "new-conflicts": "situations conflict now that did not before",
+    "lost-obligations": "some situation loses an obligation",
+    "ruled-out-situations": "situations that counted before are assumed away",
+    "certificates": "there is no certificate that holds",
+    "clause-coverage": "the cases reach too few clauses",
+    "assertions": "an assertion does not hold",
+    "comparison": "what changes is not decided",
+}
+"""What blocks, or is unknown, besides the findings of checks, by the name that it has in reports."""
+
+
+def judge(found: Gated, policy: Policy) -> None:
+    """Fill in what blocks, what is unknown, and the new suppressions."""
+    found.changes = [*_heeded(found.changes, policy.policy_changes)]
+    for one in found.examined:
+        found.changes += _heeded(_new_suppressions(one), policy.new_suppressions)
+    found.blocks += (change for change in found.changes if change.finding and change.finding.severity == "error")
+    for one in found.examined:
+        found.blocks += _on_ruleset(one, policy)
+        found.unknown += _unknown(one)
+    for conformed in found.conformed:
+        found.blocks += (_finding(conformed.target.code, f) for f in conformed.findings if _grave(f, policy))
+        found.unknown += _unknown_code(conformed)
+    for assertion, ruleset, answer in found.asked:
+        path = found.paths[ruleset.source.path]
+        if isinstance(answer, str):
+            found.unknown.append(Block("unknown", path, f"{assertion.text}: {answer}"))
+        elif answer is not None:
+            what = f"{assertion.text} does not hold"
+            domains = (answer.domain,) if answer.domain else ()
+            places = _places(answer.deciding)
+            found.blocks.append(_block("assertions", path, what, *places, witness=answer.witness, domains=domains))
+    found.heeded = policy.unknown
+
+
+_HELP = "the base decides about this change all the same; let an owner of the file approve it"
+
+
+def _heeded(changes: Iterable[Block], blocking: bool) -> Iterator[Block]:
+    """Changes of what decides, as errors if they block."""
+    for change in changes:
+        assert change.finding is not None, "it is shown as a finding"
+        severity: Severity = "error" if blocking else "note"
+        yield change._replace(finding=replace(change.finding, severity=severity, help=_HELP))
+
+
+def _new_suppressions(one: Examined) -> Iterator[Block]:
+    for new in one.new:
+        what = f"line {one.line(new.span)} has a new suppression of {new.allowed}: {new.reason}"
+        yield _block(NEW_SUPPRESSIONS, one.path, what, new.span)
+
+
+def _on_ruleset(one: Examined, policy: Policy) -> Iterator[Block]:
+    for problem in one.problems:
+        what = f"line {one.line(problem.span)}: {problem.message} ({problem.hint})"
+        yield _block("suppressions", one.path, what, problem.span)
+    if policy.unused_suppressions:
+        for unused in one.unused:
+            what = f"line {one.line(unused.span)} allows {unused.allowed}, and there is no such finding"
+            yield _block("unused-suppressions", one.path, what, unused.span)
+    for finding in told_once(one.findings):
+        if _grave(finding, policy):
+            yield _finding(one.path, finding)
+        elif policy.dead_hedges and finding.code == DEAD_HEDGE:
+            yield Block("dead-hedges", one.path, finding.message, finding)
+    if policy.new_conflicts:
+        yield from _new_conflicts(one)
+    yield from _lost(one, policy.lost_obligations)
+    if policy.ruled_out_situations and one.difference is not None:
+        for change in one.difference.situations:
+            if change.way == "removed":
+                what = f"situations that counted before are ruled out: {change.what}"
+                yield _block("ruled-out-situations", one.path, what, witness=change.witness, domains=change.domains)
+    if isinstance(one.certificate, str):
+        yield _block("certificates", one.path, one.certificate)
+    if policy.clause_coverage is not None and one.coverage is not None and one.coverage.why is None:
+        reached = one.coverage
+        if reached.percent < policy.clause_coverage:
+            most = [*reached.missed[:5], *(["…"] if len(reached.missed) > 5 else [])]
+            what = f"the cases reach {reached.reached} of {reached.clauses} clauses, and {policy.clause_coverage:g} %"
+            what += f" is asked for; not reached: {', '.join(most)}"
+            yield _block("clause-coverage", one.path, what)
+
+
+def _grave(finding: Finding, policy: Policy) -> bool:
+    if policy.findings == "never":
+        return False
+    return SEVERITIES.index(finding.severity) <= SEVERITIES.index(policy.findings)
+
+
+def _finding(where: str, finding: Finding) -> Block:
+    return Block("findings", where, f"{finding.severity}[{finding.code}] {finding.message}", finding)
+
+
+def _block(
+    policy: str,
+    where: str,
+    what: str,
+    span: Span = NOWHERE,
+    related: tuple[tuple[Span, str], ...] = (),
+    clauses: tuple[ClauseRef, ...] = (),
+    obligations: tuple[str, ...] = (),
+    witness: Witness | None = None,
+    domains: tuple[str, ...] = (),
+) -> Block:
+    """One that is no finding of a check: it is made one, so that it can be shown beside them."""
+    rules = tuple(dict.fromkeys(clause.rule for clause in clauses))
+    made = Finding(
+        policy, policy, "error", what, span, rules, clauses, obligations, witness, related=related, domains=domains
+    )
+    return Block(policy, where, what, made)
+
+
+def _places(
+    deciding: Sequence[Deciding],
+) -> tuple[Span, tuple[tuple[Span, str], ...], tuple[ClauseRef, ...]]:
+    """Where clauses stand that decide now: the first, the others, and all by their rules."""
+    if not deciding:
+        return NOWHERE, (), ()
+    others = tuple((one.span, f"{one.rule} decides here, too") for one in deciding[1:])
+    return deciding[0].span, others, tuple(ClauseRef(one.rule, one.clause) for one in deciding)
+
+
+def _new_conflicts(one: Examined) -> Iterator[Block]:
+    """Those that no suppression allows and no baseline has: both speak of the conflict's finding, by its rules. Where
+    these rules conflicted in the base already, they do so in more situations now, of which a baseline says nothing."""
+    if one.difference is None:
+        return
+    kept = {frozenset(f.rules) for f, _ in one.allowed if f.code == CONFLICT}
+    kept |= {frozenset(f.rules) for f in one.known if f.code == CONFLICT} - one.conflicting
+    # Rules may conflict twice, and only one of it be allowed.
+    kept -= {frozenset(f.rules) for f in one.findings if f.code == CONFLICT}
+    for conflict in one.difference.conflicts:
+        if conflict.way == "added" and frozenset(conflict.rules) not in kept:
+            rules = listed(conflict.rules) if conflict.rules else "the constraints"
+            names = tuple(sorted({o.name for o in conflict.literals}))
+            what = f"{rules} now conflict over {listed(names) if names else 'the situation'}"
+            span, related, clauses = _places(conflict.after)
+            yield _block(
+                "new-conflicts", one.path, what, span, related, clauses, names, conflict.witness, conflict.domains
+            )
+
+
+def _lost(one: Examined, patterns: tuple[str, ...]) -> Iterator[Block]:
+    if one.difference is None:
+        return
+    told = set()
+    for change, obligation, way in by_obligation(one.difference.changes):
+        if way == "removed" and any(fnmatchcase(str(obligation), pattern) for pattern in patterns):
+            what = f"{in_short(obligation)} is no longer called for by {listed(change.rules)} in some situation"
+            if what not in told:
+                told.add(what)
+                span, related, clauses = _places(change.after)
+                if not clauses and one.ruleset is not None:
+                    span = _rule(one.ruleset, change.new_rule)
+                yield _block(
+                    "lost-obligations", one.path, what, span, related, clauses, (obligation.name,), change.witness
+                )
+
+
+def _rule(ruleset: Ruleset, label: str | None) -> Span:
+    rule = None if label is None else ruleset.by_label.get(label)
+    return NOWHERE if rule is None else rule.span
+
+
+def _unknown(one: Examined) -> Iterator[Block]:
+    for result in one.results:
+        if isinstance(result.verdict, Unknown):
+            yield Block("unknown", one.path, f"{result.name}: {result.verdict.why}")
+    if one.difference is not None:
+        for what, why in one.difference.undecided:
+            yield Block("unknown", one.path, f"{what}: {why}")
+    if one.coverage is not None and one.coverage.why is not None:
+        yield Block("unknown", one.path, f"clause coverage: {one.coverage.why}")
+
+
+def _unknown_code(one: Conformed) -> Iterator[Block]:
+    if one.why is not None:
+        yield Block("unknown", one.target.code, one.why)
+    elif one.result is not None and isinstance(one.result.verdict, Unknown):
+        yield Block("unknown", one.target.code, one.result.verdict.why)

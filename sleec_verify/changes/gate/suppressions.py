@@ -1,0 +1,125 @@
+"""``# sleec: allow SLEEC202 because …`` in the text of rules: a finding that the team knows and keeps, with the reason.
+
+Behind a line it is about that line; on a line of its own about the rule, or the line, below it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator
+from typing import NamedTuple
+
+from sleec_runtime.errors import Problem
+from sleec_runtime.model import Ruleset, Span
+from sleec_verify.results.finding import Finding
+
+_MARK = re.compile(r"(?://|#)\s*sleec\s*:\s*(.*?)\s*$")
+_ALLOW = re.compile(r"allow\s+([\w-]+(?:\s*,\s*[\w-]+)*)(?:\s+because\b\s*(.*))?$", re.IGNORECASE)
+_EXAMPLE = "write: # sleec: allow SLEEC202 because the sensor comes next year"
+
+
+class Suppression(NamedTuple):
+    """What is allowed (a code, or a check) in the lines from `first` to `last`, and why. `span` is the comment, which
+    may list several codes: each is a suppression of its own. `about` are the words of the line that it is about, and of
+    the first line of the rule that this belongs to."""
+
+    allowed: str
+    reason: str
+    first: int
+    last: int
+    span: Span
+    about: tuple[str, str]
+
+    def covers(self, ruleset: Ruleset, finding: Finding) -> bool:
+        """Whether a finding is what is allowed here: one of its places in the rules lies in these lines."""
+        if self.allowed not in (finding.code, finding.check) or finding.source is not None:
+            return False
+        places = map(ruleset.source.place, (finding.span, *(span for span, _ in finding.related)))
+        return any(place.line <= self.last and place.end_line >= self.first for place in places)
+
+
+def suppressions(ruleset: Ruleset, known: Collection[str]) -> tuple[list[Suppression], list[Problem]]:
+    """The suppressions of a text, and what is wrong with those that are none. `known` are all codes and checks."""
+    found: list[Suppression] = []
+    problems: list[Problem] = []
+    if "sleec" not in ruleset.source.text:
+        return found, problems
+    extents = list(_rules(ruleset))
+    position = 0
+    lines = ruleset.source.text.split("\n")
+    for number, line in enumerate(lines, 1):
+        mark = _MARK.search(line)
+        if mark is not None:
+            span = Span(position + mark.start(), position + mark.end())
+            said = _ALLOW.match(mark.group(1))
+            wrong = _wrong(said, known)
+            if wrong is not None:
+                problems.append(Problem(wrong[0], span, wrong[1]))
+            else:
+                assert said is not None
+                alone = not line[: mark.start()].strip()
+                first, last = _lines_below(lines, number, extents) if alone else (number, number)
+                allowed = (name.strip() for name in said.group(1).split(","))
+                about = _about(lines, first, extents)
+                found += (Suppression(name, said.group(2), first, last, span, about) for name in allowed)
+        position += len(line) + 1
+    return found, problems
+
+
+def new_suppressions(old: Iterable[Suppression], new: Iterable[Suppression]) -> list[Suppression]:
+    """Those of `new` that `old` does not have: of the same finding, for the same reason, about the same line of the
+    same rule, wherever that has moved to."""
+    before = Counter(map(_identity, old))
+    found = []
+    for one in new:
+        if before[_identity(one)]:
+            before[_identity(one)] -= 1
+        else:
+            found.append(one)
+    return found
+
+
+def _identity(one: Suppression) -> tuple[object, ...]:
+    return one.allowed, one.reason, one.about
+
+
+def _wrong(said: re.Match[str] | None, known: Collection[str]) -> tuple[str, str] | None:
+    if said is None:
+        return "this comment says sleec: and allows nothing", _EXAMPLE
+    if not said.group(2):
+        return "a suppression needs a reason", "say why behind it: because …"
+    for name in (part.strip() for part in said.group(1).split(",")):
+        if name not in known:
+            from sleec_runtime.language.common.suggestions import nearest
+
+            near = nearest(name, sorted(known))
+            hint = f"did you mean {near}?" if near else "`sleec-verify rules` lists all of them"
+            return f"there is no finding {name}", hint
+    return None
+
+
+def _rules(ruleset: Ruleset) -> Iterator[tuple[int, int]]:
+    """The lines of each rule, its label's included."""
+    place = ruleset.source.place
+    for rule in ruleset.rules:
+        first = min(place(span).line for span in (rule.span, rule.label_span) if span.end)
+        yield first, place(rule.span).end_line
+
+
+def _about(lines: list[str], number: int, extents: Iterable[tuple[int, int]]) -> tuple[str, str]:
+    head = next((first for first, last in extents if first <= number <= last), number)
+    return _words(lines, head), _words(lines, number)
+
+
+def _words(lines: list[str], number: int) -> str:
+    """The words of a line without its suppression; a comment at the end of the text is about no line."""
+    return " ".join(_MARK.sub("", lines[number - 1]).split()) if number <= len(lines) else ""
+
+
+def _lines_below(lines: list[str], number: int, extents: Iterable[tuple[int, int]]) -> tuple[int, int]:
+    """The rule, or else the line, that the comment in line `number` stands above."""
+    below = number + 1
+    while below <= len(lines) and (not lines[below - 1].strip() or lines[below - 1].lstrip().startswith(("#", "//"))):
+        below += 1
+    return next(((first, last) for first, last in extents if first == below), (below, below))

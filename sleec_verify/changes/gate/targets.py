@@ -1,0 +1,43 @@
+"""Conformance of a target: whether the robot's code has the structure of its rules."""
+
+from __future__ import annotations
+
+import os
+
+from sleec_runtime.errors import SleecError
+from sleec_runtime.language import load
+from sleec_verify.changes.gate.baseline import Known
+from sleec_verify.changes.gate.examination import Locate
+from sleec_verify.changes.gate.keys import Target
+from sleec_verify.changes.gate.result import Conformed
+from sleec_verify.results.internal_error import internal_errors_of
+
+
+def conform(target: Target, locate: Locate, known: Known) -> Conformed:
+    """The verdict on a target, and its findings that are not `known`."""
+    from sleec_runtime.errors import UnsupportedTimes
+    from sleec_verify.conformance.structure import UNDECIDED, check_structure
+    from sleec_verify.conformance.structure.target import python_files
+
+    found = Conformed(target)
+    try:
+        with internal_errors_of(target.code):
+            found.ruleset = load(locate(target.at(target.rules)))
+            if target.domain is not None and target.domain not in found.ruleset.domains:
+                named = ", ".join(found.ruleset.domains) or "none"
+                raise SleecError(f"there is no domain {target.domain} in {target.rules}", f"it has {named}")
+            code = locate(target.at(target.code))
+            if not os.path.lexists(code):  # what is not there might be a module from elsewhere
+                raise SleecError(f"there is no file or folder {code}", "check the spelling of its name and folder")
+            found.result = check_structure(found.ruleset, python_files(code), target.domain)
+    except UnsupportedTimes as error:
+        found.why = str(error)
+        return found
+    except SleecError as error:
+        found.error = error
+        return found
+    for finding in found.result.findings:
+        if finding.code == UNDECIDED:
+            continue
+        (found.known if known.has(finding, [target.code]) else found.findings).append(finding)
+    return found

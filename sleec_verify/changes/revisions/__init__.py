@@ -1,0 +1,1 @@
+"""Revisions: rulesets of a commit and of the working tree, and which of them belong together."""

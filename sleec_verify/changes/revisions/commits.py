@@ -1,0 +1,81 @@
+"""What revisions mean, in the repository of the current folder."""
+
+from __future__ import annotations
+
+from sleec_verify.changes.revisions import git
+from sleec_verify.changes.revisions.git import GitError
+
+NOW = "the files as they are now"
+
+Named = tuple[str, str]
+"""What messages call a commit, and the commit."""
+
+
+def commit(revision: str) -> str:
+    """The commit that a revision means. Raises `GitError`."""
+    found = _commit(revision)
+    if found is None:
+        raise GitError(f"there is no revision {revision or '(empty)'} in this repository", _hint(revision))
+    return found
+
+
+def _commit(revision: str) -> str | None:
+    if not revision or revision.startswith(("-", "^")):
+        return None
+    # Behind the text of `:/text`, which is always in a message of a commit, `^{commit}` would be part of the text.
+    kind = "" if revision.startswith(":/") else "^{commit}"
+    done = git.run("rev-parse", "--verify", "--quiet", f"{revision}{kind}")
+    return None if done.returncode else done.stdout.decode().strip()
+
+
+def _hint(revision: str) -> str:
+    from sleec_runtime.language.common.suggestions import nearest
+
+    if git.run("rev-list", "--max-count=1", "--all", "HEAD", "--").returncode:
+        return "nothing has been committed yet; a first commit has nothing to be compared with"
+    if not revision or revision.startswith("-") or not revision.isprintable():
+        return "name a branch, a tag or a commit"
+    if revision.startswith(":/"):
+        return "no commit that HEAD or a branch reaches has a message with this text"
+    if ":" in revision:
+        return "name a commit, and the file behind it: --git {} {}".format(*revision.split(":", 1))
+    if any(mark in revision for mark in ("~", "^", "@{")):
+        return "in CI, fetch the whole history"
+    done = git.run("for-each-ref", "--format=%(refname:short)")
+    names = done.stdout.decode("utf-8", "replace").split()
+    # A clone has branches of others under the name of where it got them, too.
+    near = next((name for name in names if name.endswith(f"/{revision}")), nearest(revision, names))
+    if near is not None:
+        return f"did you mean {near}?"
+    branch = revision.removeprefix("origin/")
+    if not branch or git.run("check-ref-format", "--branch", branch).returncode:
+        return "name a branch, a tag or a commit"
+    return f"in CI, fetch it first (git fetch origin {branch}), and name it origin/{branch}"
+
+
+def merge_base(one: Named, other: Named) -> str:
+    """The newest commit that two commits have in common. Raises `GitError`."""
+    done = git.run("merge-base", one[1], other[1])
+    if done.returncode:
+        raise GitError(
+            f"{one[0]} and {other[0]} have no commit in common",
+            "in CI, fetch the whole history: git fetch --unshallow",
+        )
+    return done.stdout.decode().strip()
+
+
+def revision_range(written: str) -> tuple[Named, tuple[str, str | None]]:
+    """What ``REV``, ``OLD..NEW`` and ``OLD...NEW`` (from what they have in common) mean: for each side how to call
+    it, and its commit; None for the files as they are now. An empty end is HEAD. Raises `GitError`."""
+    dots = "..." if "..." in written else ".." if ".." in written else None
+    whole = _commit(written) if dots is not None else commit(written)
+    if dots is None or whole is not None:  # the text behind `:/` may have dots
+        assert whole is not None, "it is a commit"
+        return (written, whole), (NOW, None)
+    first, _, last = written.partition(dots)
+    first, last = first or "HEAD", last or "HEAD"
+    old, new = commit(first), commit(last)
+    if dots == "...":
+        old = merge_base((first, old), (last, new))
+        first = old[:10]
+    return (first, old), (last, new)

@@ -1,0 +1,235 @@
+"""The rulesets of a git repository: those of a commit, and those in the working tree.
+
+Git is asked through its executable; nothing in the repository or its index is changed.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Callable, Collection, Mapping, Sequence
+
+from sleec_runtime.errors import UnreadableFile
+from sleec_runtime.support.files import check_size
+from sleec_verify.changes.revisions import git
+from sleec_verify.changes.revisions.git import GitError
+from sleec_verify.changes.revisions.revisions import Place, Versions
+from sleec_verify.files.folders import GIT, SUFFIX, files_at, leads_below
+
+
+class Repository:
+    """The repository of the current folder."""
+
+    def __init__(self, skipped: Callable[[str], None]) -> None:
+        """`skipped` is called for each link in the working tree that does not lead to a ruleset of the repository.
+
+        Raises:
+            GitError: there is no git, or no repository with files.
+        """
+        self._skipped = skipped
+        done = git.run("rev-parse", "--absolute-git-dir", "--show-toplevel")
+        kept, _, folder = os.fsdecode(done.stdout).rstrip("\n").partition("\n")
+        # A bare repository in the working tree may be part of a change; git before 2.38 takes it for the current one.
+        if b"safe.bareRepository" in done.stderr or (kept and leads_below(os.curdir, kept, "")):
+            raise GitError("the current folder is inside a git directory", "go to a folder of the working tree")
+        if b"dubious ownership" in done.stderr:
+            raise GitError(
+                "git does not trust this repository: its folder belongs to somebody else",
+                'as in a container; if you do: git config --global --add safe.directory "$PWD"',
+            )
+        if done.returncode:
+            raise GitError("this folder is in no git repository", "go to the folder of the rulesets, or name two files")
+        self.folder = os.path.realpath(folder)
+
+    def position(self, path: str) -> str | None:
+        """Where a path is in the repository; None outside of it, and for what git keeps for itself.
+
+        A link in the working tree stays one: in the place of a folder, it must not lead to the rules of another.
+        """
+        return next(iter(self._positions(path)), None)
+
+    def _positions(self, path: str) -> list[str]:
+        """That of the path as it is written, and that of what it leads to."""
+        ways = (os.path.join(os.path.realpath(os.curdir), path), os.path.realpath(path))
+        found = (os.path.relpath(os.path.normpath(way), self.folder).split(os.sep) for way in ways)
+        inside = (parts for parts in found if parts[0] != os.pardir and GIT not in map(str.lower, parts))
+        return list(dict.fromkeys("/".join(parts) for parts in inside))
+
+    def here(self, path: str) -> str:
+        """The path, from the current folder, of a file or folder of the working tree.
+
+        Raises:
+            GitError: a link leads out of the working tree.
+        """
+        shown = os.path.relpath(os.path.join(self.folder, path))
+        if not leads_below(shown, self.folder, ""):
+            raise GitError(f"{shown} leads out of the repository", "put the file itself there, not a link")
+        return _as_file(shown)
+
+    def entry(self, commit: str, path: str) -> tuple[str, str] | None:
+        """The mode and the object of a path in a commit; None if there is none."""
+        return self._entries(commit, path).get(path)
+
+    def files(self, commit: str, path: str) -> dict[str, str]:
+        """The rulesets at or below a path in a commit, and the file of that very path, with their objects."""
+        return {name: blob for name, blob in self._tree(commit, path).items() if name == path or name.endswith(SUFFIX)}
+
+    def _tree(self, commit: str, path: str) -> dict[str, str]:
+        """The files at or below a path in a commit, without links and submodules."""
+        found = self._entries(commit, path, "-r")
+        return {name: blob for name, (mode, blob) in found.items() if mode.startswith("100")}
+
+    def _entries(self, commit: str, path: str, *options: str) -> dict[str, tuple[str, str]]:
+        done = git.run("ls-tree", "-z", "--full-tree", *options, commit, *([] if path == "." else ["--", path]))
+        if done.returncode:
+            raise GitError(f"git cannot list the files of {commit}: {git.complaint(done)}")
+        found = {}
+        for entry in filter(None, done.stdout.split(b"\0")):
+            about, _, name = entry.partition(b"\t")
+            mode, _, blob = about.decode().split()
+            found[os.fsdecode(name)] = (mode, blob)
+        return found
+
+    def content(self, blob: str) -> bytes:
+        """The bytes of an object.
+
+        Raises:
+            GitError: it is missing, as in a partial clone: nothing is fetched.
+            OSError: it is larger than the limit.
+        """
+        check_size(int(self._cat("-s", blob)))
+        return self._cat("blob", blob)
+
+    def _cat(self, what: str, blob: str) -> bytes:
+        done = git.run("cat-file", what, blob)
+        if done.returncode:
+            raise GitError(
+                f"git cannot read the object {blob}: {git.complaint(done)}",
+                "a partial clone does not have all files: clone without --filter",
+            )
+        return done.stdout
+
+    def versions(
+        self,
+        old: tuple[str, str],
+        new: tuple[str, str | None],
+        paths: Sequence[str],
+        also: Collection[str] = (),
+    ) -> list[Versions]:
+        """The rulesets at or below `paths` on two sides, as `revision_range` gives them; and those that git lists at or
+        below the positions `also`, if there are any.
+
+        Raises:
+            GitError, UnreadableFile: one of `paths` that neither side has, or none with rulesets.
+        """
+        found: dict[str, Versions] = {}
+
+        def add(before: Mapping[str, str], after: Mapping[str, Place]) -> None:
+            for name in sorted({*before, *after}):
+                place = Place(f"{old[0]}:{name}", before[name], self) if name in before else None
+                found.setdefault(name, Versions(name, place, after.get(name)))
+
+        for path in paths:
+            for inside in self._inside(path):
+                before = self.files(old[1], inside)
+                if before:
+                    break
+            after = self._now(path, inside) if new[1] is None else self._in_commit(new[0], new[1], inside)
+            if not before and not after:
+                raise UnreadableFile(
+                    f"there is no {SUFFIX} file at or below {path}, neither in {old[0]} nor in {new[0]}",
+                    "check the spelling of its name and folder",
+                )
+            add(before, after)
+        for inside in sorted(also):
+            add(self.files(old[1], inside), self._listed(inside))
+        return list(found.values())
+
+    def now(self, paths: Sequence[str]) -> dict[str, Place]:
+        """The rulesets at or below `paths` as they are now.
+
+        Raises:
+            GitError, UnreadableFile: a path without rulesets.
+        """
+        found: dict[str, Place] = {}
+        for path in paths:
+            there = self._now(path, self._inside(path)[-1])
+            if not there:
+                raise UnreadableFile(f"there is no {SUFFIX} file at or below {path}", "check the spelling of its name")
+            found |= there
+        return found
+
+    def touched(self, commit: str, paths: Collection[str]) -> set[str]:
+        """Those of `paths`, files or folders of the repository, at or below which something is not as in a commit."""
+        before = self._tree(commit, ".")
+        files = [file for path in paths for file in files_at(os.path.join(self.folder, path))]
+        now = {os.path.relpath(file, self.folder): Place(file).named(len(commit)) for file in files}
+        changed = [name for name in before.keys() | now.keys() if before.get(name) != now.get(name)]
+        return {path for name in changed for path in _with_parents(name)} & {*paths}
+
+    def _in_commit(self, called: str, commit: str, path: str) -> dict[str, Place]:
+        return {name: Place(f"{called}:{name}", blob, self) for name, blob in self.files(commit, path).items()}
+
+    def _inside(self, path: str) -> list[str]:
+        """The positions of a path, at least one. Raises `GitError` where there is none."""
+        found = self._positions(path)
+        if not found:
+            raise GitError(f"{path} is not in the working tree of {self.folder}", "name a path below it")
+        return found
+
+    def _now(self, path: str, inside: str) -> dict[str, Place]:
+        """The rulesets at or below a path as they are now. A file that is named is taken as it is, unless it is a link
+        that leads out of the working tree."""
+        if not leads_below(path, self.folder, ""):
+            self._skipped(path)
+            return {}
+        if os.path.lexists(path) and not os.path.isdir(path):
+            return {inside: Place(_as_file(path))}
+        return self._listed(inside)
+
+    def _listed(self, inside: str) -> dict[str, Place]:
+        """The rulesets that git would commit at or below a path of the repository: nothing that it ignores, no link, no
+        submodule, and nothing of another repository in it.
+
+        Raises:
+            GitError, UnreadableFile: git cannot list it, or a folder may not be read.
+        """
+        listing = ("ls-files", "-z", "-t", "--stage", "--cached", "--others", "--exclude-standard", "--", inside)
+        done = git.run("-C", self.folder, *listing)
+        if done.returncode:
+            raise GitError(f"git cannot list {inside}: {git.complaint(done)}")
+        found = {}
+        for entry in filter(None, done.stdout.split(b"\0")):
+            status, _, rest = entry.partition(b" ")
+            about, _, raw = (b"", b"", rest) if status == b"?" else rest.partition(b"\t")
+            name = os.fsdecode(raw)
+            if name.endswith(SUFFIX):
+                shown = os.path.relpath(os.path.join(self.folder, name))
+                if not leads_below(shown, self.folder, SUFFIX):
+                    self._skipped(shown)
+                elif _is_file(shown) and os.path.realpath(shown) == os.path.join(self.folder, name):
+                    found[name] = Place(shown)
+                elif status == b"S":  # left out of a sparse checkout: it is as it is in the index
+                    found[name] = Place(shown, about.split()[1].decode(), self)
+        return found
+
+
+def _as_file(path: str) -> str:
+    """A path that is never taken for standard input."""
+    return os.path.join(os.curdir, path) if path == "-" else path
+
+
+def _is_file(path: str) -> bool:
+    """Whether there is a file, not a link to one. Raises `UnreadableFile` where that may not be known."""
+    try:
+        return stat.S_ISREG(os.lstat(path).st_mode)
+    except PermissionError:
+        folder = os.path.dirname(path)
+        raise UnreadableFile(f"the folder {folder} cannot be read: Permission denied") from None
+    except OSError:
+        return False
+
+
+def _with_parents(name: str) -> list[str]:
+    parts = name.split("/")
+    return ["/".join(parts[:number]) for number in range(1, len(parts) + 1)]

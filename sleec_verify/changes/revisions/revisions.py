@@ -1,0 +1,123 @@
+"""Two versions of rulesets: what is on each side, and under which path."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+from sleec_runtime.errors import SleecError, UnreadableFile
+from sleec_runtime.language.common.source import read_source, source_of
+from sleec_runtime.model import Source
+from sleec_runtime.support.files import read_file
+from sleec_verify.files.folders import SUFFIX, rulesets_below
+
+if TYPE_CHECKING:
+    from sleec_verify.changes.revisions.repository import Repository
+
+
+class OneSided(SleecError):
+    """A ruleset that only one side has."""
+
+
+class Place(NamedTuple):
+    """Where one version is: a file (`name` is its path), or an object of the repository. `key` is the same for equal
+    texts, where that is known without reading them."""
+
+    name: str
+    blob: str | None = None
+    repository: Repository | None = None
+
+    def named(self, digits: int) -> str | None:
+        """What git calls, or would call, the content in so many digits; None where it cannot be read."""
+        return self.blob or _blob_of(self.name, digits)
+
+    def read(self) -> Source:
+        """The text. Raises `UnreadableFile`."""
+        if self.repository is None or self.blob is None:
+            return read_source(self.name)
+        try:
+            return source_of(self.name, self.repository.content(self.blob))
+        except OSError as error:
+            raise UnreadableFile(f"{self.name} cannot be read: {error.strerror}") from None
+
+
+class Versions(NamedTuple):
+    """A ruleset on both sides; None on the side that has it not. `path` is what it is called."""
+
+    path: str
+    old: Place | None
+    new: Place | None
+
+    @property
+    def unchanged(self) -> bool:
+        """Whether both texts are the same, byte for byte, as far as that is seen without reading rules."""
+        if self.old is None or self.new is None or self.old.blob is None:
+            return False
+        return self.old.blob == self.new.named(len(self.old.blob))
+
+    def one_sided(self, old: str, new: str) -> OneSided | None:
+        """What to say where only one of the sides, called `old` and `new`, has it."""
+        if self.old is None:
+            return OneSided(
+                f"{self.path} is not in {old}: it was added, and there is nothing to compare it with",
+                "--missing-as-empty compares it with no rules at all",
+            )
+        if self.new is None:
+            return OneSided(
+                f"{self.path} is not in {new}: it was deleted, and there is nothing to compare it with",
+                "--missing-as-empty compares it with no rules at all",
+            )
+        return None
+
+
+def of_paths(old: str, new: str, skipped: Callable[[str], None]) -> list[Versions]:
+    """The rulesets of two files, or of two folders, in which those of one path below them belong together. `skipped` is
+    called for each link that is not followed.
+
+    Raises:
+        UnreadableFile: a file and a folder, a folder without rulesets, or both are standard input.
+    """
+    if os.path.isdir(old) != os.path.isdir(new):
+        for path in (old, new):
+            if path != "-" and not os.path.lexists(path):
+                raise UnreadableFile(f"there is no folder {path}", "check the spelling of its name")
+        folder, file = (old, new) if os.path.isdir(old) else (new, old)
+        raise UnreadableFile(f"{folder} is a folder, and {file} is not", "name two files, or two folders")
+    if not os.path.isdir(old):
+        if old == new == "-":
+            raise UnreadableFile("standard input cannot be both sides", "name a file for one of them")
+        return [Versions(new, Place(old), Place(new))]
+    sides = [_below(old, skipped), _below(new, skipped)]
+    paths = sorted({*sides[0], *sides[1]})
+    if not paths:
+        raise UnreadableFile(f"there is no {SUFFIX} file below {old} and {new}", "name other folders")
+    return [
+        Versions(
+            path,
+            Place(os.path.join(old, path)) if path in sides[0] else None,
+            Place(os.path.join(new, path)) if path in sides[1] else None,
+        )
+        for path in paths
+    ]
+
+
+def _below(folder: str, skipped: Callable[[str], None]) -> set[str]:
+    """The paths, from `folder`, of the rulesets below it. Raises `UnreadableFile` for a folder that may not be read."""
+
+    def refuse(error: OSError) -> None:
+        raise UnreadableFile(f"the folder {os.fspath(error.filename)} cannot be read: {error.strerror}")
+
+    return {os.path.relpath(path, folder) for path in rulesets_below(folder, refuse, skipped)}
+
+
+def _blob_of(path: str, digits: int) -> str | None:
+    """What git would call the content of a file; None where it cannot be read, which is told when it is read."""
+    from hashlib import sha1, sha256
+
+    try:
+        data = read_file(path)
+    except OSError:
+        return None
+    content = b"blob %d\0%s" % (len(data), data)
+    return (sha1(content, usedforsecurity=False) if digits == 40 else sha256(content)).hexdigest()

@@ -1,0 +1,272 @@
+"""Conditions that are always true, or always false, whatever the situation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from sleec_runtime.model import (
+    And,
+    Atom,
+    Calculated,
+    Clause,
+    Comparison,
+    Formula,
+    MeasureRef,
+    Not,
+    Or,
+    Reading,
+    Ruleset,
+    ScaleValue,
+    Truth,
+    measures_of,
+)
+from sleec_verify.checks.base import Check, FindingKind
+from sleec_verify.checks.each import each
+from sleec_verify.query.cone import Cones
+from sleec_verify.query.question import Question
+from sleec_verify.results.finding import Finding
+
+if TYPE_CHECKING:
+    from sleec_runtime.model.time import Claim
+
+
+class _Place(NamedTuple):
+    """Where a whole condition stands, and what to do if it is always true, or always false. No word on the latter:
+    another check says it."""
+
+    condition: Formula
+    labels: tuple[str, ...]
+    if_true: str
+    if_false: str | None = None
+
+
+def _constant(cones: Cones) -> Iterator[Finding]:
+    """For each part of a condition: unsatisfiable exactly when it is always false, and its negation when it is always
+    true. A model is a situation in which it is not."""
+    changing: set[Formula] = set()
+    source = cones.ruleset.source
+    places = ((f"line {source.place(place.condition.span).line}", place) for place in _places(cones.ruleset))
+    yield from each(places, lambda place: _in_condition(cones, place, changing))
+
+
+def _in_condition(cones: Cones, place: _Place, changing: set[Formula]) -> Iterator[Finding]:
+    """The smallest parts of a condition that are constant. `changing` are conditions that have none, and grows."""
+    condition = place.condition
+    if not _may_be_constant(condition) or condition in changing:
+        return
+    parts = list(_parts(condition))
+    always = _always(cones, parts)
+    if place.if_false is None and always[-1] is False:
+        # The whole condition of a guard or hedge: that it is dead says so already, and what follows from it.
+        return
+    constant = {id(part): value for part, value in zip(parts, always) if value is not None}
+    around = {id(operand): part for part in parts for operand in _operands(part)}
+    for part in parts:
+        if id(part) not in constant or any(id(inner) in constant for inner in _operands(part)):
+            continue
+        if _is_defect(part, cones.ruleset):
+            continue
+        what = "this condition" if part is condition else "this part of a condition"
+        whole, value = _with_it(part, constant[id(part)], around)
+        yield CONSTANT_CONDITION.finding(
+            f"{what} is always {_word(constant[id(part)])}",
+            part.span,
+            rules=place.labels,
+            help=_advice(place, part, whole, value, dsl=cones.ruleset.syntax == "dsl"),
+            related=((whole.span, f"so all of this is always {_word(value)}"),) if whole is not part else (),
+        )
+    if not constant:
+        changing.add(condition)
+
+
+def _with_it(part: Formula, value: bool, around: dict[int, Formula]) -> tuple[Formula, bool]:
+    """The smallest formula around a part that is always `value`, or itself, without which the condition means the
+    same, and what that formula always is; the whole condition if there is none such. What is true can go out of AND,
+    what is false out of OR; the others make all of what they stand in constant."""
+    while id(part) in around:
+        outer = around[id(part)]
+        if isinstance(outer, And if value else Or):
+            break
+        part, value = outer, value != isinstance(outer, Not)
+    return part, value
+
+
+def _word(value: bool) -> str:
+    return "true" if value else "false"
+
+
+def _advice(place: _Place, part: Formula, whole: Formula, value: bool, dsl: bool) -> str:
+    if whole is place.condition:
+        advice = place.if_true if value else place.if_false
+        assert advice is not None, "that it is never true is said by other checks"
+        return advice
+    if whole is part:
+        return "mend it, or leave it out"
+    name = "NOT" if isinstance(whole, Not) else "AND" if isinstance(whole, And) else "OR"
+    return f"mend it, or leave out the whole {name.lower() if dsl else name}, which it makes {_word(value)}"
+
+
+def _places(ruleset: Ruleset) -> Iterator[_Place]:
+    """All conditions of rules, concerns, purposes and relations, with what to do about them."""
+    for rule in ruleset.rules:
+        labels = (rule.label,)
+        if rule.guard is not None:
+            yield _Place(
+                rule.guard,
+                labels,
+                "mend it, or leave out the whole guard: the rule is active wherever its trigger occurs, with it and "
+                "without it",
+            )
+        yield from _in_clause(rule.default, ruleset.reading, labels)
+        yield from _in_chain(rule.hedges, ruleset.reading, labels, "the default")
+    if ruleset.is_timed:
+        yield from _beside_rules(ruleset)
+
+
+def _beside_rules(ruleset: Ruleset) -> Iterator[_Place]:
+    from sleec_runtime.model.time import RELATIONS, Claim
+    from sleec_verify.traces.relations import formulas_of_relation
+
+    for statement in ruleset.statements:
+        if isinstance(statement, Claim):
+            yield from _in_claim(statement, ruleset.reading)
+        elif isinstance(statement, RELATIONS):
+            advice = "mend it, or look whether the relation is needed"
+            yield from (_Place(formula, (), advice, advice) for formula in formulas_of_relation(statement))
+
+
+def _in_claim(claim: Claim, reading: Reading) -> Iterator[_Place]:
+    if claim.condition is not None:
+        yield _Place(
+            claim.condition,
+            (),
+            f"mend it, or leave out the whole condition: the {claim.kind} means the same without it",
+            f"mend it: as it stands, the {claim.kind} never comes about",
+        )
+    for response in claim.responses:
+        yield from _in_clause(response, reading, ())
+    if claim.meanwhile is not None:
+        yield from _in_claim(claim.meanwhile, reading)
+
+
+def _in_clause(clause: Clause, reading: Reading, labels: tuple[str, ...]) -> Iterator[_Place]:
+    """The conditions in the chain that is nested in a clause, and in what is due in place of its responses."""
+    yield from _in_chain(clause.hedges, reading, labels, "what its chain begins with")
+    for obligation in clause.obligations:
+        for alternative in obligation.timing.alternatives() if obligation.timing is not None else ():
+            yield from _in_clause(alternative, reading, labels)
+
+
+def _in_chain(hedges: Sequence[Clause], reading: Reading, labels: tuple[str, ...], first: str) -> Iterator[_Place]:
+    """The conditions of a chain of hedges; `first` is what decides where none of them does."""
+    for position, hedge in enumerate(hedges):
+        if hedge.condition is not None:
+            if_false = None
+            if not labels:
+                # The cascade stops at it, so that no later one decides.
+                later = reading == "cascade" and position + 1 < len(hedges)
+                if_false = f"mend it, or leave out the hedge{' and those after it' if later else ''}"
+            yield _Place(hedge.condition, labels, _always_holds(hedges, position, reading, first), if_false)
+        yield from _in_clause(hedge, reading, labels)
+
+
+def _always_holds(hedges: Sequence[Clause], position: int, reading: Reading, first: str) -> str:
+    """What follows where the condition of a hedge is always true. It cannot be left out: without it, there is no hedge,
+    and what it keeps from deciding would decide."""
+    alone = position == 0 or reading == "priority"
+    last = position + 1 == len(hedges)
+    instead = first if alone else "that of the hedge before it"
+    if position == 0:
+        never, gone = f"{first} never decides", "the hedge"
+    elif reading == "cascade":
+        never, gone = "the hedge before it never decides", "this hedge"
+    else:
+        never, gone = f"neither {first} nor a hedge before it ever decides", "the hedge and those before it"
+    holds = "always decides" if alone and last else "always holds"
+    said = f"mend it: as it stands, the hedge {holds}, so {never}"
+    if not hedges[position].obligations:
+        return said
+    return f"{said}; if that is meant, put its response in place of {instead}, and leave out {gone}"
+
+
+def _parts(formula: Formula) -> Iterator[Formula]:
+    """A formula and the formulas in it, the inner ones first."""
+    for operand in _operands(formula):
+        yield from _parts(operand)
+    yield formula
+
+
+def _operands(formula: Formula) -> tuple[Formula, ...]:
+    if isinstance(formula, Not):
+        return (formula.operand,)
+    return formula.operands if isinstance(formula, (And, Or)) else ()
+
+
+def _always(cones: Cones, parts: Sequence[Formula]) -> list[bool | None]:
+    """What each formula always is, assumptions left aside; None if it may be either."""
+    with Question(cones, assuming=False) as question:
+        literals = [question.encoder.literal(part) for part in parts]
+        possible: set[int] = set()
+        for literal in (sign * literal for literal in literals for sign in (1, -1)):
+            # One model shows what many parts can be.
+            if literal not in possible and question.ask(literal):
+                possible.update(one if question.true(one) else -one for one in literals)
+    return [None if {literal, -literal} <= possible else literal in possible for literal in literals]
+
+
+def _may_be_constant(formula: Formula) -> bool:
+    """False only if no part of the formula is constant: each of its names stands in it once, and a number
+    that is not calculated can lie on either side of any other. Most conditions are so, and need no solver."""
+    seen: set[str] = set()
+    for part in _parts(formula):
+        names: tuple[str, ...] = ()
+        if isinstance(part, Atom):
+            names = (part.name,)
+        elif isinstance(part, Comparison):
+            if isinstance(part.left, (Calculated, ScaleValue)) or isinstance(part.right, ScaleValue):
+                return True
+            names = measures_of(part)
+        elif isinstance(part, Truth):
+            return True
+        for name in names:
+            if name in seen:
+                return True
+            seen.add(name)
+    return False
+
+
+def _is_defect(part: Formula, ruleset: Ruleset) -> bool:
+    """Whether it is constant because it compares a scale with what has no place in it, which is reported as such."""
+    if not isinstance(part, Comparison):
+        return False
+    measure, value = (part.left, part.right) if isinstance(part.left, MeasureRef) else (part.right, part.left)
+    if not isinstance(measure, MeasureRef) or not isinstance(value, ScaleValue):
+        return False
+    return not 0 <= value.rank < len(ruleset.measures[measure.name].values)
+
+
+CONSTANT_CONDITION = Check(
+    "constant-condition",
+    "Does every part of a condition depend on the situation?",
+    (
+        FindingKind(
+            "SLEEC512",
+            "warning",
+            "a condition, or a part of one, that never changes",
+            "Whatever the situation, this part of a condition is true, or it is false: it tells no situation from "
+            "another. Mostly a bound is off by one, or AND and OR are mixed up. Guards and hedges whose whole "
+            "condition is never true are dead rules and dead hedges, and reported as these.",
+            "Compare the bounds with what you want to say, and look whether AND should be OR. If all is as it should "
+            "be, leave out of an AND what is always true, and out of an OR what is always false. The other way round, "
+            "leaving it out would change what the rules mean: what is always true makes the whole OR true, what is "
+            "always false makes the whole AND false, and all of that is what can go. A guard that is always true "
+            "can be left out. A hedge that always holds cannot lose its condition: what it keeps from deciding (the "
+            "default, if it is the only hedge) never does, so its response belongs there, and the hedge can go then.",
+            "MEASURE Heat: number\nWHEN UserCalls THEN Answer\nUNLESS Heat > 30 OR Heat < 40 IN WHICH CASE Cool\n",
+            "MEASURE Heat: number\nWHEN UserCalls THEN Answer\nUNLESS Heat > 40 OR Heat < 0 IN WHICH CASE Cool\n",
+        ),
+    ),
+    _constant,
+    scope="text",
+)

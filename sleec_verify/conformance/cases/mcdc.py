@@ -1,0 +1,122 @@
+"""Modified condition/decision coverage of a rule: for each condition, two situations that differ in it only, and in
+which another clause is active.
+
+The decision is the whole rule, which decides among its clauses (and none, where its guard is false). Two situations
+differ in one condition only if every other condition of the rule, comparisons as they stand, has the same truth value
+in both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+from sleec_runtime.model import And, Atom, Clause, Comparison, Formula, Not, Or, Rule, Truth
+from sleec_verify.query.cone import Cones
+from sleec_verify.query.question import Question
+
+Vector = tuple[bool, ...]
+_Condition = Atom | Comparison
+
+
+class Deciding(NamedTuple):
+    """The truth values of the conditions in each situation that is needed, and the conditions, by place, that never
+    decide."""
+
+    vectors: tuple[Vector, ...]
+    undecided: tuple[int, ...]
+
+
+def deciding_vectors(cones: Cones, position: int, conditions: Sequence[_Condition]) -> Deciding:
+    """Few vectors that show every condition to decide. A condition is tried first as a change of what is there already,
+    which gives one vector more for each condition where that works out. Raises `Undecided`."""
+    rule = cones.rules[position]
+    undecided: list[int] = []
+    with Question(cones) as question:
+        literals = [question.encoder.literal(condition) for condition in conditions]
+        guards = question.guards(position)
+        question.require(question.encoder.variable(("trigger", rule.trigger)))
+        outcomes: dict[Vector, int | None] = {}
+
+        def outcome(vector: Vector) -> int | str | None:
+            """The active clause, or why there is none: "never" for values that do not go together."""
+            if not question.ask(*_signed(literals, vector)):
+                return "never"
+            return next((number for number, guard in enumerate(guards) if question.true(guard)), None)
+
+        for place in range(len(conditions)):
+            for vector in list(outcomes):
+                flipped = _flipped(vector, place)
+                found = outcomes[flipped] if flipped in outcomes else outcome(flipped)
+                if not isinstance(found, str) and found != outcomes[vector]:
+                    outcomes[flipped] = found
+                    break
+            else:
+                pair = _pair(cones, position, conditions, place)
+                if pair is None:
+                    undecided.append(place)
+                    continue
+                for vector in pair:
+                    found = outcome(vector)
+                    assert not isinstance(found, str), "both were found to be possible"
+                    outcomes[vector] = found
+    return Deciding(tuple(outcomes), tuple(undecided))
+
+
+def _pair(cones: Cones, position: int, conditions: Sequence[_Condition], place: int) -> tuple[Vector, Vector] | None:
+    """Two vectors that differ at `place` only and let another clause be active, or None if there are none."""
+    rule = cones.rules[position]
+    blocked: list[list[tuple[int, bool]]] = []
+    while True:
+        with Question(cones) as question:
+            encoder = question.encoder
+            literals = [encoder.literal(condition) for condition in conditions]
+            question.require(encoder.variable(("trigger", rule.trigger)))
+            sides = [question.guards_of(_settled(rule, conditions[place], value)) for value in (True, False)]
+            question.require(
+                encoder.any_of([x for a, b in zip(*sides) for x in (encoder.both(a, -b), encoder.both(b, -a))])
+            )
+            for values in blocked:
+                question.require(*(-literals[n] if value else literals[n] for n, value in values))
+            if not question.ask():
+                return None
+            vector = tuple(question.true(literal) for literal in literals)
+            flipped = _flipped(vector, place)
+            if question.ask(*_signed(literals, flipped)):
+                return vector, flipped
+            # Comparisons may exclude one another: what makes the other side impossible is ruled out on this one.
+            core = set(question.core())
+            blocked.append([(n, v) for n, v in enumerate(vector) if n != place and _sign(literals[n], v) in core])
+
+
+def _settled(rule: Rule, condition: _Condition, value: bool) -> Rule:
+    """The rule with a condition replaced by its truth value."""
+
+    def formula(old: Formula) -> Formula:
+        if old == condition:
+            return Truth(value)
+        if isinstance(old, Not):
+            return Not(formula(old.operand))
+        if isinstance(old, (And, Or)):
+            return type(old)(tuple(map(formula, old.operands)))
+        return old
+
+    def clause(old: Clause) -> Clause:
+        settled = None if old.condition is None else formula(old.condition)
+        return replace(old, condition=settled, hedges=tuple(map(clause, old.hedges)))
+
+    guard = None if rule.guard is None else formula(rule.guard)
+    return replace(rule, guard=guard, default=clause(rule.default), hedges=tuple(map(clause, rule.hedges)))
+
+
+def _flipped(vector: Vector, place: int) -> Vector:
+    return (*vector[:place], not vector[place], *vector[place + 1 :])
+
+
+def _sign(literal: int, value: bool) -> int:
+    return literal if value else -literal
+
+
+def _signed(literals: Sequence[int], vector: Vector) -> list[int]:
+    return [_sign(literal, value) for literal, value in zip(literals, vector)]

@@ -1,0 +1,135 @@
+"""Few situations that together reach every goal that can be reached."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from random import Random
+
+from sleec_runtime.model import Context, Ruleset
+from sleec_verify.conformance.cases.allowed_situations import Goal, World
+from sleec_verify.conformance.cases.case import Case
+from sleec_verify.conformance.cases.goals import goals
+from sleec_verify.conformance.cases.minimisation import fewer
+from sleec_verify.conformance.oracle import Oracle
+from sleec_verify.query.cone import Cones
+
+_SEVERAL_ORDERS = 150
+"""Up to this many goals, the search is made more than once and the best is taken."""
+
+
+@dataclass(frozen=True)
+class Unreached:
+    """A goal that no situation of the set reaches, and why."""
+
+    name: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Cases:
+    """The situations, the number of goals that they reach, and the goals that cannot be reached."""
+
+    cases: tuple[Case, ...]
+    reached: int
+    unreached: tuple[Unreached, ...]
+
+
+@dataclass
+class _Found:
+    goals: list[Goal]
+    context: Context
+
+
+def choose_cases(ruleset: Ruleset, criterion: str, domain: str | None = None, single: bool = False) -> Cases:
+    """A near-smallest set of situations for a criterion of `goals`, with what is due in each.
+
+    A situation lets several triggers occur where that helps, unless `single`. Rules of several domains are reached in
+    each domain in turn, as far as it is still needed. No situation breaks an assumption, or is one in which the rules
+    conflict. O(goals²) questions in the worst case. Raises `Undecided`.
+    """
+    found: list[Case] = []
+    missed: dict[str, Unreached] = {}
+    done: set[str] = set()
+    for where in (domain,) if domain is not None else ruleset.domains or (None,):
+        part = ruleset if where is None else ruleset.in_domain(where)
+        cones = Cones(part)
+        world = World(cones, single)
+        labels = frozenset(rule.label for rule in part.rules)
+        wanted = [goal for goal in goals(world, criterion, labels) if goal.name not in done]
+        chosen, unreached = _cover(world, wanted)
+        oracle = Oracle(ruleset, where)
+        for one in chosen:
+            found.append(_case(oracle, one, len(found) + 1, done))
+            done.update(goal.name for goal in one.goals)
+        missed.update({u.name: u for u in _reasons(cones, criterion, unreached, single)})
+    return Cases(tuple(found), len(done), tuple(u for name, u in missed.items() if name not in done))
+
+
+def _cover(world: World, wanted: Sequence[Goal]) -> tuple[list[_Found], list[Goal]]:
+    orders = [list(wanted)]
+    if len(wanted) <= _SEVERAL_ORDERS:
+        orders += [list(wanted)[::-1], Random(0).sample(wanted, len(wanted))]
+    tried = [_greedily(world, order) for order in orders]
+    sets, unreached = min(tried, key=lambda one: len(one[0]))
+    found = [_Found(goals, world.smallest([goal.literal for goal in goals])) for goals in fewer(world, sets)]
+    return found, unreached
+
+
+def _greedily(world: World, wanted: Iterable[Goal]) -> tuple[list[list[Goal]], list[Goal]]:
+    """Set after set, each with as many of the goals as one situation reaches together with its first."""
+    left = {goal.name: goal for goal in wanted}
+    found: list[list[Goal]] = []
+    unreached: list[Goal] = []
+    while left:
+        together: list[Goal] = []
+        literals: list[int] = []
+        for goal in list(left.values()):
+            if world.reaches(*literals, goal.literal):
+                together.append(goal)
+                literals.append(goal.literal)
+            elif not together:
+                unreached.append(left.pop(goal.name))
+        if together:
+            found.append(together)
+            for goal in together:
+                del left[goal.name]
+    return found, unreached
+
+
+def _case(oracle: Oracle, found: _Found, number: int, done: set[str]) -> Case:
+    expected = oracle.expected(found.context)
+    if expected.conflict or not expected.possible:
+        raise AssertionError(f"chose the situation {found.context}, which does not count: a bug in sleec-verify")
+    names = tuple(goal.name for goal in found.goals if goal.name not in done)
+    more = f" and {len(names) - 1} more" if len(names) > 1 else ""
+    return Case(
+        name=f"{number}: {names[0]}{more}",
+        triggers=tuple(sorted(found.context.triggers)),
+        conditions=found.context.conditions,
+        obligations=tuple(dict.fromkeys(expected.due)),
+        prohibitions=expected.prohibited,
+        domain=oracle.domain,
+        reaches=names,
+    )
+
+
+def _reasons(cones: Cones, criterion: str, unreached: Sequence[Goal], single: bool) -> Iterable[Unreached]:
+    """Asks again with less asked for: where a goal can be reached then, that is why it was not."""
+    if not unreached:
+        return
+    names = {goal.name for goal in unreached}
+    labels = frozenset(rule.label for rule in cones.rules)
+
+    def reachable(world: World) -> set[str]:
+        return {g.name for g in goals(world, criterion, labels) if g.name in names and world.reaches(g.literal)}
+
+    together = reachable(World(cones)) if single else set()
+    at_all = reachable(World(cones, peaceful=False))
+    for goal in unreached:
+        if goal.name in together:
+            yield Unreached(goal.name, "only when other triggers occur as well")
+        elif goal.name in at_all:
+            yield Unreached(goal.name, "only where the rules conflict")
+        else:
+            yield Unreached(goal.name, "in no situation")

@@ -1,0 +1,147 @@
+"""Values for measures of which calculations are compared with numbers: integer arithmetic, which z3 is asked about.
+
+z3 is an extra. It is loaded when values are first needed that are not found without it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
+from typing import Any
+
+from sleec_runtime.model import Calculated, Rational
+from sleec_verify.encoding.budget import Budget, Undecided, current
+from sleec_verify.encoding.calculations import named
+
+RESOURCES = 1_000_000
+"""What z3 may spend on one question, in its own measure: about a second, and the same on every machine."""
+
+_PER_RESOURCE, _SETUP = 0.5, 5_000
+"""Steps of a budget for one of these, and to set up z3 for a question."""
+
+_STOPPED = ("canceled", "timeout", "max. resource limit exceeded")
+"""What z3 calls it if it was stopped, and did not give up by itself."""
+
+INSTALL = "pip install z3-solver"
+
+Compared = tuple[Calculated, Rational, bool, int]
+"""A calculation that is at most a number, or below it if not inclusive, and the literal that says so; or, if that is
+negative, is not."""
+
+
+class NotCalculated(Undecided):
+    """What a calculation can be is not known. `lines` are where it stands."""
+
+    def __init__(self, message: str, lines: Sequence[int]) -> None:
+        super().__init__(message)
+        self.lines = tuple(lines)
+
+
+def unproved(calculations: Iterable[Calculated]) -> NotCalculated:
+    """What to raise where an answer is to be proved, and rests on what z3 says of these calculations."""
+    calculations = list(calculations)
+    return NotCalculated(
+        f"the answer rests on what z3 says of {named(calculations)}, which a certificate does not prove",
+        [one.line for one in calculations],
+    )
+
+
+def values_for(
+    integral: Mapping[str, bool],
+    cuts: Sequence[tuple[str, Rational, bool, int]],
+    orders: Sequence[tuple[str, str, int]],
+    compared: Sequence[Compared],
+) -> dict[str, Rational] | list[int]:
+    """Values for the measures `integral` that make all the literals true, or some of the literals that no values make
+    true together. All but `compared` is as `sleec_verify.encoding.order.place` has it.
+
+    Raises NotCalculated where z3 does not decide it, or is not there.
+    """
+    names = {name: f"m{number}" for number, name in enumerate(integral)}
+    formulas = [_limited(names[name], value, inclusive, literal) for name, value, inclusive, literal in cuts]
+    formulas += [_signed(f"(<= {names[one]} {names[other]})", literal) for one, other, literal in orders]
+    formulas += [_limited(_sum(one, names), value, inclusive, literal) for one, value, inclusive, literal in compared]
+    sorts = (f"(declare-const {names[name]} {'Int' if whole else 'Real'})" for name, whole in integral.items())
+    assumed = (
+        f"(declare-const a{number} Bool)(assert (=> a{number} {formula}))" for number, formula in enumerate(formulas)
+    )
+    try:
+        budget = current()
+        found = _answer("\n".join((*sorts, *assumed)), len(formulas), None if budget is None else budget.whole)
+    except ImportError:
+        raise _unknown(compared, "what {} can be is for z3, which is not installed (" + INSTALL + ")") from None
+    if found is None:
+        raise _unknown(compared, "z3 does not decide what {} can be")
+    if isinstance(found, dict):
+        return {name: found.get(called, 0) for name, called in names.items()}
+    literals = [*(cut[3] for cut in cuts), *(order[2] for order in orders), *(one[3] for one in compared)]
+    return [literals[number] for number in found]
+
+
+def _unknown(compared: Iterable[Compared], message: str) -> NotCalculated:
+    calculations = list(dict.fromkeys(one for one, *_ in compared))
+    return NotCalculated(message.format(named(calculations)), [one.line for one in calculations])
+
+
+@lru_cache(maxsize=10_000)
+def _answer(question: str, assumed: int, asked_for: Budget | None) -> dict[str, Rational] | list[int] | None:
+    """Values of ``m0``, ``m1``, … in a model of a text in SMT-LIB in which so many of ``a0``, ``a1``, … are true; or
+    the numbers of some of these that contradict one another; None if z3 does not decide it.
+
+    It is asked by a text, as to build formulas by its API takes longer than z3 takes to answer. Answers are kept, as
+    the checks ask the same again and again, but for one budget only, so that no file profits from another.
+
+    Raises ImportError without z3, OutOfBudget where the budget at hand was spent before `RESOURCES` were.
+    """
+    import z3
+
+    budget = current()
+    context = z3.Context()
+    solver = z3.Solver(ctx=context)
+    allowed = RESOURCES
+    if budget is not None:
+        budget.spend(_SETUP)
+        allowed = int(min(RESOURCES, budget.steps / _PER_RESOURCE))
+        if budget.is_timed:
+            solver.set("timeout", int(budget.seconds() * 1000) + 1)
+    solver.set("rlimit", allowed + 1)  # 0 would be no limit
+    solver.from_string(question)
+    answer = solver.check([z3.Bool(f"a{number}", context) for number in range(assumed)])
+    if budget is not None:
+        used = solver.statistics().get_key_value("rlimit count")
+        budget.spend(_PER_RESOURCE * min(used, allowed))
+        if answer == z3.unknown and used < RESOURCES and solver.reason_unknown() in _STOPPED:
+            budget.give_up()
+    if answer == z3.unsat:
+        return [int(one.decl().name()[1:]) for one in solver.unsat_core()]
+    if answer == z3.unknown:
+        return None
+    model = solver.model()
+    return {one.name(): _exact(model[one]) for one in model.decls() if one.name().startswith("m")}
+
+
+def _limited(side: str, value: Rational, inclusive: bool, literal: int) -> str:
+    return _signed(f"({'<=' if inclusive else '<'} {side} {_number(value)})", literal)
+
+
+def _signed(formula: str, literal: int) -> str:
+    return formula if literal > 0 else f"(not {formula})"
+
+
+def _sum(calculated: Calculated, names: Mapping[str, str]) -> str:
+    parts = (
+        f"(* {_number(factor)} {' '.join(names[name] for name in multiplied)})"
+        for factor, multiplied in calculated.terms
+    )
+    return f"(+ {' '.join(parts)} 0)"
+
+
+def _number(value: Rational) -> str:
+    if value.denominator != 1:
+        return f"(/ {_number(value.numerator)} {value.denominator})"
+    return str(value) if value >= 0 else f"(- {-value})"
+
+
+def _exact(value: Any) -> Rational:
+    found = value.as_fraction() if value.is_real() else value.as_long()
+    return int(found) if found.denominator == 1 else found

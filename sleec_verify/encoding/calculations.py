@@ -1,0 +1,66 @@
+"""What a ruleset calculates from several measures, for what cannot analyse that."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from sleec_runtime.errors import Unsayable, UnsupportedCalculations
+from sleec_runtime.model import Assume, Calculated, Comparison, Formula, Never, Ruleset, formulas_of, leaves
+
+
+def calculations_in(formula: Formula) -> Iterator[Calculated]:
+    """The calculations that a formula compares with numbers, in the order of the text, repeats included."""
+    for leaf in leaves(formula):
+        if isinstance(leaf, Comparison) and isinstance(leaf.left, Calculated):
+            yield leaf.left
+
+
+def calculations(ruleset: Ruleset) -> list[Calculated]:
+    """The calculations that a ruleset compares with numbers, each once, those of rules first. Linear in its size."""
+    formulas: list[Formula] = [formula for rule in ruleset.rules for formula in formulas_of(rule)]
+    formulas += [c.formula for c in ruleset.constraints if isinstance(c, (Never, Assume))]
+    if ruleset.is_timed:
+        from sleec_verify.encoding.mentioned_names import beside_rules
+
+        formulas += beside_rules(ruleset)[1]
+    return list(dict.fromkeys(one for formula in formulas for one in calculations_in(formula)))
+
+
+def calculated_lengths(ruleset: Ruleset) -> list[Calculated]:
+    """What a ruleset calculates how long something takes by, in the order of the text."""
+    if not ruleset.is_timed:
+        return []
+    from sleec_verify.encoding.mentioned_names import beside_rules
+
+    return [length.amount for length in beside_rules(ruleset)[2] if isinstance(length.amount, Calculated)]
+
+
+def named(found: Iterable[Calculated]) -> str:
+    """Calculations as messages name them, each with its line."""
+    return ", ".join(f"`{one}`" + (f" in line {one.line}" if one.line else "") for one in found)
+
+
+def unsupported(found: Iterable[Calculated], who: str) -> UnsupportedCalculations:
+    """What to raise where `who` does not analyse these calculations."""
+    found = list(found)
+    more = f" and {len(found) - 5:,} more" if len(found) > 5 else ""
+    return UnsupportedCalculations(
+        f"{who} does not support calculations with several measures: {named(found[:5])}{more}",
+        [one.line for one in found],
+    )
+
+
+def refuse_calculations(ruleset: Ruleset, who: str) -> None:
+    """Raises UnsupportedCalculations if anything in `ruleset` is calculated from several measures; `who` is what cannot
+    analyse it."""
+    found = calculations(ruleset)
+    if found:
+        raise unsupported(found, who)
+
+
+def refuse_unsayable_calculations(ruleset: Ruleset, language: str, hint: str) -> None:
+    """Raises Unsayable for the first calculation of a ruleset, which `language` has no words for."""
+    found = calculations(ruleset) + calculated_lengths(ruleset)
+    if found:
+        place = f"{ruleset.source.path}:{found[0].line}: " if found[0].line else ""
+        raise Unsayable(f"{place}{language} has no calculations, as `{found[0]}` is", hint)

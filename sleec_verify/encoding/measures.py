@@ -1,0 +1,402 @@
+"""Measures as propositional variables: the regions that a set of comparisons can tell apart, no more.
+
+A number compared with constants is cut at these constants, a scale between its values (order encoding: one variable
+for "below this cut", each implying the next). Numbers compared with one another get a variable for each ordered
+pair, and transitivity over a chordal completion of the comparisons, which is enough for every assignment that
+satisfies the clauses to be the order of some rationals, and far less than all triples.
+
+Only whole-number measures that are compared with one another need more: an order that rationals have may leave too
+little room for integers. `Measures.decode` then returns the refusal as a clause, and the caller asks again.
+
+What is calculated from several measures is one more measure, and a free one. Whether it can be as a model has it is
+asked only of that model, and only where the values at hand do not fit: of `encoding.arithmetic`, whose refusal is
+a clause, too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from itertools import pairwise, permutations
+from typing import TYPE_CHECKING, NamedTuple, Union
+
+from sleec_runtime.model import (
+    Calculated,
+    Comparison,
+    Measure,
+    MeasureRef,
+    Number,
+    Operator,
+    Rational,
+    ScaleValue,
+    Term,
+    measures_of,
+)
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+
+class Cut(NamedTuple):
+    """The variable of "below this": ``measure < value``, or ``measure <= value`` where `inclusive`. For a scale the
+    value is a rank."""
+
+    value: Rational
+    inclusive: bool
+
+
+class _Constant(NamedTuple):
+    value: Rational
+
+
+_Node = Union[str, _Constant]
+"""What is ordered in a cluster: a measure by its name, or a constant."""
+
+MIRRORED: Mapping[Operator, Operator] = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
+
+
+class Measures:
+    """The comparisons of one formula as literals over variables that `fresh` makes.
+
+    `true` is a literal that is always true; `add` takes a clause. Call `close` once every comparison is in.
+    """
+
+    def __init__(
+        self,
+        declared: Mapping[str, Measure],
+        true: Callable[[], int],
+        fresh: Callable[[tuple[str, ...]], int],
+        add: Callable[[list[int]], None],
+        both: Callable[[int, int], int],
+    ) -> None:
+        self._declared = declared
+        self._true = true
+        self._fresh = fresh
+        self._add = add
+        self._both = both
+        self.cuts: dict[str, dict[Cut, int]] = {}
+        self.orders: dict[tuple[str, str], int] = {}
+        """(x, y) to the variable of ``x <= y``."""
+        self.calculations: dict[str, Calculated] = {}
+        """What is calculated from several measures, by what `cuts` calls it, which is no name of a measure."""
+        self.refused_by_arithmetic = False
+        """Whether `decode` has returned a clause that no order gives, but arithmetic."""
+        self._decoded: dict[tuple[int, ...], dict[str, Rational] | list[int]] = {}
+        self._seen: dict[str, None] = {}
+
+    def mention(self, measure: str) -> None:
+        """Make sure that `decode` gives a value to this measure."""
+        self._seen[measure] = None
+
+    def literal(self, comparison: Comparison) -> int:
+        """The literal that is true exactly when the comparison holds."""
+        self._seen.update(dict.fromkeys(measures_of(comparison)))
+        left, operator, right = comparison.left, comparison.operator, comparison.right
+        if isinstance(left, Calculated):
+            name = self._name(left)
+        else:
+            if not isinstance(left, MeasureRef):
+                left, operator, right = right, MIRRORED[operator], left
+            assert isinstance(left, MeasureRef), "a comparison has a measure on one side at least"
+            name = left.name
+        if operator == "<":
+            return self._below(name, right, inclusive=False)
+        if operator == "<=":
+            return self._below(name, right, inclusive=True)
+        if operator == ">":
+            return -self._below(name, right, inclusive=True)
+        if operator == ">=":
+            return -self._below(name, right, inclusive=False)
+        at_most = self._below(name, right, inclusive=True)
+        below = self._below(name, right, inclusive=False)
+        equal = self._both(at_most, -below)
+        return equal if operator == "=" else -equal
+
+    def _name(self, calculated: Calculated) -> str:
+        """What `cuts` calls a calculation, however its summands are ordered in the text."""
+        name = " + ".join(sorted(" * ".join((*names, str(factor))) for factor, names in calculated.terms))
+        self.calculations.setdefault(name, calculated)
+        return name
+
+    def _measure(self, name: str) -> Measure:
+        calculated = self.calculations.get(name)
+        if calculated is None:
+            return self._declared[name]
+        whole = all(self._declared[one].kind == "integer" for one in calculated.measures)
+        return Measure(name, "integer" if whole else "number")
+
+    def _below(self, name: str, term: Term, inclusive: bool) -> int:
+        measure = self._measure(name)
+        if isinstance(term, ScaleValue):
+            return self._below_rank(name, term.rank + inclusive)
+        if isinstance(term, Number):
+            return self._below_number(name, measure, term.value, inclusive)
+        assert isinstance(term, MeasureRef), "a calculation stands on the left"
+        if measure.kind == "scale":
+            return self._below_other_scale(name, term.name, len(measure.values), inclusive)
+        if inclusive:
+            return self._at_most(name, term.name)
+        return -self._at_most(term.name, name)
+
+    def _below_rank(self, name: str, rank: int) -> int:
+        if rank <= 0:
+            return -self._true()
+        if rank >= len(self._declared[name].values):
+            return self._true()
+        return self._cut(name, Cut(rank, False))
+
+    def _below_number(self, name: str, measure: Measure, value: Rational, inclusive: bool) -> int:
+        return self._cut(name, cut_at(measure, value, inclusive))
+
+    def _below_other_scale(self, name: str, other: str, size: int, inclusive: bool) -> int:
+        # x < y where some cut has x below it and y not; x <= y where no cut has y below it and x not.
+        if inclusive:
+            return -self._below_other_scale(other, name, size, inclusive=False)
+        found = -self._true()
+        for rank in range(1, size):
+            between = self._both(self._below_rank(name, rank), -self._below_rank(other, rank))
+            found = -self._both(-found, -between)
+        return found
+
+    def _at_most(self, name: str, other: str) -> int:
+        if name == other:
+            return self._true()
+        if (name, other) not in self.orders:
+            self.orders[name, other] = self._fresh(("at-most", name, other))
+            self.orders[other, name] = self._fresh(("at-most", other, name))
+            self._add([self.orders[name, other], self.orders[other, name]])
+        return self.orders[name, other]
+
+    def _cut(self, name: str, cut: Cut) -> int:
+        cuts = self.cuts.setdefault(name, {})
+        variable = cuts.get(cut)
+        if variable is None:
+            variable = cuts[cut] = self._fresh(("below", name, _cut_text(self._measure(name), cut)))
+        return variable
+
+    def close(self) -> None:
+        """Add what orders the variables among themselves."""
+        if self.orders:
+            for a, b, c in _triangles(self._graph()):
+                for x, y, z in permutations((a, b, c)):
+                    self._add([-self._ordered(x, y), -self._ordered(y, z), self._ordered(x, z)])
+        for cuts in self.cuts.values():
+            in_order = [cuts[cut] for cut in sorted(cuts)]
+            for lower, higher in pairwise(in_order):
+                self._add([-lower, higher])
+
+    def _graph(self) -> dict[_Node, set[_Node]]:
+        graph: dict[_Node, set[_Node]] = {}
+
+        def join(x: _Node, y: _Node) -> None:
+            graph.setdefault(x, set()).add(y)
+            graph.setdefault(y, set()).add(x)
+
+        for x, y in self.orders:
+            join(x, y)
+        values: set[Rational] = set()
+        for name in list(graph):
+            assert isinstance(name, str)
+            for cut in self.cuts.get(name, ()):
+                join(name, _Constant(cut.value))
+                values.add(cut.value)
+        in_order = sorted(values)
+        for low, high in pairwise(in_order):
+            join(_Constant(low), _Constant(high))
+        return graph
+
+    def _ordered(self, x: _Node, y: _Node) -> int:
+        """The literal of ``x <= y``."""
+        if isinstance(x, _Constant):
+            if isinstance(y, _Constant):
+                return self._true() if x.value <= y.value else -self._true()
+            return -self._below_number(y, self._declared[y], x.value, inclusive=False)
+        if isinstance(y, _Constant):
+            return self._below_number(x, self._declared[x], y.value, inclusive=True)
+        return self._at_most(x, y)
+
+    def measures(self) -> Iterator[str]:
+        """Every measure that a comparison speaks of."""
+        yield from self._seen
+
+    def assumptions(self, values: Mapping[str, Rational | str]) -> Iterator[int]:
+        """The literals that measures of these values make true. A measure without a value gives none."""
+        known = {**values, **self._results(values)}
+        for name, cuts in self.cuts.items():
+            if name in known:
+                measure, value = self._measure(name), known[name]
+                position = measure.values.index(value) if isinstance(value, str) else value
+                for (limit, inclusive), variable in cuts.items():
+                    yield variable if position < limit or (inclusive and position == limit) else -variable
+        for (x, y), variable in self.orders.items():
+            if x in values and y in values:
+                yield variable if values[x] <= values[y] else -variable  # type: ignore[operator]
+
+    def _results(self, values: Mapping[str, Rational | str]) -> dict[str, Rational]:
+        """What the calculations come to whose measures all have values."""
+        numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
+        return {
+            name: calculated.value(numbers)
+            for name, calculated in self.calculations.items()
+            if numbers.keys() >= set(calculated.measures)
+        }
+
+    def decode(self, model: Callable[[int], bool]) -> dict[str, Rational | str] | list[int]:
+        """Values that lie in the regions that `model` chose; numbers are whole where they can be.
+
+        Returns instead a clause that the model breaks and that holds of all whole numbers, where the order it chose
+        leaves integers no room, or calculations cannot come to what it chose. Raises Undecided where that is not known.
+        """
+        values = self._placed(model)
+        if not self.calculations or isinstance(values, list):
+            return values
+        results = self._results(values)
+        if all(
+            (result < cut.value or (cut.inclusive and result == cut.value)) == model(variable)
+            for name, result in results.items()
+            for cut, variable in self.cuts.get(name, {}).items()
+        ):
+            return values
+        found = self._calculated(model, values)
+        if isinstance(found, list):
+            self.refused_by_arithmetic = True
+            return [-literal for literal in found]
+        values.update(found)
+        return values
+
+    def refused(self, model: Callable[[int], bool], proving: bool = False) -> list[int] | None:
+        """The clause that `decode` returns, if it returns one.
+
+        Raises Undecided as it does, and, if `proving`, where only arithmetic gives the clause, as of that there is no
+        proof.
+        """
+        if not (self.orders or self.calculations):
+            return None
+        decoded = self.decode(model)
+        if isinstance(decoded, dict):
+            return None
+        if proving and self.refused_by_arithmetic:
+            from sleec_verify.encoding.arithmetic import unproved
+
+            raise unproved(self.calculations.values())
+        return decoded
+
+    def _calculated(
+        self, model: Callable[[int], bool], values: Mapping[str, Rational | str]
+    ) -> dict[str, Rational] | list[int]:
+        """Values, near `values` if such are found, for the measures that calculations are made of and those that are
+        tied to them; or literals of the model that none go with."""
+        from sleec_verify.encoding.arithmetic import values_for
+        from sleec_verify.encoding.local_search import nearby
+
+        names = {name for one in self.calculations.values() for name in one.measures}
+        names.update(name for pair in self.orders for name in pair)
+        cuts = self._chosen(sorted(names), model)
+        orders = [(x, y, v if model(v) else -v) for (x, y), v in self.orders.items()]
+        compared = self._chosen(self.calculations, model)
+        asked = (*(cut[3] for cut in cuts), *(order[2] for order in orders), *(cut[3] for cut in compared))
+        if asked not in self._decoded:
+            results = [
+                (self.calculations[name], value, inclusive, literal) for name, value, inclusive, literal in compared
+            ]
+            here = {name: value for name in sorted(names) if not isinstance(value := values[name], str)}
+            integral = {name: self._declared[name].kind == "integer" for name in here}
+            found = nearby(here, cuts, orders, results) if all(integral.values()) else None
+            self._decoded[asked] = found or values_for(integral, cuts, orders, results)
+        return self._decoded[asked]
+
+    def _chosen(self, names: Iterable[str], model: Callable[[int], bool]) -> list[tuple[str, Rational, bool, int]]:
+        """The cuts of measures and calculations, each with the literal that the model makes true."""
+        return [
+            (name, cut.value, cut.inclusive, variable if model(variable) else -variable)
+            for name in names
+            for cut, variable in self.cuts.get(name, {}).items()
+        ]
+
+    def _placed(self, model: Callable[[int], bool]) -> dict[str, Rational | str] | list[int]:
+        """Values by the regions and orders of the measures, with no eye to what is calculated from them."""
+        from sleec_verify.encoding.order import place
+
+        clustered = {name for pair in self.orders for name in pair}
+        values: dict[str, Rational | str] = {}
+        for name in self.measures():
+            measure = self._declared[name]
+            if measure.kind == "scale":
+                cuts = self.cuts.get(name, {})
+                rank = max((int(cut.value) for cut, v in cuts.items() if not model(v)), default=0)
+                values[name] = measure.values[rank]
+            elif name not in clustered:
+                cuts = self.cuts.get(name, {})
+                low = max((cut for cut, v in cuts.items() if not model(v)), default=None)
+                high = min((cut for cut, v in cuts.items() if model(v)), default=None)
+                values[name] = pick_between(low, high)
+        if not clustered:
+            return values
+        placed = place(
+            {name: self._declared[name].kind == "integer" for name in sorted(clustered)},
+            self._chosen(sorted(clustered), model),
+            [(x, y, v if model(v) else -v) for (x, y), v in self.orders.items()],
+        )
+        if isinstance(placed, list):
+            return [-literal for literal in placed]
+        values.update(placed)
+        return values
+
+
+def pick_between(low: Cut | None, high: Cut | None) -> Rational:
+    """A number not below `low` and below `high`, whole and near a bound where there is one: 17 for "below 18"."""
+    from math import ceil, floor
+
+    if low is None and high is None:
+        return 0
+    if low is None:
+        assert high is not None
+        return floor(high.value) if high.inclusive or floor(high.value) < high.value else floor(high.value) - 1
+    # Not below `value < c` means at least c; not below `value <= c` means more than c.
+    whole = floor(low.value) + 1 if low.inclusive else ceil(low.value)
+    if high is None or whole < high.value or (high.inclusive and whole == high.value):
+        return whole
+    if low.value == high.value:
+        return low.value
+    from fractions import Fraction
+
+    return _shortest_decimal(Fraction(low.value), Fraction(high.value))
+
+
+def _shortest_decimal(low: Fraction, high: Fraction) -> Fraction:
+    from fractions import Fraction
+    from math import floor
+
+    scale = 10
+    while True:
+        candidate = Fraction(floor(low * scale) + 1, scale)
+        if candidate < high:
+            return candidate
+        scale *= 10
+
+
+def cut_at(measure: Measure, value: Rational, inclusive: bool) -> Cut:
+    """The cut of ``measure < value`` (``<=`` if inclusive); one that no whole number tells from another is the same."""
+    if measure.kind != "integer":
+        return Cut(value, inclusive)
+    from math import ceil, floor
+
+    return Cut(floor(value) if inclusive else ceil(value) - 1, True)
+
+
+def _cut_text(measure: Measure, cut: Cut) -> str:
+    limit = measure.values[int(cut.value)] if measure.kind == "scale" else str(cut.value)
+    return f"{'<=' if cut.inclusive else '<'} {limit}"
+
+
+def _triangles(graph: dict[_Node, set[_Node]]) -> Iterator[tuple[_Node, _Node, _Node]]:
+    """The triangles of a chordal completion, by taking out a node of least degree each time."""
+    left = {node: set(near) for node, near in graph.items()}
+    while left:
+        node = min(left, key=lambda n: (len(left[n]), str(n)))
+        near = sorted(left.pop(node), key=str)
+        for position, x in enumerate(near):
+            left[x].discard(node)
+            for y in near[position + 1 :]:
+                left[x].add(y)
+                left[y].add(x)
+                yield node, x, y

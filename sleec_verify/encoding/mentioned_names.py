@@ -1,0 +1,63 @@
+"""The names that stand outside conditions and responses: in windows, concerns, purposes and relations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sleec_runtime.model import (
+    Clause,
+    Formula,
+    Rule,
+    Ruleset,
+    conditions_in,
+    in_text_order,
+    literals,
+)
+from sleec_runtime.model.time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation
+
+
+def beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Length]]:
+    """The events and formulas of concerns, purposes and relations, and all lengths of time."""
+    events: set[str] = set()
+    formulas: list[Formula] = []
+    lengths: list[Length] = []
+    for statement in ruleset.statements:
+        if isinstance(statement, Rule):
+            for clause in statement.clauses():
+                lengths += _lengths(clause)
+        elif isinstance(statement, Claim):
+            add_claim(statement, events, formulas, lengths)
+        elif isinstance(statement, EventRelation):
+            events |= {statement.left, statement.right}
+        elif isinstance(statement, MeasureRelation):
+            formulas += [statement.left, *([statement.right] if statement.right is not None else [])]
+        elif isinstance(statement, Effect):
+            events.add(statement.event)
+            formulas.append(statement.formula)
+        elif isinstance(statement, Lasting):
+            events |= {event for event in (statement.event, statement.end) if event is not None}
+            own = (statement.condition, statement.formula, statement.end_condition)
+            formulas += [formula for formula in own if formula is not None]
+            lengths += [statement.duration] if statement.duration is not None else []
+    return events, formulas, lengths
+
+
+def add_claim(claim: Claim, events: set[str], formulas: list[Formula], lengths: list[Length]) -> None:
+    """Add the events, formulas and lengths of time of a concern or purpose."""
+    events.add(claim.event)
+    if claim.condition is not None:
+        formulas.append(claim.condition)
+    for response in claim.responses:
+        for clause in in_text_order(response):
+            events |= {literal.name for literal in literals(clause)}
+            formulas += conditions_in(clause)
+            lengths += _lengths(clause)
+    if claim.meanwhile is not None:
+        add_claim(claim.meanwhile, events, formulas, lengths)
+
+
+def _lengths(clause: Clause) -> Iterator[Length]:
+    for literal in literals(clause):
+        window = literal.timing.window if literal.timing is not None else None
+        if window is not None:
+            yield from (length for length in (window.start, window.end) if length is not None)

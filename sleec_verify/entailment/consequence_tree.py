@@ -1,0 +1,227 @@
+"""What becomes due once what is due is done, as a tree: doing an obligation triggers the rules of that name.
+
+The measures stay as they are. What is done at once occurs together with the triggers of the situation. Rules with "it
+happened" and "it is to be done" of one name (docs/semantics.md) are asked one after the other: this is the question of
+its own that their causing each other is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import takewhile
+from typing import NamedTuple
+
+from sleec_runtime.model import Context, Ruleset
+from sleec_verify.encoding.response_windows import Windowed, Windows
+from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
+from sleec_verify.entailment.entailment import Because, Entailment, entail
+
+DEEPEST = 100
+"""Steps one below the other that are shown."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """Something that is done, and what that makes due: the active clauses of the rules that it triggers, each with the
+    steps that its obligations are. `cycle`: it is being done already, further up; `seen`: its tree stands elsewhere;
+    `more`: it goes on, too deep to be shown. `forbidden` are clauses of the situation and the tree that forbid it at
+    whatever time it may be done."""
+
+    name: str
+    clauses: tuple[tuple[Because, tuple[Step, ...]], ...] = ()
+    cycle: bool = False
+    seen: bool = False
+    more: bool = False
+    forbidden: tuple[str, ...] = ()
+
+    @property
+    def leads_on(self) -> bool:
+        return bool(self.clauses) or self.cycle or self.seen or self.more
+
+
+class Chain(NamedTuple):
+    """The steps that lead on or are forbidden, and the events of the situation that the rules forbid there, each with
+    the clauses that do."""
+
+    steps: tuple[Step, ...] = ()
+    at_odds: tuple[tuple[str, tuple[str, ...]], ...] = ()
+
+
+def chain(ruleset: Ruleset, context: Context, answer: Entailment, untimed: Untimed = "at") -> Chain:
+    """The steps that the obligations of `answer` are.
+
+    Each event is expanded once, so the tree is linear in the clauses that it reaches.
+    """
+    if not answer.consistent:
+        return Chain()
+    tree = _Tree(ruleset, context, untimed)
+    done = tree.grow(answer.because)
+    steps = tuple(tree.step(node) for node in done)
+    # Where rules say nothing of time, that something happened and that it is to be done are two things.
+    happening = sorted(context.triggers) if speaks_of_traces(ruleset) else ()
+    at_odds = ((event, tree.forbidding(_Done(event, (), ((0, 0),)))) for event in happening)
+    return Chain(
+        tuple(step for step in steps if step.leads_on or step.forbidden),
+        tuple((event, forbidding) for event, forbidding in at_odds if forbidding),
+    )
+
+
+class _Link(NamedTuple):
+    """Something that is done on the way to something else, so many seconds after what is before it on the way. No
+    `end`: at any time from `start` on."""
+
+    name: str
+    start: int
+    end: int | None
+
+
+_Way = tuple[_Link, ...]
+
+
+class _Done(NamedTuple):
+    """What is done after a way, in one of these windows (none: not known)."""
+
+    name: str
+    way: _Way
+    windows: tuple[tuple[int, int | None], ...]
+
+    @property
+    def is_at_once(self) -> bool:
+        """Whether it is done at the instant of the situation."""
+        ends = [*self.windows, *((link.start, link.end) for link in self.way)]
+        return bool(self.windows) and all(end == (0, 0) for end in ends)
+
+
+class _Forbids(NamedTuple):
+    """What forbids an event, in a window after a way."""
+
+    by: str
+    way: _Way
+    start: int
+    end: int | None
+
+
+@dataclass
+class _Node:
+    done: _Done
+    clauses: list[tuple[Because, list[_Node]]] = field(default_factory=list)
+    cycle: bool = False
+    seen: bool = False
+    more: bool = False
+
+
+class _Tree:
+    def __init__(self, ruleset: Ruleset, context: Context, untimed: Untimed) -> None:
+        self._ruleset = ruleset
+        self._context = context
+        self._windows = Windows(ruleset, context, untimed)
+        self._triggers = {rule.trigger for rule in ruleset.rules}
+        self._shown: dict[tuple[str, bool], bool] = {}
+        self._prohibitions: dict[str, list[_Forbids]] = {}
+
+    def grow(self, because: tuple[Because, ...]) -> list[_Node]:
+        """The tree below the clauses that decide in the situation."""
+        return self._below(because, ())
+
+    def _below(self, because: tuple[Because, ...], way: _Way) -> list[_Node]:
+        done: dict[str, list[tuple[int, int | None] | None]] = {}
+        for one in because:
+            clause = list(self._ruleset.by_label[one.rule].clauses())[one.clause]
+            for response in self._windows.of(clause):
+                if response.instead is not None:
+                    continue
+                window = None if response.start is None else (response.start, response.end)
+                if not response.obligation.negated:
+                    done.setdefault(response.obligation.name, []).append(window)
+                elif window is not None and not _has_alternative(response):
+                    forbids = _Forbids(one.layer or one.rule, way, *window)
+                    self._prohibitions.setdefault(response.obligation.name, []).append(forbids)
+        return [
+            self._node(_Done(name, way, tuple(window for window in windows if window is not None)))
+            for name, windows in done.items()
+        ]
+
+    def _node(self, done: _Done) -> _Node:
+        name = done.name
+        if name in self._context.triggers or any(link.name == name for link in done.way):
+            return _Node(done, cycle=name in self._triggers)
+        if name not in self._triggers:
+            return _Node(done)
+        shown = name, done.is_at_once
+        if shown in self._shown:
+            return _Node(done, seen=self._shown[shown])
+        if len(done.way) == DEEPEST:
+            return _Node(done, more=True)
+        others = self._context.triggers if done.is_at_once else ()
+        answer = entail(self._ruleset, Context(frozenset({name, *others}), self._context.conditions))
+        because = [one for one in answer.because if self._ruleset.by_label[one.rule].trigger == name]
+        self._shown[shown] = bool(because)
+        ends = [end for _, end in done.windows]
+        latest = None if None in ends else max((end for end in ends if end is not None), default=None)
+        way = (*done.way, _Link(name, min((start for start, _ in done.windows), default=0), latest))
+        return _Node(done, [(one, self._below((one,), way)) for one in because])
+
+    def step(self, node: _Node) -> Step:
+        """What a node is, with what forbids it anywhere in the tree."""
+        clauses = tuple((because, tuple(map(self.step, done))) for because, done in node.clauses)
+        forbidden = self.forbidding(node.done)
+        return Step(node.done.name, clauses, node.cycle, node.seen, node.more, forbidden)
+
+    def forbidding(self, done: _Done) -> tuple[str, ...]:
+        """The clauses that forbid what is done at any time that it may be done at. What is due for longer may be done
+        when it is no longer forbidden."""
+        found = (
+            one for one in self._prohibitions.get(done.name, ()) for window in done.windows if _in(done, window, one)
+        )
+        return tuple(dict.fromkeys(one.by for one in found))
+
+
+def _has_alternative(response: Windowed) -> bool:
+    timing = response.obligation.timing
+    return timing is not None and (timing.otherwise is not None or timing.instead is not None)
+
+
+def _in(done: _Done, window: tuple[int, int | None], forbids: _Forbids) -> bool:
+    """Whether all times of a window are forbidden, whenever what is on the way to either is done."""
+    shared = len(list(takewhile(lambda links: links[0] == links[1], zip(done.way, forbids.way))))
+    here, there = done.way[shared:], forbids.way[shared:]
+    if not here and there and there[0].name == done.name:
+        # It is itself on the way to what forbids it.
+        window, there = (0, 0), there[1:]
+    first, last = _after(here, window)
+    _, latest_start = _after(there, (forbids.start, forbids.start))
+    earliest_end = None if forbids.end is None else _after(there, (forbids.end, None))[0]
+    if latest_start is None or latest_start > first:
+        return False
+    return earliest_end is None or (last is not None and last <= earliest_end)
+
+
+def _after(way: _Way, window: tuple[int, int | None]) -> tuple[int, int | None]:
+    start, end = window
+    for link in way:
+        start += link.start
+        end = None if end is None or link.end is None else end + link.end
+    return start, end
+
+
+def lines(steps: tuple[Step, ...], indent: str = "  ") -> Iterator[str]:
+    """The tree as lines of text."""
+    for step in steps:
+        yield indent + step.name + _said(step)
+        for because, done in step.clauses:
+            yield f"{indent}  {because.layer or because.rule}: {' AND '.join(because.in_words()) or 'nothing'}"
+            yield from lines(tuple(one for one in done if one.leads_on or one.forbidden), indent + "    ")
+
+
+def _said(step: Step) -> str:
+    words = []
+    if step.cycle:
+        words.append("which happens already: a cycle")
+    elif step.seen:
+        words.append("as above")
+    elif step.more:
+        words.append("and so on")
+    if step.forbidden:
+        words.append(f"which {' and '.join(step.forbidden)} {'forbids' if len(step.forbidden) == 1 else 'forbid'}")
+    return f" ({'; '.join(words)})" if words else ""

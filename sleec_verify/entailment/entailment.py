@@ -1,0 +1,296 @@
+"""Definition 1: what a ruleset entails in one context, and why.
+
+With the context total and every response a conjunction of literals, unit propagation alone decides it: one
+propagation over Equation 1 gives every entailed obligation. An inconsistent context, in which Definition 1 to the
+letter entails everything, is reported as a conflict with its rules.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+from sleec_runtime.model import Assume, Clause, Context, Exclusive, Formula, Never, Obligation, Rule, Ruleset, Span
+from sleec_verify.checks.conflict import conflict_in
+from sleec_verify.encoding.cnf import Encoder
+from sleec_verify.encoding.solver import MiniSat
+from sleec_verify.entailment.situation_feasibility import Law, settled
+from sleec_verify.query.cone import Cones, Place, names_in, names_of_rule, obligations_in
+from sleec_verify.query.inconsistent_sets import clashes
+from sleec_verify.results.finding import Finding, Witness
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Value
+    from sleec_runtime.model.time import Relation
+    from sleec_verify.entailment.consequence_tree import Step
+    from sleec_verify.entailment.schedule import Entry
+
+
+@dataclass(frozen=True)
+class Decided:
+    """A condition that was looked at, and its truth. `clause` is its hedge's number, None for the rule's guard."""
+
+    formula: Formula
+    truth: bool
+    clause: int | None
+    span: Span
+
+
+@dataclass(frozen=True)
+class Because:
+    """A clause that is active: what it obliges, when (in words, empty for at once), and the conditions that made it the
+    one.
+
+    In a cascade these are the true prefix and the first false condition; by priority, the last true condition and
+    the false ones after it.
+    """
+
+    rule: str
+    clause: int
+    layer: str | None
+    obligations: tuple[str, ...]
+    decisions: tuple[Decided, ...]
+    span: Span
+    times: tuple[str, ...] = ()
+
+    def in_words(self) -> tuple[str, ...]:
+        """The obligations, each with when it is due if that is said."""
+        return tuple(f"{what} {when}".rstrip() for what, when in zip(self.obligations, self.times))
+
+
+@dataclass(frozen=True)
+class Consequence:
+    """What the constraints `origins` make of what is due: it must be so, but no rule says so, and nothing executes
+    it."""
+
+    literal: Obligation
+    origins: tuple[Exclusive | Never, ...]
+
+
+@dataclass(frozen=True)
+class Entailment:
+    """The answer to "what is due here?".
+
+    Where it is not `consistent`, nothing is listed as due and `conflicts` says why. `timed` are the literals due at
+    some later time; whether they can be kept with all else is not decided, and `consistent` says nothing of them.
+    `chain` is what becomes due once that is done, `at_odds` the events that occur and are forbidden, each with the
+    clauses that do, and `schedule` what is due until when, where they were asked for (`entailment.consequence_tree`,
+    `sleec_verify.entailment.schedule`).
+    `missing` are measures that were asked about and not given: comparisons with them count as false.
+    `broken_assumptions` are the assumptions by which the situation cannot be, and the relations, whatever else occurs;
+    `unsettled` those that do not hold if all comparisons with what is not given are false. `possible` are values of
+    what is not given with which the situation can be, where it cannot without.
+    """
+
+    consistent: bool
+    obligations: tuple[str, ...]
+    prohibitions: tuple[str, ...]
+    because: tuple[Because, ...]
+    consequences: tuple[Consequence, ...]
+    conflicts: tuple[Finding, ...]
+    broken_assumptions: tuple[Assume | Relation, ...]
+    missing: tuple[str, ...]
+    timed: tuple[Obligation, ...] = ()
+    chain: tuple[Step, ...] = ()
+    at_odds: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    unsettled: tuple[Assume | Relation, ...] = ()
+    possible: tuple[tuple[str, Value], ...] = ()
+    schedule: tuple[Entry, ...] = ()
+
+
+class Definition1:
+    """Equation 1 of some rules, compiled once for any number of contexts.
+
+    `formulas` get a literal each, so that their truth can be read off as well. `missing` are measures without a
+    value: comparisons with them are false.
+    """
+
+    def __init__(
+        self,
+        ruleset: Ruleset,
+        rules: Sequence[Rule] | None = None,
+        formulas: Sequence[Formula] = (),
+        missing: frozenset[str] = frozenset(),
+    ) -> None:
+        encoder = self._encoder = Encoder(ruleset.measures, missing)
+        self._in_force = encoder.fresh()
+        self.guards = [(rule, encoder.guards(rule, ruleset.reading)) for rule in rules or ruleset.rules]
+        for rule, guards in self.guards:
+            for clause, guard in zip(rule.clauses(), guards):
+                for obligation in clause.obligations:
+                    encoder.clauses.append([-self._in_force, -guard, encoder.obligation(obligation)])
+        self.formulas = [encoder.literal(formula) for formula in formulas]
+        encoder.close()
+        self._solver = MiniSat(encoder.clauses)
+        self._obligations = {v: key[1] for key, v in encoder.variables.items() if key[0] == "obligation"}
+
+    def entailed(self, context: Context) -> frozenset[Obligation] | None:
+        """Every literal over O that Definition 1 entails in `context`, or None where the rules contradict themselves
+        there. One propagation."""
+        consistent, literals = self._solver.propagate([self._in_force, *self._encoder.assumptions(context)])
+        if not consistent:
+            return None
+        named = self._obligations
+        return frozenset(Obligation(named[abs(v)], v < 0) for v in literals if abs(v) in named)
+
+    def entails(self, context: Context, obligation: Obligation) -> bool | None:
+        """Whether Definition 1 entails one literal in `context`: no model of the rules and the context makes it
+        false. To the letter, so true of everything where the rules contradict themselves. None if undecided."""
+        variable = self._encoder.variables.get(("obligation", obligation.name))
+        refuted = [] if variable is None else [variable if obligation.negated else -variable]
+        answer = self._solver.solve([self._in_force, *self._encoder.assumptions(context), *refuted])
+        return None if answer is None else not answer
+
+    def facts(self, context: Context) -> Callable[[int], bool]:
+        """The truth, in `context`, of the literals in `guards` and `formulas`, until the next question."""
+        found = self._solver.solve([-self._in_force, *self._encoder.assumptions(context)])
+        assert found, "without the rules in force, every context is a model"
+        return self._solver.holds
+
+
+def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Entailment:
+    """What `ruleset` entails in `context` (Definition 1), in `domain` if one is named.
+
+    Only the rules of the triggers that occur are compiled. Raises `Undecided` where the constraints are too entangled
+    to say whether what is due can be done.
+    """
+    if domain is not None:
+        ruleset = ruleset.in_domain(domain)
+    stated = {rule.label: rule for rule in ruleset.rules if rule.trigger in context.triggers}
+    related: list[tuple[Relation, Formula]] = []
+    if ruleset.is_timed:
+        from sleec_verify.encoding.one_instant import of_one_instant, untimed
+
+        related = list(of_one_instant(ruleset))
+        ruleset = untimed(ruleset)
+    rules = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
+    cones = Cones(ruleset)
+    ruled_out = clashes(cones.constraints, {o for rule in rules for c in rule.clauses() for o in c.obligations})
+    labels = list(dict.fromkeys(label for clash in ruled_out.listed for label in clash.labels))
+    conditions = [formula for rule in rules for formula, _, _ in _conditions(rule)]
+    assumed = [assumption.formula for assumption in cones.assumptions]
+    named = [name for rule in rules for name in names_of_rule(rule)]
+    named += [name for formula in assumed for name in names_in(formula)]
+    missing = {n for _, n in named if n in ruleset.measures and n not in context.conditions}
+
+    formulas = [*conditions, *labels, *assumed, *(formula for _, formula in related)]
+    definition = Definition1(ruleset, rules, formulas, frozenset(ruleset.measures) - set(context.conditions))
+    true = definition.facts(context)
+    truth = {id(formula): true(literal) for formula, literal in zip(formulas, definition.formulas)}
+    # Equal labels of several constraints were asked about once.
+    come_true = {label for label in labels if truth[id(label)]}
+
+    laws = [*((one, one.formula) for one in cones.assumptions), *related]
+    situation = settled([Law(law, formula, truth[id(formula)]) for law, formula in laws], context, ruleset.measures)
+
+    position = {rule.label: p for p, rule in enumerate(cones.rules)}
+    active = [
+        Place(position[rule.label], number)
+        for rule, guards in definition.guards
+        for number, guard in enumerate(guards)
+        if true(guard)
+    ]
+    due = definition.entailed(context)
+    obliged = {o for place in active for o in cones.clauses[place.rule][place.number].obligations}
+    witness = Witness(tuple(sorted(context.triggers)), dict(context.conditions))
+    conflicts = tuple(conflict_in(cones, active, ruled_out, come_true, witness))
+    consistent = due is not None and not conflicts
+    later = [o for place in active for o in _clause(stated[cones.rules[place.rule].label], place.number) if o.timing]
+    due = frozenset((due or frozenset()) | set(later))
+    return Entailment(
+        consistent=consistent,
+        obligations=tuple(sorted({o.name for o in due if not o.negated})) if consistent else (),
+        prohibitions=tuple(sorted({o.name for o in due if o.negated})) if consistent else (),
+        because=tuple(
+            _because(stated[cones.rules[place.rule].label], place.number, ruleset.reading, truth) for place in active
+        ),
+        consequences=tuple(_consequences(cones, obliged, context)) if consistent else (),
+        conflicts=conflicts,
+        broken_assumptions=situation.broken,
+        unsettled=situation.unsettled,
+        possible=situation.possible,
+        missing=tuple(sorted(missing)),
+        timed=tuple(later),
+    )
+
+
+def _conditions(rule: Rule) -> Iterator[tuple[Formula, int | None, Span]]:
+    if rule.guard is not None:
+        yield rule.guard, None, rule.guard.span
+    for number, clause in enumerate(rule.clauses()):
+        if clause.condition is not None:
+            yield clause.condition, number, clause.condition.span
+
+
+def _clause(rule: Rule, number: int) -> tuple[Obligation, ...]:
+    return list(rule.clauses())[number].obligations
+
+
+def _because(rule: Rule, number: int, reading: str, truth: dict[int, bool]) -> Because:
+    clause = list(rule.clauses())[number]
+    decided = []
+    if rule.guard is not None:
+        decided.append(Decided(rule.guard, True, None, rule.guard.span))
+    for hedge, at in _looked_at(rule, reading, truth):
+        assert hedge.condition is not None, "only hedges are looked at"
+        decided.append(Decided(hedge.condition, truth[id(hedge.condition)], at, hedge.condition.span))
+    obligations = tuple(str(o) for o in clause.obligations)
+    times = tuple(str(o.timing) if o.timing is not None else "" for o in clause.obligations)
+    return Because(rule.label, number, rule.layer(number), obligations, tuple(decided), clause.span, times)
+
+
+def _looked_at(rule: Rule, reading: str, truth: dict[int, bool]) -> list[tuple[Clause, int]]:
+    """The hedges whose conditions decide which clause is active, in the order of the text."""
+    looked: list[tuple[Clause, int]] = []
+    numbers = {id(clause): number for number, clause in enumerate(rule.clauses())}
+
+    def chain(default: Clause, hedges: Sequence[Clause], top: bool) -> None:
+        deciding = default
+        walk = hedges if reading == "cascade" else hedges[::-1]
+        for hedge in walk:
+            looked.append((hedge, numbers[id(hedge)]))
+            held = truth[id(hedge.condition)]
+            if held:
+                deciding = hedge
+            if held != (reading == "cascade"):
+                break
+        if deciding.hedges and (top or deciding is not default):
+            chain(deciding, deciding.hedges, top=False)
+
+    chain(rule.default, rule.hedges, top=True)
+    return sorted(looked, key=lambda pair: pair[1])
+
+
+def _consequences(cones: Cones, due: set[Obligation], context: Context) -> Iterator[Consequence]:
+    """What must be so where the constraints hold and what is due is done, though no rule says so. Two questions for
+    each obligation that is tied to what is due."""
+    names = {literal.name for literal in due}
+    constraints = cones.constraints_about(names)
+    tied = sorted({name for constraint in constraints for name in obligations_in(constraint)} - names)
+    if not tied:
+        return
+    measures = cones.ruleset.measures
+    encoder = Encoder(measures, frozenset(measures) - set(context.conditions))
+    kept = {}
+    for constraint in constraints:
+        in_force = encoder.fresh()
+        kept[in_force] = constraint
+        if isinstance(constraint, Exclusive):
+            for a, b in combinations(sorted(set(constraint.names)), 2):
+                encoder.clauses.append(
+                    [-in_force, -encoder.obligation(Obligation(a)), -encoder.obligation(Obligation(b))]
+                )
+        else:
+            encoder.clauses.append([-in_force, -encoder.literal(constraint.formula)])
+    encoder.close()
+    given = [encoder.obligation(literal) for literal in sorted(due, key=str)] + encoder.assumptions(context)
+    with MiniSat(encoder.clauses) as solver:
+        for name in tied:
+            for negated in (False, True):
+                refuted = -encoder.obligation(Obligation(name, negated))
+                if solver.solve([refuted, *given, *kept]) is False:
+                    core = set(solver.core())
+                    origins = tuple(constraint for literal, constraint in kept.items() if literal in core)
+                    yield Consequence(Obligation(name, negated), origins)

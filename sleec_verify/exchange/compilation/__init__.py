@@ -1,0 +1,43 @@
+"""The rules in other languages: formulas for people, clauses for solvers. What they say is Equation 1 (paper, Section
+3.2), the constraints and the assumptions; nothing is left out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from sleec_runtime.model import Kind, Ruleset
+from sleec_verify.encoding.calculations import refuse_calculations
+
+FORMS = ("sympy", "latex", "cnf", "dimacs", "smtlib", "json")
+
+
+def compile_to(ruleset: Ruleset, form: str, domain: str | None = None) -> str:
+    """The ruleset (its rules in `domain`, if one is named) in one of `FORMS`, as text.
+
+    sympy and latex are Equation 1 written out; cnf, dimacs and json are clauses, linear in the size of the rules;
+    smtlib keeps the measures as numbers. Raises KeyError for another form,
+    UnsupportedCalculations for rules that calculate with several measures.
+    """
+    if domain is not None:
+        ruleset = ruleset.in_domain(domain)
+    refuse_calculations(ruleset, "Equation 1 as a formula or as clauses")
+    return _writers()[form](ruleset)
+
+
+def _writers() -> Mapping[str, Callable[[Ruleset], str]]:
+    from sleec_verify.exchange.compilation import clauses, formulas, smtlib
+
+    return {
+        "sympy": formulas.as_sympy,
+        "latex": formulas.as_latex,
+        "cnf": clauses.as_lines,
+        "dimacs": clauses.as_dimacs,
+        "json": clauses.as_json,
+        "smtlib": smtlib.as_smtlib,
+    }
+
+
+def symbol(ruleset: Ruleset, kind: Kind, name: str) -> str:
+    """What to call a name where triggers and obligations share one space: an obligation that is a trigger too is
+    ``due(name)``, as that it happened and that it is to be done are two things."""
+    return f"due({name})" if kind == "obligation" and name in ruleset.triggers else name

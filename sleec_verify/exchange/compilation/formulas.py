@@ -1,0 +1,128 @@
+"""Equation 1 as sympy formulas, and as LaTeX."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+from typing import TYPE_CHECKING, NamedTuple
+
+from sleec_runtime.model import (
+    And,
+    Assume,
+    Atom,
+    Calculated,
+    Comparison,
+    Exclusive,
+    Formula,
+    Never,
+    Not,
+    Number,
+    Obligation,
+    Or,
+    Ruleset,
+    ScaleValue,
+    Term,
+    Truth,
+)
+from sleec_verify.encoding.equation import implications
+from sleec_verify.exchange.compilation import symbol
+
+if TYPE_CHECKING:
+    import sympy
+
+
+class Line(NamedTuple):
+    """A formula and what it is: ``dress_assist, hedge 1`` or the constraint it comes from."""
+
+    title: str
+    formula: sympy.Basic
+
+
+def lines(ruleset: Ruleset) -> Iterator[Line]:
+    """Equation 1 of every rule, a line for each clause that obliges something, then constraints and assumptions."""
+    import sympy
+
+    translate = Translator(ruleset)
+    for rule in ruleset.rules:
+        for number, guard, clause in implications(rule, ruleset.reading):
+            title = f"{rule.label}, {f'hedge {number}' if number else 'default'}"
+            if clause.obligations:
+                # Not evaluated: sympy would turn the implication into something shorter and harder to read.
+                response = translate.response(clause.obligations)
+                yield Line(title, sympy.Implies(translate(guard), response, evaluate=False))
+    for constraint in ruleset.constraints:
+        if isinstance(constraint, Exclusive):
+            for a, b in combinations(sorted(set(constraint.names)), 2):
+                pair = And((Atom("obligation", a), Atom("obligation", b)))
+                yield Line("EXCLUSIVE", sympy.Not(translate(pair)))
+        elif isinstance(constraint, Never):
+            yield Line("NEVER", sympy.Not(translate(constraint.formula)))
+        else:
+            assert isinstance(constraint, Assume)
+            yield Line("ASSUME", translate(constraint.formula))
+
+
+class Translator:
+    """Formulas of a ruleset as sympy's."""
+
+    def __init__(self, ruleset: Ruleset) -> None:
+        self._ruleset = ruleset
+
+    def __call__(self, formula: Formula) -> sympy.Basic:
+        import sympy
+
+        if isinstance(formula, Atom):
+            return sympy.Symbol(symbol(self._ruleset, formula.kind, formula.name))
+        if isinstance(formula, Not):
+            return sympy.Not(self(formula.operand))
+        if isinstance(formula, And):
+            return sympy.And(*map(self, formula.operands))
+        if isinstance(formula, Or):
+            return sympy.Or(*map(self, formula.operands))
+        if isinstance(formula, Truth):
+            return sympy.true if formula.value else sympy.false
+        return self._comparison(formula)
+
+    def response(self, obligations: Sequence[Obligation]) -> sympy.Basic:
+        """What a clause obliges, as a conjunction of literals."""
+        atoms: list[Formula] = [Atom("obligation", o.name) for o in obligations]
+        literals = [Not(atom) if o.negated else atom for atom, o in zip(atoms, obligations)]
+        return self(literals[0] if len(literals) == 1 else And(tuple(literals)))
+
+    def _comparison(self, comparison: Comparison) -> sympy.Basic:
+        import sympy
+
+        operators = {"<": sympy.Lt, "<=": sympy.Le, "=": sympy.Eq, "!=": sympy.Ne, ">=": sympy.Ge, ">": sympy.Gt}
+        sides = (self._term(comparison.left), self._term(comparison.right))
+        return operators[comparison.operator](*sides, evaluate=False)
+
+    def _term(self, term: Term) -> sympy.Basic:
+        import sympy
+
+        if isinstance(term, Number):
+            return sympy.Rational(term.value) if term.constant is None else sympy.Symbol(term.constant)
+        assert not isinstance(term, Calculated), "calculations are refused before"
+        return sympy.Symbol(term.value if isinstance(term, ScaleValue) else term.name)
+
+
+def as_sympy(ruleset: Ruleset) -> str:
+    """One formula a line, each under a comment that says what it is."""
+    return "\n".join(f"# {title}\n{formula}" for title, formula in lines(ruleset)) + "\n"
+
+
+def as_latex(ruleset: Ruleset) -> str:
+    """One aligned block, a line for each formula, ready for a document that loads amsmath."""
+    from sympy import latex
+    from sympy.core.symbol import Symbol
+
+    rows = []
+    for title, formula in lines(ruleset):
+        names = {s: rf"\mathit{{{_escaped(s.name)}}}" for s in formula.atoms(Symbol)}
+        rows.append(rf"  & {latex(formula, symbol_names=names)} && \text{{{_escaped(title)}}} \\")
+    return "\n".join((r"\begin{align*}", *rows, r"\end{align*}")) + "\n"
+
+
+def _escaped(text: str) -> str:
+    for character in "_#%&$":
+        text = text.replace(character, f"\\{character}")
+    return text.replace(" ", r"\ ")

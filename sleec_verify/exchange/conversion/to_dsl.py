@@ -1,0 +1,210 @@
+"""From structured English, or the other dialect, to a dialect of the DSL."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import NoReturn
+
+from sleec_runtime.errors import Unsayable
+from sleec_runtime.language.dsl.dialects import NAMES_OF_SLEEC_TK
+from sleec_runtime.language.dsl.scanner import KEYWORDS
+from sleec_runtime.model import (
+    NO_COMMENTS,
+    NOWHERE,
+    Agent,
+    And,
+    Atom,
+    Comments,
+    Constant,
+    Declaration,
+    DeclaredKind,
+    Dialect,
+    Formula,
+    Measure,
+    Not,
+    Or,
+    Rule,
+    Ruleset,
+    Span,
+    Statement,
+    formulas_of,
+    leaves,
+)
+from sleec_runtime.model.time import RELATIONS, Claim
+from sleec_verify.encoding.mentioned_names import beside_rules
+from sleec_verify.exchange.conversion.parts import with_formulas
+from sleec_verify.exchange.conversion.rules import narrow, split
+from sleec_verify.results.phrases import listed
+
+_RENAME = "rename it first, everywhere in the rules"
+_NAME = re.compile(r"[^\W\d]\w*")
+
+
+def in_dsl(ruleset: Ruleset, dialect: Dialect) -> tuple[Ruleset, list[str]]:
+    """`ruleset`, which is read by priority, as `dialect` says it, and what to know about the result.
+
+    Raises:
+        Unsayable: it holds what the dialect has no words for.
+    """
+    notes: list[str] = []
+    english = ruleset.syntax == "english"
+    statements = list(_from_english(ruleset, notes) if english else ruleset.statements)
+    if english:
+        notes += _of_events_in_conditions(ruleset)
+    if dialect == "sleec-tk":
+        from sleec_verify.exchange.conversion.sleec_tk import has_untimed, refuse_unsayable, taken_names
+
+        refuse_unsayable(ruleset, statements)
+        taken = taken_names(statements)
+        if taken:
+            notes.append(f"the editor of SLEEC-TK refuses {listed(taken)} as {'names' if len(taken) > 1 else 'a name'}")
+        if ruleset.dialect != "sleec-tk" and has_untimed(statements):
+            notes.append("a response without a window is due at once here, and for SLEEC-TK at some time from then on")
+    else:
+        _refuse_keywords_of_legos(ruleset, statements)
+        statements = [with_formulas(s, _in_pairs) for s in statements]
+    converted = replace(
+        ruleset, statements=tuple(statements), syntax="dsl", dialect=dialect, inferred=(), reading_stated=False
+    )
+    return converted, notes
+
+
+def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
+    """The statements with every name defined: declared ones where they are declared, the others first."""
+    defined: set[str] = set()
+    declared = {name for names in ruleset.declared.values() for name in names}
+    agents = {name: s.agent for s in ruleset.statements if isinstance(s, Declaration) for name in s.names if s.agent}
+    events, formulas, _ = beside_rules(ruleset)
+    for name in _undeclared(ruleset.triggers | ruleset.obligations | events, declared):
+        defined.add(_name(ruleset, name))
+        yield Declaration("event", (name,))
+    atoms = [leaf for formula in formulas for leaf in leaves(formula) if isinstance(leaf, Atom)]
+    beside = {atom.name for atom in atoms if atom.kind == "condition"}
+    events |= {atom.name for atom in atoms if atom.kind == "trigger"}
+    for name in _undeclared(ruleset.conditions | beside, declared):
+        yield Declaration("condition", (_name(ruleset, name),))
+    for measure in ruleset.inferred:
+        yield _measure(ruleset, replace(measure, declared=True), notes)
+    labels = {s.label for s in ruleset.statements if isinstance(s, (Rule, Claim))}
+    for statement in ruleset.statements:
+        if isinstance(statement, Declaration):
+            yield from _declarations(ruleset, statement, defined, agents)
+        elif isinstance(statement, Measure):
+            yield _measure(ruleset, statement, notes)
+        elif isinstance(statement, Constant):
+            if statement.value.denominator != 1:
+                refuse(ruleset, f"{statement.name} is no whole number", statement.span, "choose a smaller unit")
+            _name(ruleset, statement.name)
+            yield statement
+        elif isinstance(statement, Rule):
+            if statement.domains is not None:
+                said = f"the DSL has no domains, and {statement.label} has one"
+                refuse(ruleset, said, statement.span, "pick one with --domain")
+            _label(ruleset, statement.label, statement.label_span)
+            yield from split(replace(statement, comments=_comments(statement), labelled=True), labels)
+        elif isinstance(statement, Claim):
+            _label(ruleset, statement.label, statement.label_span)
+            yield narrow(statement)
+        elif isinstance(statement, RELATIONS):
+            yield statement
+        else:
+            word = type(statement).__name__.upper()
+            refuse(ruleset, f"the DSL has nothing that means what {word} does", statement.span)
+
+
+def _of_events_in_conditions(ruleset: Ruleset) -> Iterator[str]:
+    formulas = [formula for rule in ruleset.rules for formula in formulas_of(rule)] + beside_rules(ruleset)[1]
+    atoms = (leaf for formula in formulas for leaf in leaves(formula) if isinstance(leaf, Atom))
+    named = sorted({atom.name for atom in atoms if atom.kind == "trigger"})
+    if named:
+        names = f"{listed(named)} {'stands in a condition' if len(named) == 1 else 'stand in conditions'}"
+        yield f"{names}, where SLEEC-TK and LEGOS-SLEEC read measures alone"
+
+
+def _undeclared(names: Iterable[str], declared: set[str]) -> list[str]:
+    return sorted(set(names) - declared)
+
+
+def _declarations(
+    ruleset: Ruleset, statement: Declaration, defined: set[str], agents: Mapping[str, Agent]
+) -> Iterator[Declaration]:
+    """A definition for each name; what is declared as a trigger and as an obligation is one event."""
+    comments = statement.comments
+    kind: DeclaredKind = "condition" if statement.kind == "condition" else "event"
+    for name, span in zip(statement.names, statement.name_spans or [statement.span] * len(statement.names)):
+        if name not in defined:
+            defined.add(_name(ruleset, name, span))
+            yield Declaration(kind, (name,), span, (span,), comments, agents.get(name))
+            comments = NO_COMMENTS
+    if comments != NO_COMMENTS:
+        refuse(ruleset, "a comment stands at a declaration that the DSL does not need", statement.span, "move it")
+
+
+def _measure(ruleset: Ruleset, measure: Measure, notes: list[str]) -> Measure:
+    for name in (measure.name, *measure.values):
+        _name(ruleset, name, measure.span)
+    if measure.kind == "number":
+        notes.append(f"{measure.name} is any number here, and numeric, a whole number, in the DSL")
+        return replace(measure, kind="integer")
+    return measure
+
+
+def _comments(rule: Rule) -> Comments:
+    """The comments of a rule's two lines in structured English, the label's and the one below, for one line."""
+    own, default = rule.comments, rule.default.comments
+    one_too_many = (default.behind,) if own.behind is not None and default.behind is not None else ()
+    return Comments((*own.above, *default.above, *one_too_many), own.behind or default.behind)
+
+
+def _refuse_keywords_of_legos(ruleset: Ruleset, statements: Iterable[Statement]) -> None:
+    for statement in statements:
+        values = statement.values if isinstance(statement, Measure) else ()
+        for name in (*defined_by(statement), *values):
+            if name in NAMES_OF_SLEEC_TK:
+                span = statement.span if statement.span != NOWHERE else None
+                refuse(ruleset, f"\u201c{name}\u201d is a keyword of LEGOS", span, _RENAME)
+
+
+def defined_by(statement: Statement) -> tuple[str, ...]:
+    """The names that a statement defines, without the values of a scale."""
+    if isinstance(statement, Declaration):
+        return statement.names
+    return (statement.name,) if isinstance(statement, (Measure, Constant)) else ()
+
+
+def _label(ruleset: Ruleset, label: str, span: Span) -> None:
+    if label in NAMES_OF_SLEEC_TK:
+        refuse(ruleset, f"\u201c{label}\u201d is a keyword of the DSL", span, _RENAME)
+    _name(ruleset, label, span)
+
+
+def _name(ruleset: Ruleset, name: str, span: Span | None = None) -> str:
+    """A name that SLEEC-TK can say; LEGOS has more keywords."""
+    is_keyword = name in KEYWORDS - NAMES_OF_SLEEC_TK
+    if _NAME.fullmatch(name) is None or is_keyword:
+        what = "is a keyword of the DSL" if is_keyword else "is no name of the DSL: letters, digits and _ only"
+        refuse(ruleset, f"\u201c{name}\u201d {what}", span, _RENAME)
+    return name
+
+
+def refuse(ruleset: Ruleset, message: str, span: Span | None = None, hint: str | None = None) -> NoReturn:
+    if span:
+        place = ruleset.source.place(span)
+        message = f"{ruleset.source.path}:{place.line}:{place.column}: {message}"
+    raise Unsayable(message, hint)
+
+
+# Formulas as LEGOS writes them ----------------------------------------------------------------------------
+
+
+def _in_pairs(formula: Formula) -> Formula:
+    """A formula whose chains of `and`, and of `or`, do not end in one of the same kind, as LEGOS's are read."""
+    if isinstance(formula, Not):
+        return replace(formula, operand=_in_pairs(formula.operand))
+    if isinstance(formula, (And, Or)):
+        *first, last = map(_in_pairs, formula.operands)
+        ending = last.operands if isinstance(last, (And, Or)) and type(last) is type(formula) else (last,)
+        return replace(formula, operands=(*first, *ending))
+    return formula

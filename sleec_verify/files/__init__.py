@@ -1,0 +1,1 @@
+"""Files of users: folders, temporary files, TOML, atomic writes."""

@@ -1,0 +1,45 @@
+"""Putting files in place, whole or not at all."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+
+import click
+
+from sleec_runtime.errors import SleecError
+from sleec_verify.files.temporary import put_in_place
+
+
+def write_whole(path: str, content: bytes) -> None:
+    """Make `content` that of the file, in one step: whoever reads it sees the old or the new, and where something fails
+    the old stays. A link stays a link, and the rights stay as they are. What is no regular file is written to.
+
+    Raises:
+        SleecError: it cannot be written.
+    """
+    target = os.path.realpath(path)
+    try:
+        if os.path.exists(path) and not os.path.isfile(path):  # a terminal, a pipe, /dev/null
+            with open(path, "wb") as stream:
+                stream.write(content)
+        else:
+            put_in_place(target, content)
+    except OSError as error:
+        raise SleecError(f"{path} cannot be written: {error.strerror}", "nothing of it was changed") from None
+
+
+def require_writable(output: str, inputs: Iterable[str]) -> None:
+    """Refuse an output file that cannot be meant, before any work is done for it: one that is read, too, or a folder.
+
+    Raises:
+        click.UsageError: with what to do.
+    """
+    if os.path.isdir(output):
+        raise click.UsageError(f"{output} is a folder; name a file in it")
+    folder = os.path.dirname(output) or "."
+    if not os.path.isdir(folder):
+        raise click.UsageError(f"there is no folder {folder} to write {os.path.basename(output)} to")
+    for path in inputs:
+        if os.path.exists(output) and os.path.exists(path) and os.path.samefile(output, path):
+            raise click.UsageError(f"{output} is what is checked; name another file to write to")

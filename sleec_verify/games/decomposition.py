@@ -1,0 +1,142 @@
+"""Parts of a ruleset that have nothing to do with each other: what is done for one cannot break another.
+
+What the robot can do at any time without consequence is no part of any: nothing forbids it, no relation or condition
+speaks of it, and what it triggers is of the same kind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from sleec_runtime.model import Atom, Formula, Rule, formulas_of, leaves, measures_of
+from sleec_verify.encoding.union_find import UnionFind
+from sleec_verify.traces.demands import Occurs
+from sleec_verify.traces.event_conditions import named_atoms
+from sleec_verify.traces.index import Index
+from sleec_verify.traces.relations import Relation, events_of, formulas_of_relation
+
+
+@dataclass(frozen=True)
+class Part:
+    """Rules and laws that have nothing to do with the others of their ruleset, the events that they speak of, and by
+    the labels of the rules what they call for and forbid."""
+
+    rules: tuple[Rule, ...]
+    laws: tuple[Relation, ...]
+    events: tuple[str, ...]
+    windows: Mapping[str, tuple[Occurs, ...]]
+
+
+def free_events(index: Index) -> frozenset[str]:
+    """What the robot can do at any time without consequence. Linear in the size of the rules, but for those that call
+    for something later which leads back to them."""
+    tied = {name for law in index.relations for name in events_of(law)}
+    tied |= {name for rule in index.rules for name in named_atoms(rule)}
+    windows = {rule.label: index.windows(rule) for rule in index.rules}
+    bound = {window.event for found in windows.values() for window in found if window.negated}
+    bound |= {name for name, agent in index.agents.items() if agent != "system"} | tied | set(_endless(index, windows))
+    calling: dict[str, set[str]] = {}
+    for rule in index.rules:
+        for window in windows[rule.label]:
+            if window.negated:
+                bound.add(rule.trigger)
+            calling.setdefault(window.event, set()).add(rule.trigger)
+    ahead = list(bound)
+    while ahead:
+        for trigger in calling.get(ahead.pop(), ()):
+            if trigger not in bound:
+                bound.add(trigger)
+                ahead.append(trigger)
+    return frozenset(index.agents) - bound
+
+
+def _endless(index: Index, windows: Mapping[str, list[Occurs]]) -> Iterator[str]:
+    """Events that call for others which are due strictly later and lead back to them."""
+    for rule in index.rules:
+        for window in windows[rule.label]:
+            if window.start is not None and window.start > 0:
+                seen: set[str] = set()
+                ahead = [window.event]
+                while ahead:
+                    event = ahead.pop()
+                    if event not in seen:
+                        seen.add(event)
+                        for other in index.by_trigger.get(event, ()):
+                            ahead += (w.event for w in windows[other.label] if not w.negated)
+                if rule.trigger in seen:
+                    yield rule.trigger
+
+
+def parts(index: Index) -> Iterator[Part]:
+    """The parts of a ruleset, in the order of their first rules and laws. O(size of the rules).
+
+    Rules that share an event belong together, and so do those that a law ties. What a law says of measures only holds
+    in every part that looks at one of them; they share the measures, which are the environment's to choose in each.
+    """
+    free = free_events(index)
+    windows = {r.label: tuple(w for w in index.windows(r) if w.event not in free) for r in index.rules}
+    contested = [rule for rule in index.rules if windows[rule.label]]
+    union = UnionFind()
+    laws = [(law, list(events_of(law)), set(_facts(formulas_of_relation(law)))) for law in index.relations]
+    users: dict[str, str] = {}
+    for _, events, facts in laws:
+        if events:
+            for fact in facts:
+                users.setdefault(fact, events[0])
+    tied = set(users)
+    for rule in contested:
+        for window in windows[rule.label]:
+            union.join(rule.trigger, window.event)
+        for event in named_atoms(rule):
+            union.join(rule.trigger, event)
+        for fact in _facts(formulas_of(rule)):
+            if fact in tied:
+                union.join(rule.trigger, users[fact])
+    for _, events, facts in laws:
+        for event in events:
+            union.join(events[0], event)
+        if events:
+            for fact in facts:
+                union.join(events[0], users[fact])
+    found: dict[Hashable, tuple[list[Rule], list[Relation], set[str]]] = {}
+    for rule in contested:
+        part = found.setdefault(union.root(rule.trigger), ([], [], set()))
+        part[0].append(rule)
+        part[2].update([rule.trigger, *(window.event for window in windows[rule.label]), *named_atoms(rule)])
+    for law, events, _ in laws:
+        if events:
+            part = found.setdefault(union.root(events[0]), ([], [], set()))
+            part[1].append(law)
+            part[2].update(events)
+    of_measures = [(law, facts) for law, events, facts in laws if not events]
+    for rules, own, events_here in found.values():
+        facts = {fact for rule in rules for fact in _facts(formulas_of(rule))}
+        facts.update(fact for law in own for fact in _facts(formulas_of_relation(law)))
+        joined = [law for law, about in _reached(of_measures, facts)]
+        own_windows = {rule.label: windows[rule.label] for rule in rules}
+        yield Part(tuple(rules), (*own, *joined), tuple(sorted(events_here)), own_windows)
+
+
+def _reached(laws: list[tuple[Relation, set[str]]], facts: set[str]) -> list[tuple[Relation, set[str]]]:
+    """The laws that have to do with some facts, by way of others."""
+    found: list[tuple[Relation, set[str]]] = []
+    left = laws
+    grew = True
+    while grew:
+        near = [entry for entry in left if not facts.isdisjoint(entry[1])]
+        grew = bool(near)
+        found += near
+        left = [entry for entry in left if entry not in near]
+        facts = facts.union(*(about for _, about in near))
+    return found
+
+
+def _facts(formulas: Iterable[Formula]) -> Iterator[str]:
+    """The conditions and measures of some formulas."""
+    for formula in formulas:
+        for leaf in leaves(formula):
+            if not isinstance(leaf, Atom):
+                yield from measures_of(leaf)
+            elif leaf.kind == "condition":
+                yield leaf.name

@@ -1,0 +1,155 @@
+"""Who wins where two players set variables in turn: quantified Boolean formulas, by refining abstractions.
+
+A player's first move is looked for in an abstraction of the game, in which the other player has only the answers that
+are known so far. Each move found is tried; an answer that beats it joins the abstraction, with variables of its own for
+all that comes after it. When the abstraction has no move left, the game is lost. (Janota, Klieber, Marques-Silva and
+Clarke, "Solving QBF with counterexample guided refinement", 2016.)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from sleec_verify.encoding.solver import MiniSat, Undecided
+from sleec_verify.games.circuit import Circuit
+
+MOST_MOVES = 20_000
+"""Moves of either player that are tried before a question is given up."""
+
+Move = dict[int, int]
+"""Variables of one turn, each with 1 (true) or -1 (false)."""
+
+NOTHING: Mapping[int, int] = {}
+
+
+def winning(circuit: Circuit, own: Sequence[int], goal: int, turns: Sequence[Sequence[int]] = ()) -> Move | None:
+    """A move on the variables `own` with which the player about to move gets `goal`, whatever the other one does in the
+    first, third, … of `turns`, or None if there is none. Exponential in the number of turns.
+
+    Raises Undecided after `MOST_MOVES`.
+    """
+    player = _Player(circuit, own, _Budget(MOST_MOVES))
+    player.add(_Game(tuple(tuple(turn) for turn in turns), goal))
+    return player.move()
+
+
+@dataclass
+class _Budget:
+    left: int
+
+    def spend(self) -> None:
+        self.left -= 1
+        if self.left < 0:
+            raise Undecided(f"no answer after {MOST_MOVES:,} moves")
+
+
+@dataclass(frozen=True)
+class _Game:
+    """What is left of a game for a player about to move: the variables of the turns after that move, the other player's
+    first, and the literal that the player wants true in the end."""
+
+    turns: tuple[tuple[int, ...], ...]
+    goal: int
+
+
+class _Player:
+    """A player about to move, who has to win several games at once with one move. Games can be added at any time."""
+
+    def __init__(self, circuit: Circuit, own: Sequence[int], budget: _Budget) -> None:
+        self._circuit = circuit
+        self._own = list(own)
+        self._budget = budget
+        self._ahead: list[tuple[_Game, _Goals]] = []
+        """With what the other player wants, where its answer ends the game."""
+        self._goals = _Goals(circuit)
+        self._later: _Player | None = None
+        """The same player, who moves now and once more after answers of the other that are known."""
+
+    def add(self, game: _Game, own: Sequence[int] = ()) -> None:
+        """One game more, with further variables to set in this move."""
+        self._widen(own)
+        if game.turns:
+            against = _Goals(self._circuit)
+            if len(game.turns) == 1:
+                against.add(-game.goal)
+            self._ahead.append((game, against))
+        else:
+            self._require(game)
+
+    def _widen(self, own: Sequence[int]) -> None:
+        self._own += own
+        if self._later is not None:
+            self._later._widen(own)
+
+    def move(self) -> Move | None:
+        """A move that wins all the games, or None."""
+        while True:
+            self._budget.spend()
+            move = self._goals.model(self._own) if self._later is None else self._later.move()
+            if move is None:
+                return None
+            # What the move leaves open, it leaves open to all.
+            settled = {variable: move.get(variable, -1) for variable in self._own}
+            for game, against in self._ahead:
+                if len(game.turns) == 1:
+                    self._budget.spend()
+                    answer = against.model(game.turns[0], settled)
+                else:
+                    answer = self._answer(game, settled)
+                if answer is not None:
+                    self._require(self._answered(game, answer))
+                    break
+            else:
+                return settled
+
+    def _answer(self, game: _Game, settled: Move) -> Move | None:
+        other = _Player(self._circuit, game.turns[0], self._budget)
+        other.add(_Game(game.turns[1:], -self._circuit.replaced(game.goal, settled)))
+        return other.move()
+
+    def _answered(self, game: _Game, answer: Move) -> _Game:
+        """The game in which the other player's next move is settled. What comes later depends on it, and so gets
+        variables of its own."""
+        fresh = [{old: self._circuit.variable() for old in turn} for turn in game.turns[1:]]
+        values = dict(answer)
+        for renamed in fresh:
+            values.update(renamed)
+        return _Game(tuple(tuple(turn.values()) for turn in fresh), self._circuit.replaced(game.goal, values))
+
+    def _require(self, game: _Game) -> None:
+        """A game in which this player has the next turn too, which is thus one with the move."""
+        if self._later is None and len(game.turns) > 1:
+            self._later = _Player(self._circuit, self._own, self._budget)
+            for goal in self._goals.asked:
+                self._later.add(_Game((), goal))
+        if self._later is None:
+            self._goals.add(game.goal)
+        else:
+            self._later.add(_Game(game.turns[1:], game.goal), own=game.turns[0] if game.turns else ())
+
+
+class _Goals:
+    """Literals that have to be true together."""
+
+    def __init__(self, circuit: Circuit) -> None:
+        self.asked: list[int] = []
+        self._circuit = circuit
+        self._solver = MiniSat()
+        self._written: set[int] = set()
+
+    def add(self, goal: int) -> None:
+        self.asked.append(goal)
+        fresh = [node for node in self._circuit.below((goal,)) if node not in self._written]
+        self._written.update(fresh)
+        self._solver.add(list(self._circuit.clauses(fresh)))
+        self._solver.add([[goal]])
+
+    def model(self, variables: Sequence[int], settled: Mapping[int, int] = NOTHING) -> Move | None:
+        """Values of some variables with which all goals are true, where others are settled; None if there are none."""
+        found = self._solver.solve([variable * value for variable, value in settled.items()])
+        if found is None:
+            raise Undecided("the solver gave up after its budget of conflicts")
+        if not found:
+            return None
+        return {variable: 1 if self._solver.holds(variable) else -1 for variable in variables}

@@ -1,0 +1,132 @@
+"""Which clauses of which rules the tests made active, and which conditions they showed to decide.
+
+Every dispatch of every instance is noted while this is on; what calls layered methods without a trigger is not seen.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from sleec_runtime.dispatch import dispatch, monitor, runtime
+from sleec_runtime.evaluation.evaluation import holds
+from sleec_runtime.model import Atom, Comparison, Rule, Ruleset
+from sleec_verify.conformance.cases.goals import conditions_of
+from sleec_verify.results.finding import ClauseRef
+
+_paused = 0
+
+Vector = tuple[bool, ...]
+
+
+@contextmanager
+def not_counted() -> Iterator[None]:
+    """Dispatches within do not count: they go through all contexts, whatever the tests do."""
+    global _paused
+    _paused += 1
+    try:
+        yield
+    finally:
+        _paused -= 1
+
+
+class Covered:
+    """What was seen of one ruleset."""
+
+    def __init__(self, ruleset: Ruleset) -> None:
+        self.ruleset = ruleset
+        self.active: set[ClauseRef] = set()
+        self.vectors: dict[str, dict[Vector, int | None]] = {}
+
+    def add(self, other: Covered) -> None:
+        """Counts also what was seen elsewhere of the same ruleset."""
+        self.active |= other.active
+        for label, seen in other.vectors.items():
+            self.vectors.setdefault(label, {}).update(seen)
+
+    def undecided(self, rule: Rule) -> list[Atom | Comparison]:
+        """The conditions of `rule` that no two dispatches show to decide alone: which differ in it only, and in the
+        active clause (MC/DC, with the rule as the decision)."""
+        seen = self.vectors.get(rule.label, {})
+        return [
+            condition
+            for place, condition in enumerate(conditions_of(rule))
+            if not any(
+                seen.get((*v[:place], not v[place], *v[place + 1 :]), outcome) != outcome for v, outcome in seen.items()
+            )
+        ]
+
+
+class ClauseCoverage:
+    """Notes every dispatch from `start` to `stop`. `mcdc` also notes what each condition was worth."""
+
+    def __init__(self, mcdc: bool = False) -> None:
+        self.mcdc = mcdc
+        self._by_identity: dict[int, Covered] = {}
+        # An identity is worth something only as long as its object lives.
+        self._alive: list[Ruleset] = []
+        self._undo: list[Callable[[], None]] = []
+
+    def start(self) -> None:
+        for module in (runtime, monitor):
+            self._wrap(module, "run", dispatch.run)
+            self._wrap(module, "run_async", dispatch.run_async)
+
+    def stop(self) -> None:
+        for undo in self._undo:
+            undo()
+        self._undo.clear()
+
+    def about(self, ruleset: Ruleset) -> Covered:
+        """What is known of `ruleset`, or of one that is read from the same file and says the same."""
+        known = self._by_identity.get(id(ruleset))
+        if known is None:
+            same = (c for c in self._by_identity.values() if _same(c.ruleset, ruleset))
+            known = next(same, None) or Covered(ruleset)
+            self._by_identity[id(ruleset)] = known
+            self._alive.append(ruleset)
+        return known
+
+    def all(self) -> list[Covered]:
+        """Every ruleset that was seen, once, by its path."""
+        return sorted({id(c): c for c in self._by_identity.values()}.values(), key=lambda c: c.ruleset.source.path)
+
+    def packed(self) -> bytes:
+        """All that was noted, for `add` in another process of the same run."""
+        return pickle.dumps(self.all())
+
+    def add(self, packed: bytes) -> None:
+        """Counts also what another process of this run noted."""
+        for covered in pickle.loads(packed):
+            self.about(covered.ruleset).add(covered)
+
+    def note(self, plan: dispatch.Plan, snapshot: Any) -> None:
+        if _paused:
+            return
+        program = snapshot.program
+        covered = self.about(program.whole)
+        covered.active.update(ClauseRef(*clause) for clause in plan.clauses)
+        if self.mcdc:
+            deciding = dict(plan.clauses)
+            context = snapshot.context(plan.triggers)
+            for trigger in plan.triggers:
+                for rule in program.cells[program.number_of[trigger]]:
+                    vector = tuple(holds(leaf, context, program.measures) for leaf in conditions_of(rule))
+                    covered.vectors.setdefault(rule.label, {})[vector] = deciding.get(rule.label)
+
+    def _wrap(self, module: Any, name: str, original: Callable[..., Any]) -> None:
+        def noted(plan: dispatch.Plan, snapshot: Any, *rest: Any) -> Any:
+            self.note(plan, snapshot)
+            return original(plan, snapshot, *rest)
+
+        setattr(module, name, noted)
+        self._undo.append(lambda: setattr(module, name, original))
+
+
+def _same(one: Ruleset, other: Ruleset) -> bool:
+    # A robot may name its rules from the working folder, and the command line from the root.
+    paths = {os.path.realpath(ruleset.source.path) for ruleset in (one, other)}
+    return len(paths) == 1 and one == other

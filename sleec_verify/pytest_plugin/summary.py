@@ -1,0 +1,71 @@
+"""Clause coverage in words, and the one number that a threshold is about."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sleec_runtime.language import print_formula
+from sleec_verify.conformance.cases.goals import conditions_of
+from sleec_verify.conformance.cases.reachability import deciding_conditions, reachable_clauses
+from sleec_verify.pytest_plugin.coverage import Covered
+from sleec_verify.results.finding import ClauseRef
+
+
+class Summary:
+    """Of one ruleset: how many of its reachable clauses were active, and with `mcdc` how many conditions decided."""
+
+    def __init__(self, covered: Covered, mcdc: bool) -> None:
+        ruleset = covered.ruleset
+        every = [ClauseRef(rule.label, n) for rule in ruleset.rules for n, _ in enumerate(rule.clauses())]
+        reachable = reachable_clauses(ruleset)
+        self.path = ruleset.source.path
+        self.reachable = [ref for ref in every if ref in reachable]
+        self.unreachable = [ref for ref in every if ref not in reachable]
+        self.never = [ref for ref in self.reachable if ref not in covered.active]
+        self.conditions = 0
+        self.undecided: list[str] = []
+        self.undecidable: list[str] = []
+        if mcdc:
+            deciding = deciding_conditions(ruleset)
+            for rule in ruleset.rules:
+                never = covered.undecided(rule)
+                for condition in conditions_of(rule):
+                    name = f"{print_formula(condition)} in {rule.label}"
+                    if (rule.label, condition) not in deciding:
+                        self.undecidable.append(name)
+                        continue
+                    self.conditions += 1
+                    if condition in never:
+                        self.undecided.append(name)
+
+    @property
+    def goals(self) -> int:
+        return len(self.reachable) + self.conditions
+
+    @property
+    def reached(self) -> int:
+        return self.goals - len(self.never) - len(self.undecided)
+
+    def lines(self) -> Iterator[str]:
+        active = len(self.reachable) - len(self.never)
+        yield f"{self.path}: {active} of {len(self.reachable)} clauses active ({percent(active, len(self.reachable))})"
+        yield from (f"  never: {_name(ref)}" for ref in self.never)
+        yield from (f"  unreachable: {_name(ref)}" for ref in self.unreachable)
+        if self.conditions:
+            shown = self.conditions - len(self.undecided)
+            yield f"  MC/DC: {shown} of {self.conditions} conditions decided ({percent(shown, self.conditions)})"
+        yield from (f"  never decides: {name}" for name in self.undecided)
+        yield from (f"  cannot decide: {name}" for name in self.undecidable)
+
+
+def percent(part: int, whole: int) -> str:
+    """With one decimal, rounded down, so that 100 % is all."""
+    return f"{share(part, whole):.1f} %"
+
+
+def share(part: int, whole: int) -> float:
+    return 1000 * part // whole / 10 if whole else 100.0
+
+
+def _name(ref: ClauseRef) -> str:
+    return f"{ref.rule}.hc{ref.clause}" if ref.clause else f"{ref.rule} (default)"

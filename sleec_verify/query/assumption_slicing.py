@@ -1,0 +1,155 @@
+"""Assumptions cut down to what can matter where some triggers occur.
+
+Where a situation is possible with a trigger, it is mostly possible without it: ``NOT (Rung AND Asleep)`` only ever
+keeps triggers from occurring, and ``NOT Rung OR Answered`` makes one occur only where another does. So a question about
+a trigger stays a question about its own rules, though the assumptions that name it name a hundred others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from functools import cached_property
+
+from sleec_runtime.evaluation.evaluation import holds
+from sleec_runtime.model import And, Assume, Atom, Context, Formula, Measure, Not, Or, Ruleset, Truth
+from sleec_verify.encoding.equation import conjunction, disjunction
+from sleec_verify.query.cone import Cones, Name, names_in
+
+
+class Cutting:
+    """Some assumptions, to be cut to one question after the other.
+
+    A trigger *may have to occur* where others do if some assumption, with those that need not occur taken not to,
+    could fail without it. Any other trigger can be taken out of a possible situation, and what is left is possible:
+    each assumption either holds whenever none of these occurs, or does not ask for any of them. O(size of the
+    assumptions) to make; a question costs what it concerns.
+    """
+
+    def __init__(self, assumed: Iterable[Formula], kept: Iterable[str], measures: Iterable[Measure] = ()) -> None:
+        """`kept` are triggers that no question may leave out, `measures` those that the assumptions compare."""
+        self._measures = tuple(measures)
+        self.formulas = list(dict.fromkeys(conjuncts(assumed)))
+        self._asked_for = [frozenset(_asked_for(formula, True)) for formula in self.formulas]
+        self._naming: dict[Name, list[int]] = {}
+        for at, formula in enumerate(self.formulas):
+            for name in set(names_in(formula)):
+                self._naming.setdefault(name, []).append(at)
+        self.anywhere = self._grown(set(kept), list(range(len(self.formulas))))
+        """The triggers that may have to occur whatever the question: those `kept`, and what may come of no trigger."""
+
+    def occurring_with(self, triggers: Iterable[str]) -> set[str]:
+        """The triggers that may have to occur where these do, themselves and `anywhere` included."""
+        fresh = set(triggers) - self.anywhere
+        return self._grown(self.anywhere | fresh, [at for name in fresh for at in self._naming_trigger(name)])
+
+    def _grown(self, occurring: set[str], open_: list[int]) -> set[str]:
+        while open_:
+            at = open_.pop()
+            fresh = self._asked_for[at] - occurring
+            if fresh and without(self.formulas[at], occurring) != Truth(True):
+                occurring |= fresh
+                open_ += (other for name in fresh for other in self._naming_trigger(name))
+        return occurring
+
+    def _naming_trigger(self, name: str) -> list[int]:
+        return self._naming.get(("trigger", name), [])
+
+    def reached(
+        self, triggers: Iterable[str], naming: Callable[[set[str]], Iterable[Name]]
+    ) -> tuple[set[str], set[Name]]:
+        """The triggers that may have to occur where `triggers` do and the assumptions tie to what is named there, and
+        all that is named: `naming` says what the rules of some triggers speak of, and the constraints on these."""
+        wanted = set(triggers) | self._always
+        while True:
+            may = self.occurring_with(wanted)
+            wanted |= may - self.anywhere
+            names: set[Name] = {("trigger", trigger) for trigger in wanted}
+            names.update(naming(wanted))
+            reached = {name for kind, name in names if kind == "trigger"}
+            reached.update(
+                name for formula in self.about(names, may) for kind, name in names_in(formula) if kind == "trigger"
+            )
+            if reached <= wanted:
+                return wanted, names
+            wanted |= reached
+
+    @cached_property
+    def _always(self) -> frozenset[str]:
+        """The triggers of which some occur in every situation."""
+        cut = (Assume(without(formula, self.anywhere)) for formula in self.formulas)
+        return Cones(Ruleset((*self._measures, *cut))).always
+
+    def about(self, names: Iterable[Name], occurring: set[str]) -> list[Formula]:
+        """The assumptions that share names with `names`, directly or through one another, where no triggers but these
+        occur."""
+        found: dict[int, Formula] = {}
+        open_ = list(names)
+        seen = set(open_)
+        while open_:
+            name = open_.pop()
+            for at in self._naming.get(name, ()):
+                if at not in found:
+                    cut = without(self.formulas[at], occurring)
+                    own = set(names_in(cut))
+                    if name in own:
+                        found[at] = cut
+                        open_ += own - seen
+                        seen |= own
+        return [found[at] for at in sorted(found)]
+
+    def kept_by(self, names: Iterable[Name], occurring: set[str]) -> list[Formula]:
+        """The same, with the assumptions that do not hold of nothing: a situation that is shown must name something for
+        these."""
+        restless = (name for formula in self._restless for name in names_in(without(formula, occurring)))
+        return self.about({*names, *restless}, occurring)
+
+    @cached_property
+    def _restless(self) -> list[Formula]:
+        return [formula for formula in self.formulas if not holds(formula, Context())]
+
+
+def conjuncts(formulas: Iterable[Formula]) -> Iterator[Formula]:
+    """The parts of formulas that must each be true, so that they tie together only what they name."""
+    for formula in formulas:
+        if isinstance(formula, And):
+            yield from conjuncts(formula.operands)
+        elif isinstance(formula, Not) and isinstance(formula.operand, Or):
+            yield from conjuncts(Not(operand) for operand in formula.operand.operands)
+        elif isinstance(formula, Not) and isinstance(formula.operand, Not):
+            yield from conjuncts([formula.operand.operand])
+        else:
+            yield formula
+
+
+def _asked_for(formula: Formula, positive: bool) -> Iterator[str]:
+    """The triggers whose occurring may make a formula true: those under an even number of negations."""
+    if isinstance(formula, Atom):
+        if positive and formula.kind == "trigger":
+            yield formula.name
+    elif isinstance(formula, Not):
+        yield from _asked_for(formula.operand, not positive)
+    elif isinstance(formula, (And, Or)):
+        for operand in formula.operands:
+            yield from _asked_for(operand, positive)
+
+
+def without(formula: Formula, occurring: set[str]) -> Formula:
+    """The formula where no triggers but these occur, as simple as that makes it."""
+    if isinstance(formula, Atom):
+        return Truth(False) if formula.kind == "trigger" and formula.name not in occurring else formula
+    if isinstance(formula, Not):
+        operand = without(formula.operand, occurring)
+        return Truth(not operand.value) if isinstance(operand, Truth) else Not(operand)
+    if isinstance(formula, (And, Or)):
+        deciding = Truth(isinstance(formula, Or))
+        operands = []
+        for part in formula.operands:
+            operand = without(part, occurring)
+            if operand == deciding:
+                return deciding
+            if not isinstance(operand, Truth):
+                operands.append(operand)
+        if not operands:
+            return Truth(not deciding.value)
+        return disjunction(operands) if deciding.value else conjunction(operands)
+    return formula

@@ -1,0 +1,126 @@
+"""Rules up to renaming: conditions of one shape differ in names only, and these stand in the same order.
+
+Whatever follows from the structure of the conditions and the order of their names is the same for rules of one shape.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+from sleec_runtime.model import (
+    And,
+    Atom,
+    Comparison,
+    Formula,
+    Measure,
+    MeasureRef,
+    Not,
+    Number,
+    Obligation,
+    Or,
+    Rule,
+    ScaleValue,
+    Term,
+    formulas_of,
+)
+from sleec_verify.results.finding import Witness
+
+LARGEST = 100
+"""Nodes of formulas whose shape is taken. Larger ones hardly ever share one."""
+
+Key = tuple[object, ...]
+
+
+class Shape(NamedTuple):
+    """The shape of some formulas, as a key, and their names in the order of the shape."""
+
+    key: Key
+    names: tuple[tuple[str, str], ...]
+
+    def renamed(self, witness: Witness, names: tuple[tuple[str, str], ...]) -> Witness:
+        """A situation of these formulas, from that of formulas with the same shape and these names."""
+        new = {old: name for old, (_, name) in zip(names, self.names)}
+        return Witness(
+            tuple(new["trigger", name] for name in witness.triggers),
+            {new["condition", name]: value for name, value in witness.conditions.items()},
+            tuple(new["trigger", name] for name in witness.absent),
+        )
+
+
+def shape_of(formulas: Iterable[Formula], measures: Mapping[str, Measure]) -> Shape | None:
+    """The shape of some formulas; None if they are large, or compare measures with one another."""
+    found = _Nodes(measures)
+    try:
+        tops = [found.node(formula) for formula in formulas]
+    except _Unshaped:
+        return None
+    names = tuple(sorted(found.names))
+    rank = {found.names[name]: at for at, name in enumerate(names)}
+    # The places of names in the order of their first use tell how to rank them.
+    ranks = tuple(rank[at] for at in range(len(names)))
+    return Shape((tuple(tops), ranks, *found.nodes), names)
+
+
+def shape_of_rule(rule: Rule, measures: Mapping[str, Measure]) -> Shape | None:
+    """The shape of a rule: of its conditions, and of which clauses oblige the same. None where `shape_of` has none, and
+    for a rule with chains inside its chain, or with times."""
+    clauses = (rule.default, *rule.hedges)
+    due: dict[Obligation, int] = {}
+    same = []
+    for clause in clauses:
+        if clause.hedges or any(obligation.timing is not None for obligation in clause.obligations):
+            return None
+        same.append(tuple(due.setdefault(obligation, len(due)) for obligation in clause.obligations))
+    shape = shape_of((Atom("trigger", rule.trigger), *formulas_of(rule)), measures)
+    return None if shape is None else shape._replace(key=(rule.guard is None, tuple(same), *shape.key))
+
+
+class _Unshaped(Exception):
+    """There is no shape."""
+
+
+class _Nodes:
+    """The nodes of formulas in postorder, with each name by its first use. A part that is the same object in several
+    places is one node."""
+
+    def __init__(self, measures: Mapping[str, Measure]) -> None:
+        self._measures = measures
+        self._places: dict[int, int] = {}
+        self.names: dict[tuple[str, str], int] = {}
+        self.nodes: list[Key] = []
+
+    def node(self, formula: Formula) -> int:
+        place = self._places.get(id(formula))
+        if place is None:
+            self.nodes.append(self._key(formula))
+            place = self._places[id(formula)] = len(self.nodes) - 1
+            if place >= LARGEST:
+                raise _Unshaped
+        return place
+
+    def _key(self, formula: Formula) -> Key:
+        if isinstance(formula, Atom):
+            return (formula.kind, self._name(formula.kind, formula.name))
+        if isinstance(formula, Not):
+            return ("not", self.node(formula.operand))
+        if isinstance(formula, (And, Or)):
+            return ("and" if isinstance(formula, And) else "or", *map(self.node, formula.operands))
+        if isinstance(formula, Comparison):
+            if isinstance(formula.left, MeasureRef) and isinstance(formula.right, MeasureRef):
+                raise _Unshaped
+            return (formula.operator, self._term(formula.left), self._term(formula.right))
+        return ("truth", formula.value)
+
+    def _name(self, kind: str, name: str) -> int:
+        return self.names.setdefault((kind, name), len(self.names))
+
+    def _term(self, term: Term) -> object:
+        if isinstance(term, MeasureRef):
+            measure = self._measures[term.name]
+            return (self._name("condition", term.name), measure.kind, measure.values)
+        if isinstance(term, Number):
+            return term.value
+        if isinstance(term, ScaleValue):
+            return ("value", term.rank)
+        raise _Unshaped

@@ -1,0 +1,105 @@
+"""Unit propagation over a formula: the literals that every situation in which it is true must name."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from sleec_runtime.model import And, Atom, Comparison, Formula, Not, Or, Truth
+from sleec_verify.query.cone import Name, names_in
+
+Literals = dict[Name, bool]
+_Part = tuple[Formula, bool]
+
+
+class Impossible(Exception):
+    """No situation makes the formula true."""
+
+
+class Forced(NamedTuple):
+    """The literals that each situation must name in which a formula is known to be true, and the parts of the formula
+    that they leave open: disjunctions, and comparisons of measures."""
+
+    literals: Literals
+    open_parts: list[Formula]
+
+    def least(self) -> int:
+        """How many names such a situation has at least: one for each open part that shares none with another."""
+        seen: set[Name] = set()
+        parts = 0
+        for part in self.open_parts:
+            names = set(names_in(part)) - self.literals.keys()
+            parts += seen.isdisjoint(names)
+            seen |= names
+        return len(self.literals) + parts
+
+
+def forced(formula: Formula) -> Forced:
+    """What the formula forces. Raises Impossible for one that is never true. O(size of the formula) for each round of
+    propagation."""
+    known: Literals = {}
+    open_: list[_Part] = [(formula, True)]
+    waiting: list[_Part] = []
+    while open_:
+        waiting += _split(open_, known)
+        open_ = []
+        still: list[_Part] = []
+        for part, value in waiting:
+            left = [] if isinstance(part, Comparison) else _left(part, value, known)
+            if len(left) == 1:
+                open_ += ((operand, value) for operand in left)
+            elif left or isinstance(part, Comparison):
+                still.append((part, value))
+        waiting = still
+    return Forced(known, [part for part, _ in waiting])
+
+
+def _split(open_: list[_Part], known: Literals) -> list[_Part]:
+    """Takes in the literals of these parts; returns the disjunctions among them, and comparisons."""
+    waiting: list[_Part] = []
+    while open_:
+        part, value = open_.pop()
+        if isinstance(part, Not):
+            open_.append((part.operand, not value))
+        elif isinstance(part, Atom):
+            if known.setdefault((part.kind, part.name), value) != value:
+                raise Impossible
+        elif isinstance(part, Truth):
+            if part.value != value:
+                raise Impossible
+        elif isinstance(part, (And, Or)) and isinstance(part, And) == value:
+            open_ += [(operand, value) for operand in part.operands]
+        else:
+            waiting.append((part, value))
+    return waiting
+
+
+def _left(part: Formula, value: bool, known: Literals) -> list[Formula]:
+    """The operands on which it depends whether a part has this value; none if it has it."""
+    assert isinstance(part, (And, Or))
+    left = []
+    for operand in part.operands:
+        found = _value(operand, known)
+        if found == value:
+            return []
+        if found is None:
+            left.append(operand)
+    if not left:
+        raise Impossible
+    return left
+
+
+def _value(formula: Formula, known: Literals) -> bool | None:
+    if isinstance(formula, Not):
+        value = _value(formula.operand, known)
+        return None if value is None else not value
+    if isinstance(formula, Atom):
+        return known.get((formula.kind, formula.name))
+    if isinstance(formula, Truth):
+        return formula.value
+    if isinstance(formula, (And, Or)):
+        deciding = isinstance(formula, Or)
+        values = [_value(operand, known) for operand in formula.operands]
+        if deciding in values:
+            return deciding
+        return None if None in values else not deciding
+    return None

@@ -1,0 +1,203 @@
+"""The smallest situation that makes a formula true whatever else is the case.
+
+A situation names some triggers and some conditions; the rest must not matter. So every name has two rails, "known
+true" and "known false", and the formula must follow from what is known (Kleene's three values: sound for every
+completion). The solver finds some such situation, and a counter then presses the number of names down until no
+smaller one exists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from sleec_runtime.model import And, Comparison, Formula, Not, Or, Truth, Value, measures_of
+from sleec_verify.encoding.cnf import Encoder
+from sleec_verify.encoding.solver import MiniSat, Solver, Undecided
+from sleec_verify.query.cone import Cones, Name, names_in
+from sleec_verify.query.unit_propagation import Impossible, Literals, forced
+from sleec_verify.results.finding import Witness
+
+
+def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = ()) -> Witness | None:
+    """A situation of fewest names that makes `formula` (over triggers, conditions and measures) true, or None.
+
+    The measures of `valued` get a value whether the formula needs it or not. Taking all that the situation does not
+    name as false (Definition 1) gives one that the assumptions allow.
+
+    Raises `Undecided` where the solver did not decide.
+    """
+    valued, assumed = set(valued), _assumed(cones, formula, valued)
+    least = 0
+    if not assumed and not valued:
+        try:
+            found = forced(formula)
+        except Impossible:
+            return None
+        if not found.open_parts:
+            return _of_literals(found.literals)
+        least = found.least()
+    rails = _Rails(cones)
+    rails.encoder.clauses.append([rails.known(formula, True)])
+    for measure in sorted(valued):
+        rails.require_value(measure)
+    for assumption in assumed:
+        rails.encoder.clauses.append([rails.in_completion(assumption)])
+    rails.encoder.close()
+    return rails.smallest(least)
+
+
+def _assumed(cones: Cones, formula: Formula, valued: Iterable[str]) -> list[Formula]:
+    """The assumptions that a situation of the formula may break, cut to what may have to occur there."""
+    if not cones.assumptions:
+        return []
+    named = set(names_in(formula))
+    # A trigger that need not occur makes no situation smaller.
+    occurring = cones.cutting.occurring_with(name for kind, name in named if kind == "trigger")
+    named.update(("condition", measure) for measure in valued)
+    return cones.cutting.kept_by(named, occurring)
+
+
+def _of_literals(literals: Literals) -> Witness:
+    names = sorted(literals)
+    return Witness(
+        tuple(name for kind, name in names if kind == "trigger" and literals[kind, name]),
+        {name: literals[kind, name] for kind, name in names if kind == "condition"},
+        tuple(name for kind, name in names if kind == "trigger" and not literals[kind, name]),
+    )
+
+
+class _Rails:
+    """The formula over what is known, and the search for the fewest names."""
+
+    def __init__(self, cones: Cones) -> None:
+        self.encoder = Encoder(cones.ruleset.measures)
+        self._rails: dict[Name, tuple[int, int]] = {}
+        self._mentioned: dict[Name, int] = {}
+        self._known: dict[tuple[int, bool], int] = {}
+
+    def _rails_of(self, name: Name) -> tuple[int, int]:
+        rails = self._rails.get(name)
+        if rails is None:
+            yes, no = rails = self._rails[name] = (self.encoder.fresh(), self.encoder.fresh())
+            self.encoder.clauses.append([-yes, -no])
+            self._mentioned[name] = self.encoder.any_of([yes, no])
+        return rails
+
+    def _measure(self, measure: str) -> int:
+        name = ("condition", measure)
+        if name not in self._mentioned:
+            self._mentioned[name] = self.encoder.fresh()
+        return self._mentioned[name]
+
+    def require_value(self, measure: str) -> None:
+        self.encoder.measures.mention(measure)
+        self.encoder.clauses.append([self._measure(measure)])
+
+    def _compared(self, comparison: Comparison, value: bool) -> int:
+        literal = self.encoder.measures.literal(comparison)
+        mentioned = [self._measure(measure) for measure in measures_of(comparison)]
+        return self.encoder.all_of([literal if value else -literal, *mentioned])
+
+    def known(self, formula: Formula, value: bool) -> int:
+        """A literal that is true only if what is known gives `formula` this value."""
+        # Equation 1 written out repeats the conditions, as the same objects.
+        seen = self._known.get((id(formula), value))
+        if seen is None:
+            seen = self._known[id(formula), value] = self._build(formula, value)
+        return seen
+
+    def _build(self, formula: Formula, value: bool) -> int:
+        if isinstance(formula, Not):
+            return self.known(formula.operand, not value)
+        if isinstance(formula, (And, Or)):
+            parts = [self.known(operand, value) for operand in formula.operands]
+            return self.encoder.all_of(parts) if isinstance(formula, And) == value else self.encoder.any_of(parts)
+        if isinstance(formula, Comparison):
+            return self._compared(formula, value)
+        if isinstance(formula, Truth):
+            return self.encoder.true() if formula.value == value else -self.encoder.true()
+        yes, no = self._rails_of((formula.kind, formula.name))
+        return yes if value else no
+
+    def in_completion(self, formula: Formula) -> int:
+        """The literal of `formula` where all that is not known is false."""
+        if isinstance(formula, Not):
+            return -self.in_completion(formula.operand)
+        if isinstance(formula, And):
+            return self.encoder.all_of([self.in_completion(operand) for operand in formula.operands])
+        if isinstance(formula, Or):
+            return self.encoder.any_of([self.in_completion(operand) for operand in formula.operands])
+        if isinstance(formula, Comparison):
+            return self._compared(formula, True)
+        if isinstance(formula, Truth):
+            return self.encoder.true() if formula.value else -self.encoder.true()
+        return self._rails_of((formula.kind, formula.name))[0]
+
+    def smallest(self, least: int) -> Witness | None:
+        """The situation; `least` names are in any."""
+        names = sorted(self._mentioned)
+        with MiniSat(self.encoder.clauses) as solver:
+            values = self._solve(solver)
+            if values is None:
+                return None
+            situation, size = self._situation(solver, values)
+            if size <= least:
+                return situation
+            counter = _Counter(self.encoder, [self._mentioned[name] for name in names], size)
+            solver.add(counter.clauses)
+            while size > least:
+                solver.add([[-counter.at_least[size]]])
+                values = self._solve(solver)
+                if values is None:
+                    break
+                situation, size = self._situation(solver, values)
+        return situation
+
+    def _solve(self, solver: Solver) -> Mapping[str, Value] | None:
+        """The values of the measures in a situation, or None where there is no situation."""
+        while True:
+            answer = solver.solve()
+            if answer is None:
+                raise Undecided("the solver gave up while looking for a smallest situation")
+            if not answer:
+                return None
+            values = self.encoder.measures.decode(solver.holds)
+            if not isinstance(values, list):
+                return values
+            solver.add([values])
+
+    def _situation(self, solver: Solver, values: Mapping[str, Value]) -> tuple[Witness, int]:
+        """The situation that the solver's model stands for, and how many names it mentions."""
+        mentioned = [name for name, variable in sorted(self._mentioned.items()) if solver.holds(variable)]
+        triggers, absent = [], []
+        conditions: dict[str, Value] = {}
+        for kind, name in mentioned:
+            rails = self._rails.get((kind, name))
+            if rails is None:
+                conditions[name] = values[name]
+            elif kind == "condition":
+                conditions[name] = solver.holds(rails[0])
+            elif solver.holds(rails[0]):
+                triggers.append(name)
+            else:
+                absent.append(name)
+        return Witness(tuple(triggers), conditions, tuple(absent)), len(mentioned)
+
+
+class _Counter:
+    """Clauses by which ``at_least[k]`` is true wherever k of the literals are, for k up to `most` (sequential
+    counter)."""
+
+    def __init__(self, encoder: Encoder, literals: list[int], most: int) -> None:
+        self.clauses: list[list[int]] = []
+        self.at_least: dict[int, int] = {}
+        for literal in literals:
+            extended = {k: encoder.fresh() for k in range(1, min(most, len(self.at_least) + 1) + 1)}
+            for k, register in extended.items():
+                if k in self.at_least:
+                    self.clauses.append([-self.at_least[k], register])
+                if k == 1:
+                    self.clauses.append([-literal, register])
+                elif k - 1 in self.at_least:
+                    self.clauses.append([-literal, -self.at_least[k - 1], register])
+            self.at_least = extended

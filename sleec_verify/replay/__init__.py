@@ -1,0 +1,1 @@
+"""Replay: the runtime's evaluators confirm each situation, trace and strategy before anyone sees it."""

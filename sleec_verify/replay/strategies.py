@@ -1,0 +1,53 @@
+"""Strategies are replayed before anyone sees them, by the runtime's evaluator of traces, which shares nothing with the
+circuits: each act is lawful, and what the robot does and plans before it loses keeps all. That it has no way left in
+the end is a claim about all that it may do, which no replay can show."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from sleec_runtime.evaluation.traces import Instant, Trace, Untimed, broken
+from sleec_runtime.model import Ruleset
+from sleec_verify.games.players import is_environments
+from sleec_verify.games.realizability import Act, Strategy
+from sleec_verify.results.finding import Finding
+from sleec_verify.traces.index import Index
+
+
+def plays(index: Index, finding: Finding) -> bool:
+    """Whether the evaluator agrees with a strategy."""
+    assert finding.strategy is not None, "only strategies are replayed here"
+    whole = index.ruleset
+    rules = tuple(whole.by_label[label] for label in finding.rules)
+    measures = tuple(whole.measures.values())
+    robots = replace(whole, statements=(*index.relations, *rules), inferred=measures)
+    lawful = tuple(law for law in index.relations if is_environments(law, index.agents))
+    environments = replace(whole, statements=lawful, inferred=measures)
+    return _plays(finding.strategy, robots, environments, (), index.untimed)
+
+
+def _plays(
+    strategy: Strategy, robots: Ruleset, environments: Ruleset, before: tuple[Instant, ...], untimed: Untimed
+) -> bool:
+    act = _instant(strategy.act)
+    if broken(environments, Trace((*before, act)), untimed):
+        return False
+    for branch in strategy.branches:
+        after = branch.then.act.time
+        if branch.done is None:
+            # What the robot has done is not looked at, so nothing of it can be replayed.
+            if not after > act.time:
+                return False
+            continue
+        now = replace(act, events=act.events.union(branch.done))
+        plan = [_instant(planned) for planned in branch.planned]
+        if broken(robots, Trace((*before, now, *plan)), untimed):
+            return False
+        done = [instant for instant in plan if instant.time < after]
+        if not _plays(branch.then, robots, environments, (*before, now, *done), untimed):
+            return False
+    return True
+
+
+def _instant(act: Act) -> Instant:
+    return Instant(act.time, frozenset(act.events), act.conditions)
