@@ -26,6 +26,8 @@ PARSED = {"sleec", "sleec-bad", "dsl", "dsl-bad"}
 
 IN_TESTS_OF_THEIR_PAGES = {
     "docs/runtime.md": {"python", "text"},
+    "docs/deadlines.md": {"python", "text"},
+    "docs/restart.md": {"python", "text"},
     "docs/conformance.md": {"python", "text", "toml"},
     "docs/times.md": {"text"},
     "docs/certificates.md": {"sh", "python"},

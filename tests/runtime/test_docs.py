@@ -1,4 +1,4 @@
-"""The guide's examples, run as the one program that they are."""
+"""The examples of the pages on the runtime are one program, and print what the pages show."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ from pathlib import Path
 
 import pytest
 
-GUIDE = Path("docs/runtime.md")
+PAGES = [Path("docs", name) for name in ("runtime.md", "deadlines.md", "restart.md")]
+"""In the order of the program."""
 
 
 def blocks(language: str) -> list[str]:
-    return re.findall(rf"^```{language}\n(.*?)^```$", GUIDE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    text = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
 
 
 def test_the_examples_of_the_guide_run(
@@ -21,5 +23,5 @@ def test_the_examples_of_the_guide_run(
     programs, printed = blocks("python"), "".join(blocks("text"))
     monkeypatch.chdir(tmp_path)
     for block in programs:
-        exec(compile(block, str(GUIDE), "exec"), program)
+        exec(compile(block, "docs/runtime.md", "exec"), program)
     assert capsys.readouterr().out == printed
