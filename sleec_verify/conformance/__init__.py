@@ -1,4 +1,4 @@
-"""That the code does what the rules say, shown by test (docs/conformance.md).
+"""That the code does what the rules say, shown by test (docs/conformance-tests.md).
 
     from sleec_verify.conformance import conformance_test
     test_robot = conformance_test(make_sleec)

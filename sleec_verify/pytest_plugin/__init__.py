@@ -1,4 +1,4 @@
-"""The pytest plugin: ``pytest rulesets/`` (docs/conformance.md).
+"""The pytest plugin: ``pytest rulesets/`` (docs/conformance-tests.md).
 
 Nothing of sleec is imported before a ruleset, a file of cases, a fixture or an option asks for it.
 """

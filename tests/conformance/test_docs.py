@@ -1,4 +1,4 @@
-"""The examples of docs/conformance.md are what the page says they are."""
+"""The examples of docs/conformance-tests.md and docs/cases.md are what the pages say they are."""
 
 from __future__ import annotations
 
@@ -12,19 +12,18 @@ from sleec_verify.conformance.cases.reader import read_cases
 from sleec_verify.conformance.oracle import Oracle
 from sleec_verify.conformance.suite import PARTS
 
-PAGE = Path("docs/conformance.md").read_text(encoding="utf-8")
-# What stands above is about reading code; its session is run by tests/project/test_docs.py, as that of `cases` is.
-GUIDE = PAGE[PAGE.index("## By test: the code, run") :]
+GUIDE = Path("docs/conformance-tests.md").read_text(encoding="utf-8")
+CASES = Path("docs/cases.md").read_text(encoding="utf-8")
 
 
-def blocks(language: str) -> list[str]:
-    return re.findall(rf"^```{language}\n(.*?)^```$", GUIDE, re.MULTILINE | re.DOTALL)
+def blocks(language: str, page: str = GUIDE) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
 
 
 def test_the_program_runs_and_its_robot_passes() -> None:
     program: dict[str, object] = {}
     for block in blocks("python"):
-        exec(compile(block, "docs/conformance.md", "exec"), program)
+        exec(compile(block, "docs/conformance-tests.md", "exec"), program)
     make = program["make_sleec"]
     assert callable(make)
     check_conformance(make, examples=10)
@@ -47,7 +46,7 @@ def test_every_part_is_told_of() -> None:
 
 def test_the_cases_are_due(tmp_path: Path) -> None:
     path = tmp_path / "household.cases.toml"
-    path.write_text(blocks("toml")[0], encoding="utf-8")
+    path.write_text(blocks("toml", CASES)[0], encoding="utf-8")
     (tmp_path / "household.sleec").write_bytes(Path("rulesets/household.sleec").read_bytes())
     ruleset, cases = read_cases(path)
     for case in cases:
