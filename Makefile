@@ -14,11 +14,12 @@ INSTALL := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input i
 # Without build isolation, what builds contextpy3 from its source is locked, too.
 INSTALL_LOCKED := $(INSTALL) --require-hashes -r
 
-.PHONY: help setup demo test lint types check-tests coverage site fuzz long proofs theorems bench mutants dist sbom lock clean
+.PHONY: help setup demo test fast lint types check-tests coverage site fuzz long proofs theorems bench mutants dist sbom lock clean
 
 help:
 	@echo 'make demo     check the shipped rulesets and ask one question of them'
 	@echo 'make test     lint, types, and every test but the long ones'
+	@echo 'make fast     the tests that take less than a minute and reach everything once'
 	@echo 'make coverage the branches that the tests reach, with a bound that fails'
 	@echo 'make site     the docs as a site, in site/'
 	@echo 'make fuzz     fuzz everything that reads a file; SECONDS=60 for all targets, TARGET=english for one'
@@ -70,6 +71,9 @@ lint: $(INSTALLED)
 
 types: $(INSTALLED)
 	$(BIN)/mypy
+
+fast: $(INSTALLED)
+	$(BIN)/pytest tests/fast -n auto --dist worksteal
 
 check-tests: $(INSTALLED)
 	$(BIN)/pytest -n auto --dist worksteal

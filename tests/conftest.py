@@ -7,6 +7,12 @@ import os
 import pytest
 from hypothesis import HealthCheck, Phase, settings
 
+# Fixtures of every folder.
+from tests.support.action import runner as runner
+from tests.support.checker import proved as proved
+from tests.support.cli import cli as cli
+from tests.support.theory_oracle import oracle as oracle
+
 pytest_plugins = ["pytester"]
 # Rulesets below tests are material for tests, bad ones among them; the pytest plugin is not to collect them.
 collect_ignore_glob = ["*.sleec", "*.cases.toml"]

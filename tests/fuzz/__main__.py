@@ -11,7 +11,8 @@ import sys
 from argparse import ArgumentParser
 from pathlib import Path
 
-from tests.fuzz.targets import ROOT, TARGETS
+from tests.fuzz.targets import TARGETS
+from tests.support.paths import ROOT
 
 WORK = ROOT / ".fuzz"
 FAILURES = WORK / "failures"

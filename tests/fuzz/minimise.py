@@ -15,7 +15,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from tests.fuzz.__main__ import WORK
-from tests.fuzz.targets import CORPUS, ROOT, TARGETS, corpus
+from tests.fuzz.targets import CORPUS, TARGETS, corpus
+from tests.support.paths import ROOT
 
 _UNNAMED = re.compile(r"[0-9a-f]{40}")
 

@@ -13,8 +13,8 @@ from sleec_verify.report import renderer
 from sleec_verify.report.outcome import Checked
 from sleec_verify.report.palette import PLAIN
 from tests.fuzz.property import unless_refused
+from tests.support.paths import ROOT
 
-ROOT = Path(__file__).parents[2]
 RULESET = load(ROOT / "rulesets" / "household.sleec")
 
 

@@ -11,8 +11,8 @@ from sleec_runtime.language.dsl import scanner as dsl
 from sleec_runtime.language.english import keywords
 from tests.fuzz import certificates, changes, files, made, pending, python, questions, rules
 from tests.fuzz.property import cpu_limit
+from tests.support.paths import ROOT
 
-ROOT = Path(__file__).parents[2]
 CORPUS = Path(__file__).with_name("corpus")
 """A folder for each target, with the inputs that once reached something new, or failed."""
 
@@ -63,13 +63,13 @@ _DOCS = ("README.md", "docs/*.md", "docs/tutorials/*.md")
 
 def _english() -> Iterator[bytes]:
     yield from _blocks("sleec", *_DOCS)
-    yield from _files("rulesets/*.sleec", "tests/language/bad/*.sleec")
+    yield from _files("rulesets/*.sleec", "tests/fast/language/bad/*.sleec")
     yield from _deep("WHEN a THEN b UNLESS ", "(")
 
 
 def _dsl() -> Iterator[bytes]:
     yield from _blocks("dsl", *_DOCS)
-    yield from _files("tests/language/bad/dsl-*.sleec")
+    yield from _files("tests/fast/language/bad/dsl-*.sleec")
     yield from _deep("def_start event A def_end rule_start R when A and ", "{")
 
 
