@@ -80,5 +80,5 @@ def test_every_setting_is_told_of_with_its_default() -> None:
     assert settings - {"path", "folder", "block"} == set(told)
     for field in Policy._fields:
         default = getattr(Policy(), field)
-        written = {None: "not asked", (): "`[]`"}.get(default, f"`{str(default).lower()}`")
+        written = {None: "not checked", (): "`[]`"}.get(default, f"`{str(default).lower()}`")
         assert told[field.replace("_", "-")] in (written, f'`"{default}"`')
