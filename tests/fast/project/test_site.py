@@ -101,7 +101,7 @@ def test_links_out_of_the_docs_lead_to_the_same_in_the_site() -> None:
 
 def test_links_by_the_name_of_a_file_say_the_title() -> None:
     assert links.within_the_site("([gate.md](gate.md#in-ci))", "times.md") == (
-        "([The gate: may this change go in?](gate.md#in-ci))"
+        "([The gate: may this change be merged?](gate.md#in-ci))"
     )
 
 
