@@ -135,7 +135,7 @@ class UnknownName(SleecError, LookupError):
         self.name = name
 
     def _suggestion(self, name: str, known: Sequence[str]) -> str:
-        from sleec_runtime.language.common.suggestions import nearest
+        from sleec_runtime.support.suggestions import nearest
 
         near = nearest(name, known)
         if near is not None:

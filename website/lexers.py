@@ -8,7 +8,7 @@ import pygments.lexers
 from pygments.lexer import RegexLexer, bygroups, words
 from pygments.token import Comment, Generic, Keyword, Name, Number, Operator, Punctuation, Whitespace
 
-from sleec_runtime.language.dsl import scanner as dsl
+from sleec_runtime.language.dsl import keywords as dsl
 from sleec_runtime.language.english.keywords import KEYWORDS, RELATION_WORDS
 
 __all__ = ["DslLexer", "SessionLexer", "SleecLexer"]  # where Pygments looks for them

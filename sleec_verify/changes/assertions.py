@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple, NoReturn, Union
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.evaluation.evaluation import decide, holds
-from sleec_runtime.language.english.formulas import OPERATORS
+from sleec_runtime.language.common.comparisons import OPERATORS
 from sleec_runtime.model import (
     And,
     Assume,
@@ -441,7 +441,7 @@ class _Reader:
             self._fail(f"{what} is missing here", missing)
         name = " ".join(token.text for token in words)
         span = Span(words[0].span.start, words[-1].span.end)
-        from sleec_runtime.language.common.suggestions import nearest
+        from sleec_runtime.support.suggestions import nearest
 
         known = self._known
         for kind, others in (

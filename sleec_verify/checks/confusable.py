@@ -31,7 +31,8 @@ def _words(ruleset: Ruleset) -> tuple[dict[str, Span], frozenset[str]]:
     """The names, labels and keywords in a text, word by word, each with its first place; and all keywords there are.
     Comments are left out."""
     if ruleset.syntax == "dsl":
-        from sleec_runtime.language.dsl.scanner import KEYWORDS, scan
+        from sleec_runtime.language.dsl.keywords import KEYWORDS
+        from sleec_runtime.language.dsl.scanner import scan
     else:
         from sleec_runtime.language.english.keywords import KEYWORDS
         from sleec_runtime.language.english.scanner import scan

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 
 def _stray(cones: Cones) -> Iterator[Finding]:
-    from sleec_runtime.language.common.suggestions import nearest
     from sleec_runtime.model.time import RELATIONS, Claim
+    from sleec_runtime.support.suggestions import nearest
     from sleec_verify.traces.relations import events_of
 
     ruleset = cones.ruleset

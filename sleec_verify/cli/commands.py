@@ -50,7 +50,7 @@ class _Lazy(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         if args and args[0] not in _SUMMARIES and not args[0].startswith("-"):
-            from sleec_runtime.language.common.suggestions import nearest
+            from sleec_runtime.support.suggestions import nearest
             from sleec_verify.results.phrases import shortened
 
             near = nearest(args[0], _SUMMARIES)

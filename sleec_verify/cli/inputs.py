@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import SleecError, UnreadableFile
 from sleec_runtime.language import load
-from sleec_runtime.language.common.suggestions import nearest
+from sleec_runtime.support.suggestions import nearest
 from sleec_verify.cli.output import note, note_link
 from sleec_verify.files.folders import SUFFIX, rulesets_below
 from sleec_verify.report.outcome import Unusable

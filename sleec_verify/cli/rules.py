@@ -69,11 +69,11 @@ def _matching(kinds: _ByCode, code: str) -> _ByCode:
 def _near(kinds: _ByCode, code: str) -> str | None:
     """The code or check that was meant. Codes of another hundred are about something else, though a digit or two away:
     of these only a slip of one letter is near."""
-    from sleec_runtime.language.common.suggestions import edits, nearest
+    from sleec_runtime.support.suggestions import edit_distance, nearest
 
     written = code.upper()
     same = [c for c in kinds if c[:-2] == written[:-2]]
-    slips = (c for c in kinds if abs(len(c) - len(written)) < 2 and edits(written, c, 2) < 2)
+    slips = (c for c in kinds if abs(len(c) - len(written)) < 2 and edit_distance(written, c, 2) < 2)
     return nearest(written, same) or next(slips, None) or nearest(code, [*CHECKS, structure.NAME])
 
 

@@ -155,7 +155,7 @@ def _measured(ruleset: Ruleset, measure: Measure, written: str) -> Value:
 
 
 def _unknown(name: str, what: str, known: frozenset[str] | set[str]) -> SituationError:
-    from sleec_runtime.language.common.suggestions import nearest
+    from sleec_runtime.support.suggestions import nearest
 
     near = nearest(name, sorted(known))
     if near is not None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from sleec_runtime.language.dsl import scanner as dsl
+from sleec_runtime.language.dsl import keywords as dsl
 from sleec_runtime.language.english import keywords
 from tests.fuzz import certificates, changes, files, made, pending, python, questions, rules
 from tests.fuzz.property import cpu_limit

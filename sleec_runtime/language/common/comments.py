@@ -14,7 +14,6 @@ from array import array
 from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
-from sleec_runtime.language.english.keywords import LINE_STARTS, SETTINGS
 from sleec_runtime.model import NO_COMMENTS, Comments
 
 INNER_GAP = "\n"
@@ -36,8 +35,8 @@ def attach(
     kinds: list[str],
     starts: array[int],
     ends: array[int],
-    line_starts: Collection[str] = LINE_STARTS,
-    settings: Collection[str] = SETTINGS,
+    line_starts: Collection[str],
+    settings: Collection[str],
     openings: Collection[str] = (),
 ) -> tuple[dict[int, Comments], tuple[str, ...]]:
     """The comments of each token that starts a line of rules, and those that come after the last one.

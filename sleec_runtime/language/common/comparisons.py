@@ -1,149 +1,37 @@
-"""Comparisons: what each side is, and whether the two fit."""
+"""Comparisons as they are written: operators, numbers, sides and scales."""
 
 from __future__ import annotations
 
-from sleec_runtime.language.common.token_reader import quoted
-from sleec_runtime.language.english.resolve import Names, Side, did_you_mean
-from sleec_runtime.model import Comparison, Measure, MeasureRef, Number, Operator, ScaleValue, Span, Term
+from typing import NamedTuple
+
+from sleec_runtime.model import Measure, Operator, Rational, Span
+
+MAX_DIGITS = 100
+
+OPERATORS: dict[str, Operator] = {
+    "<": "<",
+    "<=": "<=",
+    "\u2264": "<=",
+    "=": "=",
+    "==": "=",
+    "!=": "!=",
+    "<>": "!=",
+    "\u2260": "!=",
+    ">=": ">=",
+    "\u2265": ">=",
+    ">": ">",
+}
 
 
-class Comparisons:
-    """Makes comparisons of what is written, by the declarations in `names`, and infers the measures that have none."""
+class Side(NamedTuple):
+    """One side of a comparison as it is written: a name or a number. `braced` is true of a DSL measure in braces."""
 
-    def __init__(self, names: Names) -> None:
-        self._names = names
-        self._refs: dict[str, MeasureRef] = {}
-
-    def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison:
-        """``left operator right`` with each side as what it is; whatever does not fit is reported."""
-        terms = self._term(left, right), self._term(right, left)
-        self._check_fit(left, terms[0], right, terms[1], span)
-        return Comparison(terms[0], operator, terms[1], span)
-
-    def _term(self, side: Side, opposite: Side) -> Term:
-        name = side.written
-        if not isinstance(name, str):
-            return Number(name)
-        other = self._names.measures.get(opposite.written) if isinstance(opposite.written, str) else None
-        if other is not None and name in other.values:
-            return ScaleValue(name, other.values.index(name))
-        constant = self._names.constants.get(name)
-        if constant is not None:
-            return Number(constant.value, name)
-        self._names.compared.setdefault(name, side.span)
-        if (
-            name not in self._names.measures
-            and name not in self._names.inferred
-            and not self._is_out_of_place(name, other)
-        ):
-            self._names.inferred[name] = Measure(name, "number", declared=False, span=side.span)
-        ref = self._refs.get(name)
-        if ref is None:
-            ref = self._refs[name] = MeasureRef(name)
-        return ref
-
-    def _is_out_of_place(self, name: str, other: Measure | None) -> bool:
-        """Whether an undeclared name opposite `other` cannot be a number measure, which `_check_fit` reports."""
-        return name in self._names.scales or (other is not None and other.kind == "scale")
-
-    def _check_fit(self, left: Side, one: Term, right: Side, two: Term, span: Span) -> None:
-        if isinstance(one, MeasureRef) and isinstance(two, MeasureRef):
-            self._check_measures(left, right, span)
-        elif isinstance(one, MeasureRef) and isinstance(two, Number):
-            self._check_number(left, right)
-        elif isinstance(two, MeasureRef) and isinstance(one, Number):
-            self._check_number(right, left)
-        elif isinstance(one, Number) and isinstance(two, Number):
-            self._names.problem(
-                f"{_written(left)} and {_written(right)} are both fixed numbers, so the answer is always the same",
-                span,
-                "compare a measure with a number, or write true or false",
-            )
-
-    def _check_number(self, name: Side, number: Side) -> None:
-        measure = self._names.measures.get(str(name.written))
-        if measure is not None and measure.kind == "scale":
-            self._names.problem(
-                f"{_written(name)} is a scale and {_written(number)} is a number: they cannot be compared",
-                number.span,
-                f"compare it with one of its values: {_scale(measure)}",
-            )
-        elif measure is None and str(name.written) in self._names.scales:
-            self._problem_of_stray_value(name, number)
-
-    def _check_measures(self, left: Side, right: Side, span: Span) -> None:
-        one, two = self._measure(left), self._measure(right)
-        if one is None and two is None:
-            self._names.problem(
-                f"{_written(left)} and {_written(right)} are both values of a scale, so the answer is always the same",
-                span,
-                "compare a measure with one of its values",
-            )
-        elif one is None or two is None:
-            measure, known, unknown = (one, left, right) if one is not None else (two, right, left)
-            assert measure is not None
-            if measure.kind == "scale":
-                self._problem_of_wrong_value(measure, unknown)
-            else:
-                self._problem_of_stray_value(unknown, known)
-        elif (one.kind == "scale") != (two.kind == "scale"):
-            scale, other, values = (left, right, one) if one.kind == "scale" else (right, left, two)
-            self._names.problem(
-                f"{_written(scale)} is a scale and {_written(other)} is a number: they cannot be compared",
-                span,
-                f"compare {_written(scale)} with one of its values: {_scale(values)}",
-            )
-        elif one.values != two.values:
-            self._names.problem(
-                f"{_written(left)} and {_written(right)} have different scales: {_scale(one)}, and {_scale(two)}",
-                span,
-                "only measures of the same scale can be compared with each other",
-            )
-
-    def _measure(self, side: Side) -> Measure | None:
-        return self._names.measures.get(str(side.written)) or self._names.inferred.get(str(side.written))
-
-    def _problem_of_wrong_value(self, measure: Measure, side: Side) -> None:
-        owners = self._names.scales.get(str(side.written))
-        of_other = f": it is a value of {quoted(owners[0])}" if owners else ""
-        near = None if owners else self._names.nearest(str(side.written), measure.values)
-        self._names.problem(
-            f"{_written(side)} is no value of {quoted(measure.name)}{of_other}",
-            side.span,
-            f"{did_you_mean(near) + ' ' if near else ''}{quoted(measure.name)} can be {_scale(measure)}",
-        )
-
-    def _problem_of_stray_value(self, value: Side, opposite: Side) -> None:
-        """A value of a scale whose measure is not on the other side."""
-        owner = self._names.measures.get(self._names.scales[str(value.written)][0])
-        values = _scale(owner) if owner else "low < high"
-        if not isinstance(opposite.written, str) or opposite.written in self._names.constants:
-            self._names.problem(
-                f"{_written(value)} is a value of a scale and {_written(opposite)} a number: they cannot be compared",
-                opposite.span,
-                f"compare {quoted(owner.name) if owner else 'its measure'} with it",
-            )
-        elif opposite.written in self._names.measures:
-            self._names.problem(
-                f"{_written(opposite)} is a number, and {_written(value)} is a value of "
-                f"{quoted(owner.name) if owner else 'a scale'}: they cannot be compared",
-                value.span,
-                "compare it with a number",
-            )
-        else:
-            near = self._names.nearest(opposite.written, self._names.measures)
-            self._names.problem(
-                f"{_written(opposite)} is compared with a value of a scale, but no scale is declared for it",
-                opposite.span,
-                did_you_mean(near) or f"declare it: MEASURE {opposite.written}: {values}",
-            )
+    written: str | Rational
+    span: Span
+    braced: bool = False
 
 
-def _scale(measure: Measure) -> str:
-    if len(measure.values) > 8:
-        return " < ".join((*measure.values[:4], "...", measure.values[-1]))
-    return " < ".join(measure.values)
-
-
-def _written(side: Side) -> str:
-    return quoted(side.written if isinstance(side.written, str) else str(side.written))
+def scale_text(measure: Measure) -> str:
+    """The values of a scale, lowest first; a long scale is shortened."""
+    values = measure.values
+    return " < ".join((*values[:4], "...", values[-1]) if len(values) > 8 else values)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sleec_runtime.language.common.token_reader import quoted
+from sleec_runtime.language.common.problems import quoted
 
 
 def circular(circle: Sequence[str], keyword: str) -> tuple[str, str]:

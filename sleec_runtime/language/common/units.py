@@ -14,6 +14,6 @@ _SHORT = {
 
 def unit_meant(word: str) -> str | None:
     """The unit that a word which is none may stand for: its abbreviation, or misspelt."""
-    from sleec_runtime.language.common.suggestions import nearest
+    from sleec_runtime.support.suggestions import nearest
 
     return _SHORT.get(word.casefold()) or nearest(word, ("seconds", "minutes", "hours", "days"))

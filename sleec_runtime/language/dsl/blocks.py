@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sleec_runtime.language.common.suggestions import nearest
-from sleec_runtime.language.dsl.scanner import BLOCK_MARKS, BLOCKS, UNFINISHED
-from sleec_runtime.language.english.scanner import Tokens
+from sleec_runtime.language.common.tokens import Tokens
+from sleec_runtime.language.dsl.keywords import BLOCK_MARKS, BLOCKS, UNFINISHED
+from sleec_runtime.support.suggestions import nearest
 
 _MARKS = sorted(BLOCK_MARKS)
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from sleec_runtime.language.common.suggestions import nearest
-from sleec_runtime.language.common.token_reader import quoted
+from sleec_runtime.language.common.comparisons import Side
+from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.units import UNITS
 from sleec_runtime.language.dsl.formulas import FormulaParser
-from sleec_runtime.language.dsl.operands import Side
 from sleec_runtime.language.dsl.slips import type_meant
 from sleec_runtime.model import Agent, Constant, Declaration, Measure, Span
+from sleec_runtime.support.suggestions import nearest
 
 _TYPES = ("boolean", "numeric", "scale")
 

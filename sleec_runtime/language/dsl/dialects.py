@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from sleec_runtime.language.dsl.scanner import DEFINITIONS, UNNAMED
-from sleec_runtime.language.english.scanner import Tokens
+from sleec_runtime.language.common.tokens import Tokens
+from sleec_runtime.language.dsl.keywords import DEFINITIONS, LEGOS_KEYWORDS, UNNAMED
 from sleec_runtime.model import Dialect
-
-NAMES_OF_SLEEC_TK = frozenset({"exists", "while", "meanwhile", "until", "for"})
-"""Keywords that only claims and relations have, so that without these they can be names."""
 
 _LEGOS_ONLY = frozenset({"concern_start", "purpose_start", "relation_start", "eventually", "else", "->", "["})
 
 
-def dialect_of(text: str, tokens: Tokens) -> Dialect:
+def dialect_of(tokens: Tokens) -> Dialect:
     """The dialect of a text: LEGOS's has measures in braces and constructs of its own, SLEEC-TK's has conditions
     without braces. A text that has neither is taken for one of LEGOS.
 
@@ -22,10 +19,10 @@ def dialect_of(text: str, tokens: Tokens) -> Dialect:
     kinds = tokens.kinds
     if not _LEGOS_ONLY.isdisjoint(kinds) or _has_measures_in_braces(kinds):
         return "legos"
-    names = set() if NAMES_OF_SLEEC_TK.isdisjoint(kinds) else _defined(text, tokens)
+    names = set() if LEGOS_KEYWORDS.isdisjoint(kinds) else _defined(tokens)
     if names:
         for token, kind in enumerate(kinds):
-            if (kind in NAMES_OF_SLEEC_TK or kind == UNNAMED) and _text(text, tokens, token) in names:
+            if (kind in LEGOS_KEYWORDS or kind == UNNAMED) and tokens.text_of(token) in names:
                 kinds[token] = "word"
         return "sleec-tk"
     # A claim outside of its block is a mistake of someone who writes LEGOS's dialect.
@@ -33,18 +30,18 @@ def dialect_of(text: str, tokens: Tokens) -> Dialect:
     return "sleec-tk" if not claims and _has_bare_measures(kinds) else "legos"
 
 
-def _defined(text: str, tokens: Tokens) -> set[str]:
+def _defined(tokens: Tokens) -> set[str]:
     """The keywords of LEGOS that stand where a definition has a name, or a value of its scale."""
     kinds = tokens.kinds
     return {
         kind
         for token, kind in enumerate(kinds)
-        if kind in NAMES_OF_SLEEC_TK
+        if kind in LEGOS_KEYWORDS
         and token
         and (
             kinds[token - 1] in DEFINITIONS
             or kinds[token - 1] == ","
-            or (kinds[token - 1] == "(" and _text(text, tokens, token - 2) == "scale")
+            or (kinds[token - 1] == "(" and tokens.text_of(token - 2) == "scale")
         )
     }
 
@@ -67,7 +64,3 @@ def _has_bare_measures(kinds: list[str]) -> bool:
 
 
 _JOINING = ("and", "or", "unless")
-
-
-def _text(text: str, tokens: Tokens, token: int) -> str:
-    return text[tokens.starts[token] : tokens.ends[token]]

@@ -6,14 +6,14 @@ Measures may stand in braces or not, whatever the dialect.
 from __future__ import annotations
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.common.token_reader import quoted
-from sleec_runtime.language.dsl.cursor import Cursor
-from sleec_runtime.language.dsl.operands import Calculation, Operand, Side
-from sleec_runtime.language.dsl.scanner import KEYWORDS
+from sleec_runtime.language.common.comparisons import MAX_DIGITS, OPERATORS, Side
+from sleec_runtime.language.common.problems import quoted
+from sleec_runtime.language.common.tokens import Tokens
+from sleec_runtime.language.dsl.calculations import Calculation, Operand
+from sleec_runtime.language.dsl.comparisons import Terms
+from sleec_runtime.language.dsl.keywords import KEYWORDS
 from sleec_runtime.language.dsl.slips import COMPARING, before_measure
-from sleec_runtime.language.dsl.terms import Terms
-from sleec_runtime.language.english.formulas import MAX_DIGITS, OPERATORS
-from sleec_runtime.language.english.scanner import Tokens
+from sleec_runtime.language.dsl.token_cursor import Cursor
 from sleec_runtime.model import And, Atom, Dialect, Formula, Not, Or, Source, Span, Truth
 
 MAX_CALCULATION = 400

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from sleec_runtime.language.common.suggestions import nearest
-from sleec_runtime.language.common.token_reader import quoted
-from sleec_runtime.language.dsl.scanner import BLOCK_MARKS, DEFINITIONS
+from sleec_runtime.language.common.problems import quoted
+from sleec_runtime.language.common.tokens import Tokens
+from sleec_runtime.language.dsl.keywords import BLOCK_MARKS, DEFINITIONS
 from sleec_runtime.language.dsl.slips import means_when
-from sleec_runtime.language.english.scanner import Tokens
+from sleec_runtime.support.suggestions import nearest
 
 _KEYWORDS = sorted(DEFINITIONS)
 _MEANT = {

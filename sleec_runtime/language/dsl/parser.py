@@ -12,27 +12,19 @@ from typing import TypeVar, cast
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.common.gc_pause import uncollected
-from sleec_runtime.language.common.suggestions import nearest
-from sleec_runtime.language.common.token_reader import Abandon, quoted
+from sleec_runtime.language.common.problems import first_problems, quoted
+from sleec_runtime.language.common.token_cursor import Abandon
+from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.language.dsl.blocks import misspelt_marks
-from sleec_runtime.language.dsl.cursor import ITEM_STARTS
+from sleec_runtime.language.dsl.comparisons import Terms
 from sleec_runtime.language.dsl.dialects import dialect_of
+from sleec_runtime.language.dsl.keywords import BLOCKS, DEFINITIONS, EFFECTS, EVENT_RELATIONS, ITEM_STARTS, UNNAMED
 from sleec_runtime.language.dsl.misspelt import misspelt, misspelt_whens
 from sleec_runtime.language.dsl.relations import OF_MEASURES, RelationParser
-from sleec_runtime.language.dsl.scanner import (
-    BLOCKS,
-    DEFINITIONS,
-    EFFECTS,
-    EVENT_RELATIONS,
-    UNNAMED,
-    mark_relations,
-    scan,
-)
-from sleec_runtime.language.dsl.terms import Terms
-from sleec_runtime.language.english.resolve import first_problems
-from sleec_runtime.language.english.scanner import Tokens
+from sleec_runtime.language.dsl.scanner import mark_relations, scan
 from sleec_runtime.model import Clause, Constant, Formula, Rule, Ruleset, Source, Span, Statement
 from sleec_runtime.model.time import ClaimKind
+from sleec_runtime.support.suggestions import nearest
 
 _Read = TypeVar("_Read")
 _WHAT = {
@@ -61,7 +53,7 @@ def parse_dsl(source: Source) -> Ruleset:
     with uncollected():
         tokens = scan(source.text)
         _read_misspelt_marks(source, tokens, problems)
-        dialect = dialect_of(source.text, tokens)
+        dialect = dialect_of(tokens)
         names = Terms(source, problems, "def_start" in tokens.kinds)
         statements = DslParser(source, tokens, dialect, problems, names).statements()
     if problems:

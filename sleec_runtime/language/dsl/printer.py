@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from sleec_runtime.errors import Unsayable
 from sleec_runtime.language.common.formula_printer import print_number
 from sleec_runtime.language.common.line_printer import behind, comment_lines, split_heading, trimmed, with_gaps
-from sleec_runtime.language.common.token_reader import MAX_DEPTH
+from sleec_runtime.language.common.token_cursor import MAX_DEPTH
 from sleec_runtime.model import (
     And,
     Atom,

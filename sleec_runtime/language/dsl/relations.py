@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, cast
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.common.suggestions import nearest
-from sleec_runtime.language.common.token_reader import quoted
+from sleec_runtime.language.common.problems import quoted
+from sleec_runtime.language.dsl.keywords import UNNAMED
 from sleec_runtime.language.dsl.responses import ResponseParser
-from sleec_runtime.language.dsl.scanner import UNNAMED
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Span
 from sleec_runtime.model.time import (
     Claim,
@@ -17,6 +16,7 @@ from sleec_runtime.model.time import (
     Lasting,
     MeasureRelation,
 )
+from sleec_runtime.support.suggestions import nearest
 
 if TYPE_CHECKING:
     from sleec_runtime.model.time import ClaimForm, ClaimKind, EffectKind, EventRelationKind, MeasureRelationKind

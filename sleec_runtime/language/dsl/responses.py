@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
-from sleec_runtime.language.common.token_reader import ALTERNATIVE_LEVELS, Abandon, quoted
+from sleec_runtime.language.common.comparisons import Side
+from sleec_runtime.language.common.problems import quoted
+from sleec_runtime.language.common.token_cursor import ALTERNATIVE_LEVELS, Abandon
 from sleec_runtime.language.common.units import UNITS, unit_meant
-from sleec_runtime.language.dsl.cursor import ITEM_STARTS
 from sleec_runtime.language.dsl.definitions import DefinitionParser
-from sleec_runtime.language.dsl.operands import Side
+from sleec_runtime.language.dsl.keywords import ITEM_STARTS
 from sleec_runtime.language.dsl.slips import before_event, number_for, unit_for
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Number, Obligation, Span
 

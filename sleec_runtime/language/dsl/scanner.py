@@ -6,37 +6,20 @@ import re
 from array import array
 
 from sleec_runtime.language.common.comments import Remark, attach
+from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.language.common.units import UNITS
-from sleec_runtime.language.dsl.gaps import keep_gaps
-from sleec_runtime.language.english.scanner import Tokens
-
-BLOCKS = {f"{name}_start": f"{name}_end" for name in ("def", "rule", "concern", "purpose", "relation")}
-"""The keywords that open a block, each with the one that closes it."""
-
-UNNAMED = "unnamed"
-"""The kind of a ``when`` or ``exists`` that begins a rule or claim without a name."""
-
-BLOCK_MARKS = frozenset(BLOCKS) | frozenset(BLOCKS.values())
-DEFINITIONS = frozenset({"event", "measure", "constant"})
-KEYWORDS = (
-    BLOCK_MARKS
-    | DEFINITIONS
-    | {"when", "then", "unless", "within", "otherwise", "else", "not", "and", "or", "eventually"}
-    | {"exists", "while", "meanwhile", "until", "for", "true", "false"}
+from sleec_runtime.language.dsl.blank_lines import keep_gaps
+from sleec_runtime.language.dsl.keywords import (
+    BLOCK_MARKS,
+    BLOCKS,
+    EFFECTS,
+    EVENT_RELATIONS,
+    KEYWORDS,
+    LINE_STARTS,
+    STATEMENTS,
+    UNFINISHED,
+    UNNAMED,
 )
-EVENT_RELATIONS = frozenset({"witness", "equal", "mutualExclusive", "happenBefore"})
-EFFECTS = frozenset({"causation", "includes", "forbid"})
-
-UNFINISHED = DEFINITIONS | {
-    *("when", "exists", UNNAMED, "then", "while", "until", "otherwise", "else", "unless", "within"),
-    *("and", "or", "not", "operator", "+", "-", "*", "->", "(", "[", "{", ","),
-}
-"""The kinds of token behind which a name goes on with what they begin."""
-
-LINE_STARTS = BLOCK_MARKS | DEFINITIONS | {"label", "relation", "unless"}
-"""The kinds of token that begin a line where the printer writes one."""
-
-_STATEMENTS = DEFINITIONS | {"label", "relation"}
 
 _TOKEN = re.compile(
     r"\s+|//[^\n]*|/\*(?s:.*?)\*/|[^\W\d]\w*|[0-9]+(?:\.[0-9]+)?(?!\w)|\d\w*"
@@ -81,8 +64,8 @@ def scan(text: str) -> Tokens:
         ends.append(len(text))
     mark_relations(text, kinds, starts, ends)
     comments, closing = attach(remarks, text, kinds, starts, ends, LINE_STARTS, BLOCK_MARKS, BLOCKS)
-    keep_gaps(text, kinds, starts, ends, comments, _STATEMENTS, BLOCK_MARKS)
-    return Tokens(kinds, starts, ends, comments, closing)
+    keep_gaps(text, kinds, starts, ends, comments, STATEMENTS, BLOCK_MARKS)
+    return Tokens(text, kinds, starts, ends, comments, closing)
 
 
 def _mark_label(kind: str, text: str, start: int, kinds: list[str], starts: array[int], ends: array[int]) -> str:

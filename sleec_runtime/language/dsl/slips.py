@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from sleec_runtime.language.common.suggestions import nearest
 from sleec_runtime.language.common.units import UNITS
-from sleec_runtime.language.dsl.scanner import KEYWORDS
+from sleec_runtime.language.dsl.keywords import KEYWORDS
+from sleec_runtime.support.suggestions import nearest
 
 COMPARING = frozenset(
     {

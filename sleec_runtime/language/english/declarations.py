@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from sleec_runtime.language.common.suggestions import nearest
-from sleec_runtime.language.common.token_reader import quoted
+from sleec_runtime.language.common.comparisons import Side
+from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.english.formulas import FormulaParser
 from sleec_runtime.language.english.keywords import PHRASE
-from sleec_runtime.language.english.resolve import Side
 from sleec_runtime.model import Agent, Constant, Declaration, Kind, Measure, MeasureKind, Span
+from sleec_runtime.support.suggestions import nearest
 
 _KIND: dict[str, Kind] = {"TRIGGER": "trigger", "CONDITION": "condition", "OBLIGATION": "obligation"}
 _BY = "BY"

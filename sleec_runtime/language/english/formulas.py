@@ -7,32 +7,17 @@ from collections.abc import Callable
 from typing import NoReturn
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.common.comparisons import Comparisons
-from sleec_runtime.language.common.token_reader import quoted
-from sleec_runtime.language.english.cursor import Cursor
+from sleec_runtime.language.common.comparisons import MAX_DIGITS, OPERATORS, Side
+from sleec_runtime.language.common.problems import quoted
+from sleec_runtime.language.common.tokens import Tokens
+from sleec_runtime.language.english.comparisons import Comparisons
 from sleec_runtime.language.english.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
-from sleec_runtime.language.english.resolve import Names, Side
-from sleec_runtime.language.english.scanner import Tokens
-from sleec_runtime.model import And, Atom, Formula, Not, Operator, Or, Rational, Source, Span, Truth
+from sleec_runtime.language.english.name_resolution import Names
+from sleec_runtime.language.english.token_cursor import Cursor
+from sleec_runtime.model import And, Atom, Formula, Not, Or, Rational, Source, Span, Truth
 
-MAX_DIGITS = 100
 _DECIMAL_COMMA = re.compile(r"-?[0-9]+,[0-9]+")
 _THOUSANDS = re.compile(r"-?[1-9][0-9]{0,2},[0-9]{3}")
-
-OPERATORS: dict[str, Operator] = {
-    "<": "<",
-    "<=": "<=",
-    "\u2264": "<=",
-    "=": "=",
-    "==": "=",
-    "!=": "!=",
-    "<>": "!=",
-    "\u2260": "!=",
-    ">=": ">=",
-    "\u2265": ">=",
-    ">": ">",
-}
-
 
 Leaf = Callable[[str, Span], Atom]
 """What a bare name stands for."""

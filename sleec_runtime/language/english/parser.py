@@ -11,11 +11,12 @@ from typing import TypeVar
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.common.gc_pause import uncollected
-from sleec_runtime.language.common.suggestions import near_keyword, nearest
-from sleec_runtime.language.common.token_reader import Abandon, quoted
+from sleec_runtime.language.common.problems import first_problems, quoted
+from sleec_runtime.language.common.token_cursor import Abandon
+from sleec_runtime.language.english.keyword_correction import near_keyword
 from sleec_runtime.language.english.keywords import CLAIMS, DECLARATIONS, OPENINGS, RULE_STARTS, STATEMENTS
+from sleec_runtime.language.english.name_resolution import Names
 from sleec_runtime.language.english.relations import RelationParser
-from sleec_runtime.language.english.resolve import Names, first_problems
 from sleec_runtime.language.english.scanner import scan
 from sleec_runtime.model import (
     READINGS,
@@ -31,6 +32,7 @@ from sleec_runtime.model import (
     Statement,
     leaves,
 )
+from sleec_runtime.support.suggestions import nearest
 
 EVERYWHERE = "everywhere"
 DEFAULT_READING: Reading = "cascade"

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NoReturn
 
-from sleec_runtime.language.common.suggestions import nearest
 from sleec_runtime.language.english.formulas import Leaf
 from sleec_runtime.language.english.keywords import OCCASION, RELATION_WORDS, STATEMENTS
 from sleec_runtime.language.english.rules import RuleParser
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Span
+from sleec_runtime.support.suggestions import nearest
 
 if TYPE_CHECKING:
     from sleec_runtime.model.time import (

@@ -6,12 +6,12 @@ parentheses. What could be read in two ways must have parentheses: an AND behind
 
 from __future__ import annotations
 
-from sleec_runtime.language.common.suggestions import edits
-from sleec_runtime.language.common.token_reader import ALTERNATIVE_LEVELS, MAX_DEPTH
-from sleec_runtime.language.english.cursor import OBLIGATION
+from sleec_runtime.language.common.token_cursor import ALTERNATIVE_LEVELS, MAX_DEPTH
 from sleec_runtime.language.english.keywords import ALTERNATIVES, IN_WHICH_CASE, STATEMENTS
-from sleec_runtime.language.english.times import TimeParser
+from sleec_runtime.language.english.token_cursor import OBLIGATION
+from sleec_runtime.language.english.windows import TimeParser
 from sleec_runtime.model import Clause, Obligation
+from sleec_runtime.support.suggestions import edit_distance
 
 RULE_STOPS = STATEMENTS | {"UNLESS"}
 _Response = tuple[tuple[Obligation, ...], tuple[Clause, ...]]
@@ -47,7 +47,7 @@ class ResponseParser(TimeParser):
             at = self.at
             if self.kinds[at] == keyword:
                 self.at += 1
-            elif self.kinds[at] == "word" and edits(self.token_text(at)[:20].upper(), keyword, 3) < 3:
+            elif self.kinds[at] == "word" and edit_distance(self.token_text(at)[:20].upper(), keyword, 3) < 3:
                 self.misspelt(at, keyword)
                 self.at += 1
             else:

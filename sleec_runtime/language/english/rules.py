@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from typing import NoReturn
 
-from sleec_runtime.language.common.token_reader import Abandon, quoted
+from sleec_runtime.language.common.problems import quoted
+from sleec_runtime.language.common.token_cursor import Abandon
 from sleec_runtime.language.english.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
 from sleec_runtime.language.english.responses import RULE_STOPS, ResponseParser
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Or, Rule, Span

@@ -10,11 +10,18 @@ import re
 from array import array
 from itertools import accumulate, compress
 from operator import sub
-from typing import NamedTuple
 
 from sleec_runtime.language.common.comments import Remark, attach
-from sleec_runtime.language.english.keywords import CLAIMS, IN_WHICH_CASE, KEYWORDS, OCCASION, PHRASE
-from sleec_runtime.model import Comments
+from sleec_runtime.language.common.tokens import Tokens
+from sleec_runtime.language.english.keywords import (
+    CLAIMS,
+    IN_WHICH_CASE,
+    KEYWORDS,
+    LINE_STARTS,
+    OCCASION,
+    PHRASE,
+    SETTINGS,
+)
 
 _BLOCK = 1 << 16
 
@@ -65,20 +72,6 @@ _KINDS = _Kinds(
 )
 
 
-class Tokens(NamedTuple):
-    """The tokens of a text: `kinds[i]` is a keyword, a punctuation mark or a kind in lower case, and the token is
-    ``text[starts[i]:ends[i]]``. Three tokens of kind ``end`` close the sequence, so that one may look ahead.
-
-    `comments` holds the comments of the tokens that start a line of rules; `closing` those after all of them.
-    """
-
-    kinds: list[str]
-    starts: array[int]
-    ends: array[int]
-    comments: dict[int, Comments]
-    closing: tuple[str, ...]
-
-
 def scan(text: str) -> Tokens:
     """The tokens of `text`, in time linear in its length. Nothing is refused here; the parser says what is wrong."""
     kinds: list[str] = []
@@ -117,8 +110,8 @@ def scan(text: str) -> Tokens:
         starts.append(len(text))
         ends.append(len(text))
     _mark_occasions(kinds)
-    comments, closing = attach(remarks, text, kinds, starts, ends)
-    return Tokens(kinds, starts, ends, comments, closing)
+    comments, closing = attach(remarks, text, kinds, starts, ends, LINE_STARTS, SETTINGS)
+    return Tokens(text, kinds, starts, ends, comments, closing)
 
 
 def _mark_occasions(kinds: list[str]) -> None:

@@ -98,7 +98,7 @@ class _Reader:
         for key, value in table.items():
             name = f"{at}.{key}" if at else key
             if key not in keys:
-                from sleec_runtime.language.common.suggestions import nearest
+                from sleec_runtime.support.suggestions import nearest
 
                 near = nearest(key, sorted(keys))
                 hint = f"did you mean {near}?" if near else f"there are {', '.join(sorted(keys))}"

@@ -91,7 +91,7 @@ def _wrong(said: re.Match[str] | None, known: Collection[str]) -> tuple[str, str
         return "a suppression needs a reason", "say why behind it: because …"
     for name in (part.strip() for part in said.group(1).split(",")):
         if name not in known:
-            from sleec_runtime.language.common.suggestions import nearest
+            from sleec_runtime.support.suggestions import nearest
 
             near = nearest(name, sorted(known))
             hint = f"did you mean {near}?" if near else "`sleec-verify rules` lists all of them"

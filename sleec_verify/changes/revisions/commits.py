@@ -29,7 +29,7 @@ def _commit(revision: str) -> str | None:
 
 
 def _hint(revision: str) -> str:
-    from sleec_runtime.language.common.suggestions import nearest
+    from sleec_runtime.support.suggestions import nearest
 
     if git.run("rev-list", "--max-count=1", "--all", "HEAD", "--").returncode:
         return "nothing has been committed yet; a first commit has nothing to be compared with"

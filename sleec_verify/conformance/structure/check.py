@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections import Counter
 
-from sleec_runtime.language.common.suggestions import nearest
 from sleec_runtime.model import Rule, Ruleset
+from sleec_runtime.support.suggestions import nearest
 from sleec_verify.conformance.structure.abstract_execution import Tracer
 from sleec_verify.conformance.structure.bypasses import Around
 from sleec_verify.conformance.structure.layering import MethodCheck

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from sleec_runtime.language.common.suggestions import nearest
 from sleec_runtime.model import Rule
+from sleec_runtime.support.suggestions import nearest
 from sleec_verify.checks.base import listed
 from sleec_verify.conformance.structure.abstract_execution import Trace, Tracer
 from sleec_verify.conformance.structure.bodies import compare

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from sleec_runtime.language.common.suggestions import nearest
 from sleec_runtime.model import Rule
+from sleec_runtime.support.suggestions import nearest
 from sleec_verify.checks.base import listed
 from sleec_verify.conformance.structure.names import Names
 from sleec_verify.conformance.structure.program import Class, Function, Scope

@@ -8,8 +8,7 @@ from dataclasses import replace
 from typing import NoReturn
 
 from sleec_runtime.errors import Unsayable
-from sleec_runtime.language.dsl.dialects import NAMES_OF_SLEEC_TK
-from sleec_runtime.language.dsl.scanner import KEYWORDS
+from sleec_runtime.language.dsl.keywords import KEYWORDS, LEGOS_KEYWORDS
 from sleec_runtime.model import (
     NO_COMMENTS,
     NOWHERE,
@@ -162,7 +161,7 @@ def _refuse_keywords_of_legos(ruleset: Ruleset, statements: Iterable[Statement])
     for statement in statements:
         values = statement.values if isinstance(statement, Measure) else ()
         for name in (*defined_by(statement), *values):
-            if name in NAMES_OF_SLEEC_TK:
+            if name in LEGOS_KEYWORDS:
                 span = statement.span if statement.span != NOWHERE else None
                 refuse(ruleset, f"\u201c{name}\u201d is a keyword of LEGOS", span, _RENAME)
 
@@ -175,14 +174,14 @@ def defined_by(statement: Statement) -> tuple[str, ...]:
 
 
 def _label(ruleset: Ruleset, label: str, span: Span) -> None:
-    if label in NAMES_OF_SLEEC_TK:
+    if label in LEGOS_KEYWORDS:
         refuse(ruleset, f"\u201c{label}\u201d is a keyword of the DSL", span, _RENAME)
     _name(ruleset, label, span)
 
 
 def _name(ruleset: Ruleset, name: str, span: Span | None = None) -> str:
     """A name that SLEEC-TK can say; LEGOS has more keywords."""
-    is_keyword = name in KEYWORDS - NAMES_OF_SLEEC_TK
+    is_keyword = name in KEYWORDS - LEGOS_KEYWORDS
     if _NAME.fullmatch(name) is None or is_keyword:
         what = "is a keyword of the DSL" if is_keyword else "is no name of the DSL: letters, digits and _ only"
         refuse(ruleset, f"\u201c{name}\u201d {what}", span, _RENAME)

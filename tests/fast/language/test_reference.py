@@ -9,7 +9,7 @@ import pytest
 
 from sleec_runtime import model
 from sleec_runtime.language import parse
-from sleec_runtime.language.dsl import scanner as dsl
+from sleec_runtime.language.dsl import keywords as dsl
 from sleec_runtime.language.english import keywords
 from tests.support.paths import ROOT
 

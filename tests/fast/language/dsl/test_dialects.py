@@ -6,7 +6,7 @@ import pytest
 
 from sleec_runtime.errors import LanguageError, Unsayable
 from sleec_runtime.language import parse, print_ruleset
-from sleec_runtime.language.dsl.dialects import NAMES_OF_SLEEC_TK
+from sleec_runtime.language.dsl.keywords import LEGOS_KEYWORDS
 from sleec_verify.exchange.conversion import convert
 
 AS_EVENT = """def_start
@@ -56,7 +56,7 @@ rule_end
 
 
 @pytest.mark.parametrize("text", [AS_EVENT, AS_MEASURE, AS_CONSTANT, AS_VALUE])
-@pytest.mark.parametrize("word", sorted(NAMES_OF_SLEEC_TK))
+@pytest.mark.parametrize("word", sorted(LEGOS_KEYWORDS))
 def test_a_keyword_of_claims_and_relations_may_be_a_name(word: str, text: str) -> None:
     written = text.format(word)
     ruleset = parse(written)

@@ -6,11 +6,9 @@ from dataclasses import replace
 from typing import Literal
 
 from sleec_runtime.errors import Problem
+from sleec_runtime.language.common.comparisons import Side
 from sleec_runtime.language.common.constant_cycles import circular
-from sleec_runtime.language.common.suggestions import Suggester
-from sleec_runtime.language.common.token_reader import quoted
-from sleec_runtime.language.dsl.operands import Side
-from sleec_runtime.language.english.resolve import MAX_PROBLEMS, did_you_mean
+from sleec_runtime.language.common.problems import MAX_PROBLEMS, quoted
 from sleec_runtime.model import (
     Constant,
     Declaration,
@@ -20,6 +18,7 @@ from sleec_runtime.model import (
     Source,
     Span,
 )
+from sleec_runtime.support.suggestions import Suggester, did_you_mean
 
 NameKind = Literal["event", "boolean", "measure", "constant"]
 _ARTICLE = {"event": "an event", "boolean": "a boolean measure", "measure": "a measure", "constant": "a constant"}

@@ -4,15 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple, Union
 
-from sleec_runtime.model import Rational, Span
-
-
-class Side(NamedTuple):
-    """One side of a comparison as it is written; `braced` if it is a measure in braces."""
-
-    written: str | Rational
-    span: Span
-    braced: bool = False
+from sleec_runtime.language.common.comparisons import Side
+from sleec_runtime.model import Span
 
 
 class Calculation(NamedTuple):

@@ -9,11 +9,10 @@ from fractions import Fraction
 from math import ceil, floor, gcd
 from typing import Union
 
-from sleec_runtime.language.common.token_reader import quoted
-from sleec_runtime.language.dsl.names import Names
-from sleec_runtime.language.dsl.operands import Operand, Side, Sum
-from sleec_runtime.language.english.formulas import MAX_DIGITS
-from sleec_runtime.language.english.resolve import did_you_mean
+from sleec_runtime.language.common.comparisons import MAX_DIGITS, Side, scale_text
+from sleec_runtime.language.common.problems import quoted
+from sleec_runtime.language.dsl.calculations import Operand, Sum
+from sleec_runtime.language.dsl.name_resolution import Names
 from sleec_runtime.model import (
     Calculated,
     Comparison,
@@ -30,6 +29,7 @@ from sleec_runtime.model import (
     Term,
     Truth,
 )
+from sleec_runtime.support.suggestions import did_you_mean
 
 MAX_TERMS = 20
 """Parts that what a calculation comes to may have: written with all parentheses, they are no longer than one may be."""
@@ -152,7 +152,7 @@ class Terms(Names):
             if one.values != two.values:
                 self.problem(
                     f"{quoted(one.name)} and {quoted(two.name)} have different scales: "
-                    f"{_values(one)}, and {_values(two)}",
+                    f"{scale_text(one)} and {scale_text(two)}",
                     span,
                     "only measures of the same scale can be compared with each other",
                 )
@@ -222,7 +222,7 @@ class Terms(Names):
         """What else may be meant by a comparison of a boolean measure with `other`."""
         measure = self._owners.get(str(other)) or self.measures.get(str(other))
         if measure is not None and measure.kind == "scale":
-            return f"; {quoted(measure.name)} can be {_values(measure)}"
+            return f"; {quoted(measure.name)} can be {scale_text(measure)}"
         kind = self.kinds.get(str(other))
         if kind == "boolean" and other != boolean:
             return f"; that both are alike is ({boolean} and {other}) or (not {boolean} and not {other})"
@@ -256,7 +256,7 @@ class Terms(Names):
         self.problem(
             f"{what} no value of {quoted(measure.name)}",
             side.span,
-            f"{did_you_mean(near) + ' ' if near else ''}{quoted(measure.name)} can be {_values(measure)}",
+            f"{did_you_mean(near) + ' ' if near else ''}{quoted(measure.name)} can be {scale_text(measure)}",
         )
         return None
 
@@ -264,7 +264,7 @@ class Terms(Names):
         self, measure: Measure, written: str, rank: int, kind: DefectKind, said: str, span: Span
     ) -> ScaleValue:
         """What is no value of the measure, as the value in that place of its scale; there may be none."""
-        can_be = f"{measure.name} can be {_values(measure)}"
+        can_be = f"{measure.name} can be {scale_text(measure)}"
         if 0 <= rank < len(measure.values):
             meant = measure.values[rank]
             place = "the same place" if kind == "foreign-value" else f"place {rank}, counted from 0"
@@ -306,8 +306,3 @@ def _with_whole_number(measure: MeasureRef | Calculated, operator: Operator, num
         return Truth(operator == "!=", span)
     up = operator in ("<", ">=")
     return Comparison(measure, operator, Number(ceil(number) if up else floor(number)), span)
-
-
-def _values(measure: Measure) -> str:
-    values = measure.values
-    return " < ".join((*values[:4], "...", values[-1]) if len(values) > 8 else values)

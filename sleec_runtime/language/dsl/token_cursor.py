@@ -5,15 +5,13 @@ from __future__ import annotations
 from typing import NoReturn
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.common.suggestions import nearest
-from sleec_runtime.language.common.token_reader import MAX_DEPTH, MAX_NAME, TokenReader, composed, quoted
-from sleec_runtime.language.dsl.scanner import BLOCK_MARKS, BLOCKS, DEFINITIONS, KEYWORDS, UNNAMED
+from sleec_runtime.language.common.problems import quoted
+from sleec_runtime.language.common.token_cursor import MAX_DEPTH, MAX_NAME, TokenCursor, composed
+from sleec_runtime.language.common.tokens import Tokens
+from sleec_runtime.language.dsl.keywords import BLOCKS, DEFINITIONS, ITEM_STARTS, KEYWORDS
 from sleec_runtime.language.dsl.slips import MEANT, Found, help_with, means_when
-from sleec_runtime.language.english.scanner import Tokens
 from sleec_runtime.model import Dialect, Source, Span
-
-ITEM_STARTS = BLOCK_MARKS | DEFINITIONS | {"label", UNNAMED, "relation", "end"}
-"""The kinds of token that start a definition, a rule, a claim or a relation, or end a block."""
+from sleec_runtime.support.suggestions import nearest
 
 _SUGGESTED = sorted(KEYWORDS)
 _INSTEAD = {
@@ -35,7 +33,7 @@ _INSTEAD = {
 _DEFINE = "a definition begins with event, measure or constant, as in: event SmokeDetected"
 
 
-class Cursor(TokenReader):
+class Cursor(TokenCursor):
     """Where the parser of the DSL stands, and what it does with names, keywords and mistakes."""
 
     item = "rule"

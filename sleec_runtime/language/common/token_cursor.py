@@ -10,7 +10,7 @@ from collections.abc import Collection
 from typing import NoReturn
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.english.scanner import Tokens
+from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.model import NO_COMMENTS, Comments, Source, Span
 
 MAX_DEPTH = 100
@@ -27,7 +27,7 @@ class Abandon(Exception):
     """The clause at hand cannot be read further. The problem has been reported; parsing goes on elsewhere."""
 
 
-class TokenReader:
+class TokenCursor:
     """Where a parser stands in `tokens`, and the problems that it has met so far."""
 
     def __init__(self, source: Source, tokens: Tokens, problems: list[Problem]) -> None:
@@ -87,9 +87,3 @@ def composed(name: str) -> str:
     import unicodedata
 
     return unicodedata.normalize("NFC", name)
-
-
-def quoted(text: str) -> str:
-    """`text` on one line, cut short, for a message."""
-    text = " ".join(text[:200].split())
-    return f"`{text[:37]}...`" if len(text) > 40 else f"`{text}`"

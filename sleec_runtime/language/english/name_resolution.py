@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import replace
-from typing import NamedTuple
 
 from sleec_runtime.errors import Problem
+from sleec_runtime.language.common.comparisons import Side
 from sleec_runtime.language.common.constant_cycles import circular
-from sleec_runtime.language.common.suggestions import Suggester
-from sleec_runtime.language.common.token_reader import quoted
+from sleec_runtime.language.common.problems import MAX_PROBLEMS, quoted
 from sleec_runtime.model import (
     NOWHERE,
     Agent,
@@ -23,22 +22,12 @@ from sleec_runtime.model import (
     Measure,
     MeasureRef,
     Number,
-    Rational,
     Source,
     Span,
 )
-
-MAX_PROBLEMS = 100
-"""As many problems as are shown of one text; of the others, only how many there are."""
+from sleec_runtime.support.suggestions import Suggester, did_you_mean
 
 _KINDS: tuple[Kind, ...] = ("trigger", "condition", "obligation")
-
-
-class Side(NamedTuple):
-    """One side of a comparison as it is written: a name, or a number."""
-
-    written: str | Rational
-    span: Span
 
 
 class Names:
@@ -385,17 +374,3 @@ _APART = (
 
 def _owned(agent: Agent | None) -> str:
     return f"BY {agent}" if agent is not None else "without BY"
-
-
-def did_you_mean(name: str | None) -> str:
-    return f"did you mean {quoted(name)}?" if name else ""
-
-
-def first_problems(problems: list[Problem]) -> list[Problem]:
-    """The first problems in the order of the text, and how many more there are."""
-    problems.sort(key=lambda problem: problem.span)
-    more = len(problems) - MAX_PROBLEMS
-    if more > 0:
-        span = problems[MAX_PROBLEMS].span
-        problems[MAX_PROBLEMS:] = [Problem(f"and {more:,} more problems", span, "mend the first ones and try again")]
-    return problems

@@ -6,11 +6,12 @@ import re
 from typing import NoReturn
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.common.suggestions import near_keyword
-from sleec_runtime.language.common.token_reader import MAX_DEPTH, MAX_NAME, Abandon, TokenReader, composed, quoted
+from sleec_runtime.language.common.problems import quoted
+from sleec_runtime.language.common.token_cursor import MAX_DEPTH, MAX_NAME, Abandon, TokenCursor, composed
+from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.language.common.units import UNITS
+from sleec_runtime.language.english.keyword_correction import near_keyword
 from sleec_runtime.language.english.keywords import IN_WHICH_CASE, KEYWORDS, PHRASE, STATEMENTS
-from sleec_runtime.language.english.scanner import Tokens
 from sleec_runtime.model import Source, Span
 
 _INNER_CAPITAL = re.compile(r"[^\W\d_][^\s]*?(?<=[^\W\d_A-Z])[A-Z]|_")
@@ -58,7 +59,7 @@ _INSTEAD = {
 }
 
 
-class Cursor(TokenReader):
+class Cursor(TokenCursor):
     """Where the parser of structured English stands, and what it does with names, keywords and mistakes."""
 
     def __init__(self, source: Source, tokens: Tokens, problems: list[Problem]) -> None:

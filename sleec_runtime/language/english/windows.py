@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple, NoReturn, cast
 
-from sleec_runtime.language.common.token_reader import MAX_NAME, composed, quoted
+from sleec_runtime.language.common.comparisons import MAX_DIGITS
+from sleec_runtime.language.common.problems import quoted
+from sleec_runtime.language.common.token_cursor import MAX_NAME, composed
 from sleec_runtime.language.common.units import UNITS, unit_meant
 from sleec_runtime.language.english.declarations import DeclarationParser
-from sleec_runtime.language.english.formulas import MAX_DIGITS
 from sleec_runtime.language.english.keywords import ALTERNATIVES, PHRASE, TIMES
 from sleec_runtime.model import MeasureRef, Number, Span
 
