@@ -5,16 +5,17 @@ from __future__ import annotations
 import subprocess
 import sys
 from importlib.metadata import entry_points
-from pathlib import Path
 
 import pytest
 
-# Loaded here, because pytester unloads what is loaded within a run, and modules would exist twice in the next one.
 import sleec_verify.pytest_plugin
 import sleec_verify.pytest_plugin.items
 import sleec_verify.pytest_plugin.summary  # noqa: F401
 from sleec_runtime.language import parse
 from sleec_verify.checks import checks_for
+
+# Loaded here, because pytester unloads what is loaded within a run, and modules would exist twice in the next one.
+from tests.support.paths import ROOT
 
 RULES = """
 MEASURE Age: number
@@ -358,7 +359,7 @@ def test_a_project_without_rules_pays_nothing() -> None:
         "print(*[m for m in sys.modules if m.startswith(('sleec_runtime', 'sleec_verify.', 'pysat', 'contextpy3'))])"
     )
     environment = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTHONPATH": ".", "PATH": ""}
-    nothing = str(Path(__file__).parents[2] / "support" / "mutants")
+    nothing = str(ROOT / "tests" / "support" / "mutants")
     done = subprocess.run([sys.executable, "-c", code, nothing], capture_output=True, text=True, env=environment)
     # Of the packages only what an import of their names brings: the modules in them are imported where they are used.
     assert done.stdout.split("\n")[-2] == "sleec_runtime sleec_verify.pytest_plugin", done.stderr
