@@ -36,9 +36,9 @@ def nearest(name: str, known: Iterable[str]) -> str | None:
     return best
 
 
-def did_you_mean(name: str | None) -> str | None:
-    """The hint that suggests `name`; None if there is none to suggest."""
-    return f"did you mean `{name}`?" if name else None
+def did_you_mean(name: str | None) -> str:
+    """The hint that suggests `name`, or an empty string."""
+    return f"did you mean `{name}`?" if name else ""
 
 
 def edit_distance(one: str, other: str, limit: int) -> int:

@@ -97,7 +97,8 @@ class Comparisons:
             )
         elif one.values != two.values:
             self._names.problem(
-                f"{_written(left)} and {_written(right)} have different scales: {scale_text(one)} and {scale_text(two)}",
+                f"{_written(left)} and {_written(right)} have different scales: "
+                f"{scale_text(one)} and {scale_text(two)}",
                 span,
                 "only measures of the same scale can be compared with each other",
             )
