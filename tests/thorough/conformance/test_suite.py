@@ -265,7 +265,7 @@ def test_public_names() -> None:
 
 
 def test_the_counts_of_the_guide() -> None:
-    """docs/conformance-tests.md prints how many situations the suite covers, beside the 800 dispatches of the paper's E1."""
+    """docs/conformance-tests.md prints the number of situations, beside the 800 dispatches of E1 (paper)."""
     guide = Path("docs/conformance-tests.md").read_text(encoding="utf-8")
     (situations,) = re.findall(r"\*\*(\d+)\*\* situations", guide)
     assert each_rule(Bench(make_sleec)) == int(situations)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from importlib.metadata import entry_points
+from pathlib import Path
 
 import pytest
 
@@ -15,7 +16,6 @@ from sleec_runtime.language import parse
 from sleec_verify.checks import checks_for
 
 # Loaded here, because pytester unloads what is loaded within a run, and modules would exist twice in the next one.
-from tests.support.paths import ROOT
 
 RULES = """
 MEASURE Age: number
@@ -352,14 +352,13 @@ def test_a_threshold_is_not_met_by_using_no_rules(run, pytester: pytest.Pytester
     assert result.ret == pytest.ExitCode.TESTS_FAILED
 
 
-def test_a_project_without_rules_pays_nothing() -> None:
+def test_a_project_without_rules_pays_nothing(tmp_path: Path) -> None:
     code = (
         "import sys, pytest\n"
         "pytest.main(['-p', 'no:cacheprovider', '-p', 'sleec_verify.pytest_plugin', '-q', '--co', sys.argv[1]])\n"
         "print(*[m for m in sys.modules if m.startswith(('sleec_runtime', 'sleec_verify.', 'pysat', 'contextpy3'))])"
     )
     environment = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTHONPATH": ".", "PATH": ""}
-    nothing = str(ROOT / "tests" / "support" / "mutants")
-    done = subprocess.run([sys.executable, "-c", code, nothing], capture_output=True, text=True, env=environment)
+    done = subprocess.run([sys.executable, "-c", code, str(tmp_path)], capture_output=True, text=True, env=environment)
     # Of the packages only what an import of their names brings: the modules in them are imported where they are used.
     assert done.stdout.split("\n")[-2] == "sleec_runtime sleec_verify.pytest_plugin", done.stderr
