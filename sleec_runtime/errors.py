@@ -1,23 +1,21 @@
-"""The errors that a user can cause. Each says what is wrong and what to do; none needs a traceback."""
+"""The errors that a user can cause. Each says what is wrong, where, and how to fix it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 from sleec_runtime.support.messages import LONGEST, bounded, escaped, listed, represent
-
-if TYPE_CHECKING:
-    from sleec_runtime.evaluation.conflicts import Conflict
-    from sleec_runtime.model import Source, Span
+from sleec_runtime.support.spans import Source, Span
+from sleec_runtime.support.suggestions import nearest
 
 
 class SleecError(Exception):
-    """Base of every error that a user of sleec can cause.
+    """The base of all errors that a user can cause.
 
-    `message` says what is wrong, `hint` what to do about it (or None). Each has at most 2,000 characters; a longer
-    one is cut.
+    `message` says what is wrong. `hint` says how to fix it, or is None. Each has at most 2,000 characters; longer text
+    is shortened.
     """
 
     def __init__(self, message: str, hint: str | None = None) -> None:
@@ -26,18 +24,17 @@ class SleecError(Exception):
         super().__init__(self.message)
 
     def __str__(self) -> str:
-        """A line for each thing that is wrong, up to 4,000 characters. What could steer a terminal or forge a line is
-        escaped."""
+        """A line for each problem, up to 4,000 characters. Control characters and line breaks in names are escaped."""
         return bounded("\n".join(map(escaped, self.sentences())), 2 * LONGEST)
 
     def sentences(self) -> list[str]:
-        """Each thing that is wrong, with what to do about it, as it is."""
+        """Each problem with its hint, not escaped."""
         return [f"{self.message} ({self.hint})" if self.hint else self.message]
 
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong with a text of rules: where, what, and what to try."""
+    """A problem in a text of rules, with its place and a hint."""
 
     message: str
     span: Span
@@ -45,7 +42,7 @@ class Problem:
 
 
 class LanguageError(SleecError):
-    """A text that is not a ruleset. It holds every problem that was found, in the order of the text."""
+    """A text that is not a valid ruleset. `problems` are in text order."""
 
     def __init__(self, source: Source, problems: Sequence[Problem]) -> None:
         self.source = source
@@ -62,16 +59,16 @@ class LanguageError(SleecError):
 
 
 class Unsayable(SleecError):
-    """Something in a ruleset that a language has no words for."""
+    """A construct of a ruleset that a language cannot express."""
 
 
 class UnreadableFile(SleecError):
-    """A file that cannot be read as text: missing, forbidden, too large, no regular file, or not UTF-8 text."""
+    """A file that cannot be read: missing, forbidden, too large, not a regular file, or not UTF-8 text."""
 
 
 class CertificateRefused(SleecError):
-    """A certificate that is none, or does not hold of the rules at hand. `problems` pairs each reason, one of those in
-    docs/certificates.md, with a sentence on it."""
+    """A certificate that is malformed, or does not cover the rules at hand. `problems` pairs each reason, one of those
+    in docs/certificates.md, with a message."""
 
     def __init__(self, problems: Sequence[tuple[str, str]], hint: str | None = None) -> None:
         super().__init__("\n".join(message for _, message in problems), hint)
@@ -82,11 +79,12 @@ class CertificateRefused(SleecError):
         return [*messages[:-1], f"{messages[-1]} ({self.hint})" if self.hint else messages[-1]]
 
 
-# What the runtime refuses, before anything is executed ----------------------------------------------------
+# Raised before anything is executed ----------------------------------------------------
 
 
 class UnsupportedTimes(SleecError):
-    """Rules with times, or relations, given to what cannot keep them. `lines` are those of the constructs."""
+    """Rules with times or relations, given to a command or mode that does not support them. `lines` are the lines of
+    the constructs."""
 
     def __init__(self, message: str, lines: Sequence[int], hint: str | None = None) -> None:
         super().__init__(
@@ -96,8 +94,8 @@ class UnsupportedTimes(SleecError):
 
 
 class UnsupportedCalculations(SleecError):
-    """Rules that calculate with several measures, given to what does not analyse that. `lines` are those of the
-    calculations, 0 for one that is in no text."""
+    """Rules that calculate with several measures, given to a command that does not support it. `lines` are the lines
+    of the calculations, 0 for one that is not from a text."""
 
     def __init__(self, message: str, lines: Sequence[int]) -> None:
         super().__init__(
@@ -109,12 +107,11 @@ class UnsupportedCalculations(SleecError):
 
 
 class WrongArguments(SleecError, TypeError):
-    """Arguments of a trigger that the code of one of its rules does not take. A TypeError too, as a call that does not
-    fit is one."""
+    """Arguments of a trigger that do not fit the signature of the code of one of its rules."""
 
 
 class WrongType(SleecError):
-    """A value that does not fit its condition or measure; `name` is that of the condition or measure."""
+    """A value that does not fit its condition, measure or parameter. `name` is the name of the latter."""
 
     def __init__(self, name: str, value: object, expected: str, hint: str | None = None) -> None:
         super().__init__(f"{name} is {expected}, and {represent(value)} is not", hint)
@@ -122,7 +119,7 @@ class WrongType(SleecError):
 
 
 class UnknownName(SleecError, LookupError):
-    """A name that the ruleset does not know. `name` is the name; the hint suggests the nearest known one."""
+    """A name that the ruleset does not have. The hint suggests the nearest known name."""
 
     kind = "name"
     holder = "the ruleset"
@@ -135,8 +132,6 @@ class UnknownName(SleecError, LookupError):
         self.name = name
 
     def _suggestion(self, name: str, known: Sequence[str]) -> str:
-        from sleec_runtime.support.suggestions import nearest
-
         near = nearest(name, known)
         if near is not None:
             return f"did you mean {near}?"
@@ -170,8 +165,7 @@ class UnknownDomain(UnknownName):
 
 
 class NotBound(SleecError):
-    """Rules that have nothing to run, or not all of it: no method, or no variant for a clause that obliges something.
-    `rules` are their labels."""
+    """Rules without code: no method, or no variant for a clause with obligations. `rules` are their labels."""
 
     def __init__(self, message: str, rules: Sequence[str], hint: str | None = None) -> None:
         super().__init__(message, hint)
@@ -179,16 +173,16 @@ class NotBound(SleecError):
 
 
 class AlreadyBound(SleecError):
-    """A second method for a rule: the method manager MM gives each rule one (paper, Section 3.2)."""
+    """A second method for a rule: the method manager MM maps each rule to one method (paper, Section 3.2)."""
 
 
 class Unbindable(SleecError):
-    """What cannot be a rule's method: it is not marked, or something besides the rule would choose its variant."""
+    """A callable that cannot be the method of a rule, for example because it is not marked."""
 
 
 class UndeterminedDecision(SleecError):
-    """What is due depends on what nobody reported: in strict mode on conditions; in any, on a measure that says how
-    long a window is. `missing` names them."""
+    """A decision that depends on unreported conditions (in strict mode), or on an unreported measure that gives the
+    length of a window (in any mode). `missing` are their names."""
 
     def __init__(self, triggers: Sequence[str], missing: Sequence[str], hint: str | None = None) -> None:
         super().__init__(
@@ -199,17 +193,23 @@ class UndeterminedDecision(SleecError):
 
 
 class ConflictInContext(SleecError):
-    """What is due cannot all be done in this context, so nothing is. `conflict` holds the smallest cause; None where
-    that is a prohibition that is in force since before."""
+    """The obligations of this context contradict each other, so none is executed.
 
-    def __init__(self, message: str, conflict: Conflict | None) -> None:
+    `conflict` is the smallest cause, an `evaluation.conflicts.Conflict`. It is None if the cause is a prohibition that
+    is in force since an earlier trigger.
+    """
+
+    def __init__(self, message: str, conflict: Any) -> None:
         super().__init__(message, "nothing was executed; `sleec-verify check` finds every such context beforehand")
         self.conflict = conflict
 
 
 class Prohibited(ConflictInContext):
-    """`obligation` is due, or was done, while a rule forbids it, by a prohibition with a window. From the second `over`
-    on the instance's clock, it is forbidden no more; None if there is no such time."""
+    """An obligation that is due, or was done, while a prohibition with a window forbids it.
+
+    `over` is the first whole second, on the clock of the instance, at which it is no longer forbidden; None if it stays
+    forbidden.
+    """
 
     def __init__(self, message: str, obligation: str, over: int | None, hint: str) -> None:
         super().__init__(message, None)
@@ -219,12 +219,12 @@ class Prohibited(ConflictInContext):
 
 
 class NeedsAwait(SleecError):
-    """A coroutine function among the variants of a trigger that was not awaited."""
+    """A coroutine function among the variants of a trigger that is not awaited."""
 
 
 class Reentrant(SleecError):
-    """A call that comes while the same thread is changing the same instance: from a signal handler, a finalizer, or a
-    clock. It has changed nothing."""
+    """A call within a change of the same instance by the same thread: from a signal handler, a finalizer or a clock.
+    It changes nothing."""
 
     def __init__(self) -> None:
         super().__init__(
@@ -234,8 +234,8 @@ class Reentrant(SleecError):
 
 
 class Forked(SleecError):
-    """A call in a process made by `os.fork`, of an instance with which something was pending then: the process that was
-    forked goes on with that."""
+    """A call, in a process made by `os.fork`, of an instance that had pending obligations at the fork. The parent
+    process continues with these."""
 
     def __init__(self) -> None:
         super().__init__(
@@ -246,19 +246,23 @@ class Forked(SleecError):
 
 
 class VariantsFailed(SleecError):
-    """Several variants of one dispatch raised. `errors` pairs the label of each rule with what its variant raised."""
+    """Errors of several variants of one dispatch. `errors` pairs the label of each rule with the error of its
+    variant."""
 
     def __init__(self, errors: Sequence[tuple[str, BaseException]]) -> None:
         super().__init__(listed([f"{label}: {represent(error)}" for label, error in errors], "; "))
         self.errors = tuple(errors)
 
 
-# What happens while time passes ---------------------------------------------------------------------------
+# Raised or reported while time passes ---------------------------------------------------------------------------
 
 
 class DeadlineMissed(SleecError):
-    """`obligation` was not done in its window, and no rule says what is due in its place. `until` is when that closed;
-    None if it had no end, and what is due at once failed."""
+    """An obligation that was not fulfilled in its window, without an alternative.
+
+    `until` is the end of the window, in seconds on the clock of the instance. It is None if an obligation without a
+    window failed.
+    """
 
     def __init__(self, message: str, obligation: str, until: object) -> None:
         super().__init__(message)
@@ -267,7 +271,7 @@ class DeadlineMissed(SleecError):
 
 
 class StillRunning(SleecError):
-    """Code that the clock started has not returned within `seconds`, the limit of the clock."""
+    """Code, started by the clock, that does not return within `seconds`, the limit of the clock."""
 
     def __init__(self, seconds: float) -> None:
         super().__init__(
@@ -278,12 +282,12 @@ class StillRunning(SleecError):
 
 
 class SnapshotRefused(SleecError):
-    """A snapshot of pending obligations that cannot be taken or restored: it is of other rules, malformed, later than
-    the time of now, or restored twice. Nothing has changed."""
+    """A snapshot of pending obligations that cannot be taken or restored: it is malformed, of other rules, from a later
+    time, or already restored. Nothing changes."""
 
 
 class NotEnforced(UserWarning):
-    """What of a ruleset its runtime does not see to. `constructs` pairs what each is with its line."""
+    """Constructs of a ruleset that the runtime does not enforce. `constructs` pairs each with its line."""
 
     def __init__(self, message: str, constructs: Sequence[tuple[str, int]]) -> None:
         super().__init__(message)

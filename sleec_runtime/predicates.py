@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Union
 
 from sleec_runtime.errors import SleecError, UnknownCondition, UnknownName, WrongType
-from sleec_runtime.model.values import NUMBER, exact
+from sleec_runtime.model import NUMBER, exact
 
 if TYPE_CHECKING:
     from sleec_runtime.dispatch.runtime import Sleec

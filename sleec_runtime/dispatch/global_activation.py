@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING
 
 import contextpy3
 
+from sleec_runtime.concurrency.critical_section import CriticalSection
 from sleec_runtime.dispatch.dispatch import due_in
 from sleec_runtime.dispatch.layers import RuleLayer
 from sleec_runtime.errors import SleecError
 from sleec_runtime.evaluation.evaluation import Decision
-from sleec_runtime.model.untimed import require_untimed
-from sleec_runtime.support.critical_section import CriticalSection
+from sleec_runtime.model import require_untimed
 
 if TYPE_CHECKING:
     from sleec_runtime.dispatch.runtime import Sleec

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from sleec_runtime.errors import SleecError, UnknownCondition, UnknownDomain, WrongType
 from sleec_runtime.evaluation.conflicts import Forbidding, forbidding, mentioned
-from sleec_runtime.model import Measure, Never, Obligation, Rule, Ruleset, Value, formulas_of, names_of
-from sleec_runtime.model.values import fit
+from sleec_runtime.model import Measure, Never, Obligation, Rule, Ruleset, Value, fit, formulas_of, names_of
 from sleec_runtime.support.chunked_sequence import Chunks
 from sleec_runtime.support.messages import represent
 

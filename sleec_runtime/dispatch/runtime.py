@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from sleec_runtime.concurrency.critical_section import CriticalSection, exclusive
 from sleec_runtime.dispatch import arguments
 from sleec_runtime.dispatch.dispatch import Done, Plan, cell_of, due_in, plan, run, run_async
 from sleec_runtime.dispatch.instance import Instance
@@ -14,7 +15,6 @@ from sleec_runtime.dispatch.snapshot import Conditions, Snapshot
 from sleec_runtime.errors import NotBound, SleecError, UnknownObligation, UnknownTrigger
 from sleec_runtime.evaluation.evaluation import Due, broken_assumptions
 from sleec_runtime.model import Assume, Measure, Reading, Rule, Ruleset
-from sleec_runtime.support.critical_section import CriticalSection, exclusive
 from sleec_runtime.support.messages import listed
 
 if TYPE_CHECKING:

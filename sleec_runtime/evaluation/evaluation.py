@@ -18,10 +18,11 @@ from typing import Any, Union
 
 from sleec_runtime.errors import WrongType
 from sleec_runtime.model import (
+    NUMBER,
     And,
     Assume,
     Atom,
-    Calculated,
+    Calculation,
     Clause,
     Comparison,
     Context,
@@ -39,10 +40,11 @@ from sleec_runtime.model import (
     ScaleValue,
     Term,
     Truth,
+    exact,
+    fit,
     leaves,
     measures_of,
 )
-from sleec_runtime.model.values import NUMBER, exact, fit
 
 NO_MEASURES: Mapping[str, Measure] = MappingProxyType({})
 _NOTHING_OBLIGED: Mapping[str, bool] = MappingProxyType({})
@@ -141,7 +143,7 @@ def _atom(atom: Atom, situation: Situation) -> bool | None:
 
 def _comparison(comparison: Comparison, situation: Situation) -> bool | None:
     left, right = comparison.left, comparison.right
-    if isinstance(left, Calculated):
+    if isinstance(left, Calculation):
         calculated = _calculated(left, situation)
         if calculated is None:
             return situation.absent
@@ -152,7 +154,7 @@ def _comparison(comparison: Comparison, situation: Situation) -> bool | None:
     return _OPERATORS[comparison.operator](_worth(left, right, situation), _worth(right, left, situation))
 
 
-def _calculated(side: Calculated, situation: Situation) -> Rational | None:
+def _calculated(side: Calculation, situation: Situation) -> Rational | None:
     """What a calculation comes to, None if one of its measures has no value."""
     values: dict[str, Rational] = {}
     for name in side.measures:

@@ -18,37 +18,36 @@ from typing import Literal, NamedTuple, Union
 from sleec_runtime.errors import WrongType
 from sleec_runtime.evaluation.evaluation import Decision, Situation, decide, truth, walk
 from sleec_runtime.model import (
+    NUMBER,
+    RELATIONS,
     And,
     Assume,
     Atom,
+    Claim,
     Clause,
     Constraint,
     Context,
+    Effect,
+    EventRelation,
     Exclusive,
     Formula,
+    Lasting,
+    Length,
+    MeasureRelation,
     Never,
     Not,
     Obligation,
     Or,
     Rational,
+    Relation,
     Rule,
     Ruleset,
     Truth,
     Value,
+    exact,
     formulas_of,
     leaves,
 )
-from sleec_runtime.model.time import (
-    RELATIONS,
-    Claim,
-    Effect,
-    EventRelation,
-    Lasting,
-    Length,
-    MeasureRelation,
-    Relation,
-)
-from sleec_runtime.model.values import NUMBER, exact
 
 Untimed = Literal["at", "eventually"]
 """When an event without a window is due: at the very instant of the trigger, or at some instant from then on."""

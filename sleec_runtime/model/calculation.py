@@ -1,4 +1,4 @@
-"""What rules calculate from several measures, as a value: a sum of products."""
+"""Calculations from several measures: sums of products."""
 
 from __future__ import annotations
 
@@ -7,18 +7,17 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Rational
+    from sleec_runtime.model.number import Rational
 
 
 @dataclass(frozen=True, slots=True)
-class Calculated:
-    """A sum that is calculated from several measures, or from a product of two, as the left side of a comparison with
-    a number (resolved by the language).
+class Calculation:
+    """A sum of several measures or of products of two measures: the left side of a comparison with a number.
 
-    `terms` are the summands in the order of the text: a whole factor other than 0, and the one or two measures that it
-    multiplies, by name. No two have the same measures, the factors share no divisor, and the first is positive. `line`
-    is that of the text, 0 if there is none. In a length of time, what is added comes first, and one summand may be a
-    number: a factor without measures; or there may be one summand only.
+    `terms` are the summands in text order, each a factor (an integer other than 0) and the names of the one or two
+    measures that it multiplies. No two summands have the same measures, the factors share no divisor, and the first is
+    positive. `line` is the line of the text, or 0. In a length of time, positive summands come first, one summand may
+    be a factor without measures, and a single summand is allowed.
     """
 
     terms: tuple[tuple[int, tuple[str, ...]], ...]
@@ -26,11 +25,11 @@ class Calculated:
 
     @property
     def measures(self) -> tuple[str, ...]:
-        """The measures that it is calculated from, each once."""
+        """The measures of the calculation, each once."""
         return tuple(dict.fromkeys(name for _, names in self.terms for name in names))
 
     def value(self, values: Mapping[str, Rational]) -> Rational:
-        """What it comes to where the measures have these values. Raises KeyError for one that has none."""
+        """The result for these values of the measures. Raises KeyError for a measure without a value."""
         found: Rational = 0
         for factor, names in self.terms:
             product: Rational = factor
@@ -44,7 +43,7 @@ class Calculated:
         return self.written(str, str)
 
     def written(self, measure: Callable[[str], str], operation: Callable[[str], str]) -> str:
-        """As text, each name as `measure` writes it, and each sum and product of two as `operation` does."""
+        """The calculation as text. `measure` formats each name, and `operation` each sum or product of two."""
         text = ""
         for factor, names in self.terms:
             first, *others = (*([str(abs(factor))] if abs(factor) != 1 or not names else []), *map(measure, names))

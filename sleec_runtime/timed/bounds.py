@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import WrongType
-from sleec_runtime.model.values import exact
+from sleec_runtime.model import exact
 from sleec_runtime.timed.executor import Execute, execute_here
 
 if TYPE_CHECKING:

@@ -14,10 +14,10 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Protocol, Union
 
+from sleec_runtime.concurrency.critical_section import CriticalSection
+from sleec_runtime.concurrency.fork import renew_after_fork
 from sleec_runtime.errors import WrongType
-from sleec_runtime.model.values import exact
-from sleec_runtime.support.critical_section import CriticalSection
-from sleec_runtime.support.fork import renew_after_fork
+from sleec_runtime.model import exact
 from sleec_runtime.timed.bounds import FURTHEST, checked_time
 from sleec_runtime.timed.executor import Executor
 from sleec_runtime.timed.failures import call_and_log

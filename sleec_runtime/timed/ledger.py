@@ -9,9 +9,9 @@ from functools import partial
 from itertools import count
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
+from sleec_runtime.concurrency.critical_section import CriticalSection
+from sleec_runtime.concurrency.fork import renew_after_fork
 from sleec_runtime.errors import Forked
-from sleec_runtime.support.critical_section import CriticalSection
-from sleec_runtime.support.fork import renew_after_fork
 from sleec_runtime.timed.agenda import Agenda, Entry
 
 if TYPE_CHECKING:

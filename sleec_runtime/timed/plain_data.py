@@ -6,7 +6,7 @@ import re
 from math import isfinite
 from typing import TYPE_CHECKING, Any, Union
 
-from sleec_runtime.model.values import DIGITS, exact
+from sleec_runtime.model import DIGITS, exact
 
 if TYPE_CHECKING:
     from sleec_runtime.timed.clocks import Time

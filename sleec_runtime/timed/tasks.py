@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, Union
 
 from sleec_runtime.errors import UndeterminedDecision, WrongType
 from sleec_runtime.evaluation.evaluation import Decision, Situation, Undetermined, walk
-from sleec_runtime.model import Clause, Obligation, Rational, Rule
-from sleec_runtime.model.time import Length
+from sleec_runtime.model import Clause, Length, Obligation, Rational, Rule
 from sleec_runtime.timed.bounds import FURTHEST
 
 if TYPE_CHECKING:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from sleec_runtime.errors import NotEnforced, UnsupportedTimes
 from sleec_runtime.model import (
+    RELATIONS,
     Atom,
     Clause,
     Obligation,
@@ -18,8 +19,8 @@ from sleec_runtime.model import (
     in_text_order,
     leaves,
     literals,
+    relation_name,
 )
-from sleec_runtime.model.time import RELATIONS, relation_name
 from sleec_runtime.support.messages import listed
 
 

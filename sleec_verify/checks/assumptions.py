@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sleec_runtime.model.time import MeasureRelation
+from sleec_runtime.model import MeasureRelation
 from sleec_verify.checks.base import Check, FindingKind, listed
 from sleec_verify.encoding.budget import Undecided
 from sleec_verify.query.cone import Cones

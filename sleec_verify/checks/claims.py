@@ -12,12 +12,12 @@ from sleec_verify.query.cone import Cones
 from sleec_verify.results.finding import Finding, Witness
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import Claim
+    from sleec_runtime.model import Claim
 
 
 def _concerns(cones: Cones) -> Iterator[Finding]:
     """A finding for each concern that comes about in some trace that keeps all."""
-    from sleec_runtime.model.time import claims
+    from sleec_runtime.model import claims
     from sleec_verify.traces.questions import coming_about
 
     def of(claim: Claim) -> Iterator[Finding]:
@@ -40,7 +40,7 @@ def _concerns(cones: Cones) -> Iterator[Finding]:
 
 def _purposes(cones: Cones) -> Iterator[Finding]:
     """A finding for each purpose that comes about in no trace that keeps all."""
-    from sleec_runtime.model.time import claims
+    from sleec_runtime.model import claims
     from sleec_verify.traces.questions import coming_about
 
     def of(claim: Claim) -> Iterator[Finding]:

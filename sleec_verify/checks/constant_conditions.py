@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from sleec_runtime.model import (
     And,
     Atom,
-    Calculated,
+    Calculation,
     Clause,
     Comparison,
     Formula,
@@ -28,7 +28,7 @@ from sleec_verify.query.question import Question
 from sleec_verify.results.finding import Finding
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import Claim
+    from sleec_runtime.model import Claim
 
 
 class _Place(NamedTuple):
@@ -125,7 +125,7 @@ def _places(ruleset: Ruleset) -> Iterator[_Place]:
 
 
 def _beside_rules(ruleset: Ruleset) -> Iterator[_Place]:
-    from sleec_runtime.model.time import RELATIONS, Claim
+    from sleec_runtime.model import RELATIONS, Claim
     from sleec_verify.traces.relations import formulas_of_relation
 
     for statement in ruleset.statements:
@@ -224,7 +224,7 @@ def _may_be_constant(formula: Formula) -> bool:
         if isinstance(part, Atom):
             names = (part.name,)
         elif isinstance(part, Comparison):
-            if isinstance(part.left, (Calculated, ScaleValue)) or isinstance(part.right, ScaleValue):
+            if isinstance(part.left, (Calculation, ScaleValue)) or isinstance(part.right, ScaleValue):
                 return True
             names = measures_of(part)
         elif isinstance(part, Truth):

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from sleec_runtime.model import Clause, Rule, in_text_order
-from sleec_runtime.model.time import RELATIONS, MeasureRelation
+from sleec_runtime.model import RELATIONS, Clause, MeasureRelation, Rule, in_text_order
 from sleec_verify.checks.base import Check, FindingKind, clause_name
 from sleec_verify.checks.each import each, each_shape, in_both_parts
 from sleec_verify.query.cone import Cones

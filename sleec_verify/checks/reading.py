@@ -176,11 +176,11 @@ def _due(rule: Rule, reading: Reading) -> dict[Obligation, Formula]:
 
 def _response(clause: Clause, dsl: bool) -> str:
     """What a clause calls for, with its times; in rules of the DSL with `not` as it is written there."""
-    from sleec_runtime.model.time import described
+    from sleec_runtime.model import obligation_text
 
     if not clause.obligations:
         return "nothing is due"
-    words = listed(map(described, clause.obligations))
+    words = listed(map(obligation_text, clause.obligations))
     return re.sub(r"\bNOT ", "not ", words) if dsl else words
 
 

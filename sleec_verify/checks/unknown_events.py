@@ -13,11 +13,11 @@ from sleec_verify.query.cone import Cones
 from sleec_verify.results.finding import Finding
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import Claim
+    from sleec_runtime.model import Claim
 
 
 def _stray(cones: Cones) -> Iterator[Finding]:
-    from sleec_runtime.model.time import RELATIONS, Claim
+    from sleec_runtime.model import RELATIONS, Claim
     from sleec_runtime.support.suggestions import nearest
     from sleec_verify.traces.relations import events_of
 

@@ -11,11 +11,11 @@ from sleec_verify.query.cone import Cones
 from sleec_verify.results.finding import Finding
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import Claim
+    from sleec_runtime.model import Claim
 
 
 def _without_length(cones: Cones) -> Iterator[Finding]:
-    from sleec_runtime.model.time import Lasting
+    from sleec_runtime.model import Lasting
 
     for labels, literal in _literals(cones):
         window = literal.timing.window if literal.timing is not None else None
@@ -54,7 +54,7 @@ def _bare(cones: Cones) -> Iterator[Finding]:
 
 def _literals(cones: Cones) -> Iterator[tuple[tuple[str, ...], Obligation]]:
     """Every response, those of concerns and purposes too, with the label of the rule that it stands in."""
-    from sleec_runtime.model.time import Claim
+    from sleec_runtime.model import Claim
 
     for statement in cones.ruleset.statements:
         if isinstance(statement, Rule):

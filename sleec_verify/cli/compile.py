@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sleec_runtime.model.untimed import require_untimed
+from sleec_runtime.model import require_untimed
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import note_mixed_domains, one_ruleset
 from sleec_verify.cli.output import write_data

@@ -6,8 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import islice
 
-from sleec_runtime.model import Assume, Context, Exclusive, Never, Obligation, Rule, Ruleset
-from sleec_runtime.model.untimed import require_untimed
+from sleec_runtime.model import Assume, Context, Exclusive, Never, Obligation, Rule, Ruleset, require_untimed
 from sleec_verify.entailment.entailment import Definition1
 from sleec_verify.query.inconsistent_sets import Clash, clashes
 

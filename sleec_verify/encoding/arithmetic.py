@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
-from sleec_runtime.model import Calculated, Rational
+from sleec_runtime.model import Calculation, Rational
 from sleec_verify.encoding.budget import Budget, Undecided, current
 from sleec_verify.encoding.calculations import named
 
@@ -24,7 +24,7 @@ _STOPPED = ("canceled", "timeout", "max. resource limit exceeded")
 
 INSTALL = "pip install z3-solver"
 
-Compared = tuple[Calculated, Rational, bool, int]
+Compared = tuple[Calculation, Rational, bool, int]
 """A calculation that is at most a number, or below it if not inclusive, and the literal that says so; or, if that is
 negative, is not."""
 
@@ -37,7 +37,7 @@ class NotCalculated(Undecided):
         self.lines = tuple(lines)
 
 
-def unproved(calculations: Iterable[Calculated]) -> NotCalculated:
+def unproved(calculations: Iterable[Calculation]) -> NotCalculated:
     """What to raise where an answer is to be proved, and rests on what z3 says of these calculations."""
     calculations = list(calculations)
     return NotCalculated(
@@ -128,7 +128,7 @@ def _signed(formula: str, literal: int) -> str:
     return formula if literal > 0 else f"(not {formula})"
 
 
-def _sum(calculated: Calculated, names: Mapping[str, str]) -> str:
+def _sum(calculated: Calculation, names: Mapping[str, str]) -> str:
     parts = (
         f"(* {_number(factor)} {' '.join(names[name] for name in multiplied)})"
         for factor, multiplied in calculated.terms

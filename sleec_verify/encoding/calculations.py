@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from sleec_runtime.errors import Unsayable, UnsupportedCalculations
-from sleec_runtime.model import Assume, Calculated, Comparison, Formula, Never, Ruleset, formulas_of, leaves
+from sleec_runtime.model import Assume, Calculation, Comparison, Formula, Never, Ruleset, formulas_of, leaves
 
 
-def calculations_in(formula: Formula) -> Iterator[Calculated]:
+def calculations_in(formula: Formula) -> Iterator[Calculation]:
     """The calculations that a formula compares with numbers, in the order of the text, repeats included."""
     for leaf in leaves(formula):
-        if isinstance(leaf, Comparison) and isinstance(leaf.left, Calculated):
+        if isinstance(leaf, Comparison) and isinstance(leaf.left, Calculation):
             yield leaf.left
 
 
-def calculations(ruleset: Ruleset) -> list[Calculated]:
+def calculations(ruleset: Ruleset) -> list[Calculation]:
     """The calculations that a ruleset compares with numbers, each once, those of rules first. Linear in its size."""
     formulas: list[Formula] = [formula for rule in ruleset.rules for formula in formulas_of(rule)]
     formulas += [c.formula for c in ruleset.constraints if isinstance(c, (Never, Assume))]
@@ -26,21 +26,21 @@ def calculations(ruleset: Ruleset) -> list[Calculated]:
     return list(dict.fromkeys(one for formula in formulas for one in calculations_in(formula)))
 
 
-def calculated_lengths(ruleset: Ruleset) -> list[Calculated]:
+def calculated_lengths(ruleset: Ruleset) -> list[Calculation]:
     """What a ruleset calculates how long something takes by, in the order of the text."""
     if not ruleset.is_timed:
         return []
     from sleec_verify.encoding.mentioned_names import beside_rules
 
-    return [length.amount for length in beside_rules(ruleset)[2] if isinstance(length.amount, Calculated)]
+    return [length.amount for length in beside_rules(ruleset)[2] if isinstance(length.amount, Calculation)]
 
 
-def named(found: Iterable[Calculated]) -> str:
+def named(found: Iterable[Calculation]) -> str:
     """Calculations as messages name them, each with its line."""
     return ", ".join(f"`{one}`" + (f" in line {one.line}" if one.line else "") for one in found)
 
 
-def unsupported(found: Iterable[Calculated], who: str) -> UnsupportedCalculations:
+def unsupported(found: Iterable[Calculation], who: str) -> UnsupportedCalculations:
     """What to raise where `who` does not analyse these calculations."""
     found = list(found)
     more = f" and {len(found) - 5:,} more" if len(found) > 5 else ""

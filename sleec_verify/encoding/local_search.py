@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from math import ceil, floor
 
-from sleec_runtime.model import Calculated, Rational
+from sleec_runtime.model import Calculation, Rational
 from sleec_verify.encoding.arithmetic import Compared
 
 _STEPS = 8
@@ -47,7 +47,7 @@ def nearby(
     allowed = {name: _Range() for name in found}
     for name, value, inclusive, literal in cuts:
         allowed[name].cut(value, inclusive, literal)
-    wanted: dict[Calculated, _Range] = {}
+    wanted: dict[Calculation, _Range] = {}
     for one, value, inclusive, literal in compared:
         wanted.setdefault(one, _Range()).cut(value, inclusive, literal)
     for _ in range(_STEPS * len(wanted)):
@@ -61,13 +61,13 @@ def nearby(
     return None
 
 
-def _missing(one: Calculated, wanted: _Range, found: Mapping[str, int]) -> int:
+def _missing(one: Calculation, wanted: _Range, found: Mapping[str, int]) -> int:
     """By how much what is calculated must change."""
     result = int(one.value(found))
     return wanted.nearest(result) - result
 
 
-def _moved(one: Calculated, wanted: _Range, allowed: Mapping[str, _Range], found: dict[str, int]) -> bool:
+def _moved(one: Calculation, wanted: _Range, allowed: Mapping[str, _Range], found: dict[str, int]) -> bool:
     """Change a measure so that the calculation comes to what is wanted; else the first one that brings it nearer,
     or any. Whether there is one."""
     missing = _missing(one, wanted, found)

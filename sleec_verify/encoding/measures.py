@@ -20,7 +20,7 @@ from itertools import pairwise, permutations
 from typing import TYPE_CHECKING, NamedTuple, Union
 
 from sleec_runtime.model import (
-    Calculated,
+    Calculation,
     Comparison,
     Measure,
     MeasureRef,
@@ -76,7 +76,7 @@ class Measures:
         self.cuts: dict[str, dict[Cut, int]] = {}
         self.orders: dict[tuple[str, str], int] = {}
         """(x, y) to the variable of ``x <= y``."""
-        self.calculations: dict[str, Calculated] = {}
+        self.calculations: dict[str, Calculation] = {}
         """What is calculated from several measures, by what `cuts` calls it, which is no name of a measure."""
         self.refused_by_arithmetic = False
         """Whether `decode` has returned a clause that no order gives, but arithmetic."""
@@ -91,7 +91,7 @@ class Measures:
         """The literal that is true exactly when the comparison holds."""
         self._seen.update(dict.fromkeys(measures_of(comparison)))
         left, operator, right = comparison.left, comparison.operator, comparison.right
-        if isinstance(left, Calculated):
+        if isinstance(left, Calculation):
             name = self._name(left)
         else:
             if not isinstance(left, MeasureRef):
@@ -111,7 +111,7 @@ class Measures:
         equal = self._both(at_most, -below)
         return equal if operator == "=" else -equal
 
-    def _name(self, calculated: Calculated) -> str:
+    def _name(self, calculated: Calculation) -> str:
         """What `cuts` calls a calculation, however its summands are ordered in the text."""
         name = " + ".join(sorted(" * ".join((*names, str(factor))) for factor, names in calculated.terms))
         self.calculations.setdefault(name, calculated)

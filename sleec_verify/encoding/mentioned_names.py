@@ -5,15 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sleec_runtime.model import (
+    Claim,
     Clause,
+    Effect,
+    EventRelation,
     Formula,
+    Lasting,
+    Length,
+    MeasureRelation,
     Rule,
     Ruleset,
     conditions_in,
     in_text_order,
     literals,
 )
-from sleec_runtime.model.time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation
 
 
 def beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Length]]:

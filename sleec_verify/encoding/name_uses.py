@@ -27,7 +27,7 @@ from sleec_runtime.model import (
 )
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import Length
+    from sleec_runtime.model import Length
 
 
 def _formulas(ruleset: Ruleset) -> Iterator[Formula]:

@@ -5,8 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from sleec_runtime.model import And, Atom, Clause, Formula, Not, Or, Rule, Ruleset
-from sleec_runtime.model.time import RELATIONS, Claim, Effect, EventRelation, MeasureRelation, Relation
+from sleec_runtime.model import (
+    RELATIONS,
+    And,
+    Atom,
+    Claim,
+    Clause,
+    Effect,
+    EventRelation,
+    Formula,
+    MeasureRelation,
+    Not,
+    Or,
+    Relation,
+    Rule,
+    Ruleset,
+)
 
 
 def untimed(ruleset: Ruleset) -> Ruleset:

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import ceil, floor
 
-from sleec_runtime.model import Clause, Context, Obligation, Ruleset, in_text_order
-from sleec_runtime.model.time import Length
+from sleec_runtime.model import Clause, Context, Length, Obligation, Ruleset, in_text_order
 from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.encoding.trace_scope import Untimed

@@ -22,8 +22,7 @@ from sleec_verify.query.inconsistent_sets import clashes
 from sleec_verify.results.finding import Finding, Witness
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Value
-    from sleec_runtime.model.time import Relation
+    from sleec_runtime.model import Relation, Value
     from sleec_verify.entailment.consequence_tree import Step
     from sleec_verify.entailment.schedule import Entry
 

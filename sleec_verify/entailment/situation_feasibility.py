@@ -11,7 +11,7 @@ from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.query.cone import names_in
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import Relation
+    from sleec_runtime.model import Relation
 
 
 class Law(NamedTuple):

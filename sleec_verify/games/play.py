@@ -13,8 +13,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from sleec_runtime.model import Assume, Exclusive, Rule, Value, formulas_of
-from sleec_runtime.model.time import Effect, EventRelation, Lasting, MeasureRelation
+from sleec_runtime.model import (
+    Assume,
+    Effect,
+    EventRelation,
+    Exclusive,
+    Lasting,
+    MeasureRelation,
+    Rule,
+    Value,
+    formulas_of,
+)
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
 from sleec_verify.games.decomposition import Part
 from sleec_verify.games.players import is_environments

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from sleec_runtime.model import Agent
-from sleec_runtime.model.time import EventRelation, Lasting
+from sleec_runtime.model import Agent, EventRelation, Lasting
 from sleec_verify.traces.relations import Relation, events_of
 
 

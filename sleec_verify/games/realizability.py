@@ -11,8 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import islice
 
-from sleec_runtime.model import Rule, Span, Value
-from sleec_runtime.model.time import EventRelation, Lasting
+from sleec_runtime.model import EventRelation, Lasting, Rule, Span, Value
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.games.decomposition import Part, parts
 from sleec_verify.games.play import Play

@@ -10,7 +10,7 @@ from math import ceil, floor
 from sleec_runtime.model import (
     And,
     Atom,
-    Calculated,
+    Calculation,
     Clause,
     Comparison,
     Formula,
@@ -81,7 +81,7 @@ def sides(comparison: Comparison) -> tuple[str, str, Rational]:
     Raises Undecided where two measures are compared, or calculated with.
     """
     left, operator, right = comparison.left, str(comparison.operator), comparison.right
-    if isinstance(left, Calculated):
+    if isinstance(left, Calculation):
         raise Undecided(f"games with calculations are not analysed, as with {named([left])}")
     if not isinstance(left, MeasureRef):
         left, right, operator = right, left, _FLIPPED[operator]

@@ -12,8 +12,7 @@ import pytest
 from sleec_runtime import Sleec
 from sleec_runtime.errors import SleecError
 from sleec_runtime.language import load
-from sleec_runtime.model import Rule, Ruleset
-from sleec_runtime.model.time import constructs
+from sleec_runtime.model import Rule, Ruleset, constructs
 from sleec_verify.checks import checks_for, run_checks
 from sleec_verify.conformance.cases.case import Case
 from sleec_verify.conformance.cases.reader import read_cases

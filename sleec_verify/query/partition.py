@@ -11,8 +11,7 @@ from collections.abc import Hashable, Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
-from sleec_runtime.model import Assume, Exclusive, Never, Rule, Statement
-from sleec_runtime.model.time import RELATIONS, MeasureRelation
+from sleec_runtime.model import RELATIONS, Assume, Exclusive, MeasureRelation, Never, Rule, Statement
 from sleec_verify.encoding.one_instant import at_every_instant
 from sleec_verify.encoding.trace_scope import Untimed, has_chains, responses_of, speaks_of_traces
 from sleec_verify.encoding.union_find import UnionFind

@@ -9,8 +9,7 @@ from dataclasses import replace
 
 from sleec_runtime.evaluation.evaluation import decide
 from sleec_runtime.evaluation.traces import Instant, Lawlike, Trace, broken, broken_so_far, claim_holds
-from sleec_runtime.model import Context, Rule, Ruleset
-from sleec_runtime.model.time import claims
+from sleec_runtime.model import Context, Rule, Ruleset, claims
 from sleec_verify.query.cone import Cones
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.timeline import Timeline

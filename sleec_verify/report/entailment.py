@@ -12,8 +12,7 @@ from sleec_verify.report.full import finding_lines
 from sleec_verify.results.phrases import listed, quoted, value_text
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Context, Ruleset
-    from sleec_runtime.model.time import Relation
+    from sleec_runtime.model import Context, Relation, Ruleset
     from sleec_verify.entailment.consequence_tree import Step
     from sleec_verify.entailment.entailment import Entailment
     from sleec_verify.report.json import Json

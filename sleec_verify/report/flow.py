@@ -116,10 +116,10 @@ def _places(formulas: Iterable[Formula]) -> dict[str, Span]:
 
 
 def _clauses(ruleset: Ruleset, finding: Finding) -> Iterator[Step]:
-    from sleec_runtime.model.time import described
+    from sleec_runtime.model import obligation_text
 
     for label, number in finding.clauses:
         clause = list(ruleset.by_label[label].clauses())[number]
         name = f"hedge {number} of {label}" if number else f"the default of {label}"
-        due = listed(map(described, clause.obligations)) if clause.obligations else "nothing"
+        due = listed(map(obligation_text, clause.obligations)) if clause.obligations else "nothing"
         yield Step(ruleset.source, clause.span, f"{name}: {due}", {})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from sleec_runtime.model.spans import NOWHERE
+from sleec_runtime.model import NOWHERE
 from sleec_verify import __version__
 from sleec_verify.report.json import VERDICTS, dump, error_json, finding_json, span_json, witness_json
 

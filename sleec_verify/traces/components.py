@@ -10,8 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from sleec_runtime.model import Obligation, Rule, formulas_of, literals, names_of
-from sleec_runtime.model.time import RELATIONS, MeasureRelation
+from sleec_runtime.model import RELATIONS, MeasureRelation, Obligation, Rule, formulas_of, literals, names_of
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.traces.event_conditions import is_of_state

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from functools import cached_property
 
-from sleec_runtime.model import Clause, Obligation
-from sleec_runtime.model.time import Lasting
+from sleec_runtime.model import Clause, Lasting, Obligation
 from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
 from sleec_verify.traces.induction import InductiveModel
 from sleec_verify.traces.pending_demands import Slot

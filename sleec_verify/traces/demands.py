@@ -13,8 +13,7 @@ from itertools import product
 from math import ceil, floor
 from typing import NamedTuple, Union
 
-from sleec_runtime.model import Clause, Obligation, Rational, in_text_order
-from sleec_runtime.model.time import Length, Window
+from sleec_runtime.model import Clause, Length, Obligation, Rational, Window, in_text_order
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.trace_scope import Untimed
 

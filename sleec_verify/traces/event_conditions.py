@@ -11,8 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 
-from sleec_runtime.model import And, Atom, Formula, Not, Or, Rule, Ruleset, Span, formulas_of, leaves, names_of
-from sleec_runtime.model.time import Effect
+from sleec_runtime.model import And, Atom, Effect, Formula, Not, Or, Rule, Ruleset, Span, formulas_of, leaves, names_of
 
 _BEGIN, _END = "occurs(", ")"
 

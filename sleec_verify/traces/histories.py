@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 
-from sleec_runtime.model import Rule
-from sleec_runtime.model.time import Lasting
+from sleec_runtime.model import Lasting, Rule
 from sleec_verify.encoding.budget import OutOfBudget, Undecided
 from sleec_verify.traces.demands import Demand, Every, Occurs
 from sleec_verify.traces.model import TraceModel

@@ -9,6 +9,7 @@ from graphlib import CycleError, TopologicalSorter
 from typing import TypeVar
 
 from sleec_runtime.model import (
+    RELATIONS,
     Agent,
     Assume,
     Clause,
@@ -20,7 +21,6 @@ from sleec_runtime.model import (
     Ruleset,
     in_text_order,
 )
-from sleec_runtime.model.time import RELATIONS
 from sleec_verify.encoding.solver import Recorder
 from sleec_verify.encoding.trace_scope import Untimed, responses_of
 from sleec_verify.traces.demands import Occurs, Responses, occurrences

@@ -6,8 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import NamedTuple
 
-from sleec_runtime.model import Formula, Rule, formulas_of
-from sleec_runtime.model.time import Claim
+from sleec_runtime.model import Claim, Formula, Rule, formulas_of
 from sleec_verify.encoding.budget import begin
 from sleec_verify.encoding.mentioned_names import add_claim
 from sleec_verify.encoding.solver import Undecided

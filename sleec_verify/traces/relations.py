@@ -14,8 +14,12 @@ from sleec_runtime.model import (
     And,
     Assume,
     Atom,
+    Effect,
+    EventRelation,
     Exclusive,
     Formula,
+    Lasting,
+    MeasureRelation,
     Never,
     Not,
     Or,
@@ -23,8 +27,7 @@ from sleec_runtime.model import (
     leaves,
     measures_of,
 )
-from sleec_runtime.model.time import Effect, EventRelation, Lasting, MeasureRelation
-from sleec_runtime.model.time import Relation as TimedRelation
+from sleec_runtime.model import Relation as TimedRelation
 from sleec_verify.encoding.one_instant import at_every_instant
 from sleec_verify.traces.instant import Instant
 

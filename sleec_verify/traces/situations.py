@@ -11,9 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from sleec_runtime.model import Atom, formulas_of, leaves
+from sleec_runtime.model import Atom, EventRelation, Lasting, formulas_of, leaves
 from sleec_runtime.model import Formula as Condition
-from sleec_runtime.model.time import EventRelation, Lasting
 from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
 from sleec_verify.traces.difference import Differences

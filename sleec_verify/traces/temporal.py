@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from sleec_runtime.model.time import EventRelation, Lasting
+from sleec_runtime.model import EventRelation, Lasting
 from sleec_verify.traces.demands import last_second
 from sleec_verify.traces.relations import Relation, invariant, relation_key
 

@@ -9,8 +9,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from sleec_runtime.evaluation.evaluation import decide
-from sleec_runtime.model import Context, Rule, Value, formulas_of, names_of
-from sleec_runtime.model.time import described
+from sleec_runtime.model import Context, Rule, Value, formulas_of, names_of, obligation_text
 from sleec_verify.encoding.response_windows import Windowed, Windows
 from sleec_verify.results import timeline
 from sleec_verify.results.timeline import Due, Timeline
@@ -62,7 +61,7 @@ def _due(index: Index, rules: Sequence[Rule], moment: Moment, course: Sequence[M
             yield Due(
                 rule.label,
                 decision.clause,
-                described(one.obligation),
+                obligation_text(one.obligation),
                 one.obligation.name,
                 one.obligation.negated,
                 moment.time + one.start,

@@ -6,8 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from sleec_runtime import model
 from sleec_runtime.evaluation.evaluation import holds
-from sleec_runtime.model import Assume, Context, Value, names_of
-from sleec_runtime.model.time import MeasureRelation
+from sleec_runtime.model import Assume, Context, MeasureRelation, Value, names_of
 from sleec_verify.encoding.cnf import Key
 from sleec_verify.encoding.one_instant import at_every_instant
 from sleec_verify.encoding.solver import MiniSat

@@ -10,13 +10,19 @@ from hypothesis import strategies as st
 from sleec_runtime.model import (
     And,
     Atom,
+    Claim,
     Clause,
     Comments,
     Comparison,
     Constant,
     Declaration,
+    Effect,
+    EventRelation,
+    Lasting,
+    Length,
     Measure,
     MeasureRef,
+    MeasureRelation,
     Not,
     Number,
     Obligation,
@@ -25,9 +31,10 @@ from sleec_runtime.model import (
     Ruleset,
     ScaleValue,
     Statement,
+    Timing,
     Truth,
+    Window,
 )
-from sleec_runtime.model.time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation, Timing, Window
 
 EVENTS = ("A", "B", "C")
 BOOLEANS = ("m", "n")

@@ -10,8 +10,7 @@ from dataclasses import replace
 from itertools import chain, combinations, product
 
 from sleec_runtime.evaluation.traces import Instant, Trace, broken
-from sleec_runtime.model import Assume, Exclusive, Never, Rule, Ruleset
-from sleec_runtime.model.time import RELATIONS
+from sleec_runtime.model import RELATIONS, Assume, Exclusive, Never, Rule, Ruleset
 
 
 class Game:

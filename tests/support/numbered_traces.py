@@ -12,16 +12,23 @@ from math import prod
 
 from sleec_runtime.evaluation.traces import Instant, Lawlike, Trace, Untimed
 from sleec_runtime.model import (
+    RELATIONS,
+    SECONDS,
     And,
     Assume,
     Atom,
-    Calculated,
+    Calculation,
+    Claim,
     Clause,
     Comparison,
+    Effect,
+    EventRelation,
     Exclusive,
     Formula,
+    Length,
     Measure,
     MeasureRef,
+    MeasureRelation,
     Never,
     Not,
     Number,
@@ -34,15 +41,6 @@ from sleec_runtime.model import (
     Term,
     Truth,
     Value,
-)
-from sleec_runtime.model.time import (
-    RELATIONS,
-    SECONDS,
-    Claim,
-    Effect,
-    EventRelation,
-    Length,
-    MeasureRelation,
     Window,
 )
 
@@ -220,13 +218,13 @@ def _worth(side: Term, values: Mapping[str, Value], measures: Mapping[str, Measu
         return side.value
     if isinstance(side, ScaleValue):
         return side.rank
-    if isinstance(side, Calculated):
+    if isinstance(side, Calculation):
         return _calculated(side, values)
     value = values.get(side.name)
     return measures[side.name].values.index(value) if isinstance(value, str) else value
 
 
-def _calculated(side: Calculated, values: Mapping[str, Value]) -> Rational | None:
+def _calculated(side: Calculation, values: Mapping[str, Value]) -> Rational | None:
     if any(name not in values for name in side.measures):
         return None
     return sum(factor * prod(_number(values[name]) for name in names) for factor, names in side.terms)

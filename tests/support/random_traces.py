@@ -10,16 +10,25 @@ from typing import NamedTuple
 from sleec_runtime.evaluation.traces import Instant, Trace, Untimed
 from sleec_runtime.model import (
     READINGS,
+    SECONDS,
     And,
     Assume,
     Atom,
-    Calculated,
+    Calculation,
+    Claim,
     Clause,
     Comparison,
+    Effect,
+    EventRelation,
+    EventRelationKind,
     Exclusive,
     Formula,
+    Lasting,
+    Length,
     Measure,
     MeasureRef,
+    MeasureRelation,
+    MeasureRelationKind,
     Never,
     Not,
     Number,
@@ -30,21 +39,10 @@ from sleec_runtime.model import (
     Ruleset,
     ScaleValue,
     Statement,
-    Truth,
-    Value,
-)
-from sleec_runtime.model.time import (
-    SECONDS,
-    Claim,
-    Effect,
-    EventRelation,
-    EventRelationKind,
-    Lasting,
-    Length,
-    MeasureRelation,
-    MeasureRelationKind,
     Timing,
+    Truth,
     Unit,
+    Value,
     Window,
 )
 
@@ -126,7 +124,7 @@ class Draw:
 
     def measured(self) -> Length:
         """A length that measures give."""
-        calculated = Calculated(((1, ("patience",)), (-1, ("age",)), (1, ())))
+        calculated = Calculation(((1, ("patience",)), (-1, ("age",)), (1, ())))
         return Length(calculated if self.sometimes(0.3) else MeasureRef("patience"), self.unit)
 
     # Relations, constraints and claims ------------------------------------------------------------------------
@@ -196,7 +194,7 @@ class Draw:
         if kind == 0:
             return Comparison(MeasureRef("age"), operator, MeasureRef("patience"))
         if kind == 1:
-            return Comparison(Calculated(((2, ("age",)), (-1, ("patience",)))), operator, Number(1))
+            return Comparison(Calculation(((2, ("age",)), (-1, ("patience",)))), operator, Number(1))
         if kind == 2:
             return Comparison(MeasureRef("age"), operator, Number(self.chance.randint(0, 2)))
         rank = self.chance.randrange(len(SCALE))

@@ -13,7 +13,7 @@ from typing import Any
 
 from sleec_runtime.evaluation.traces import broken, claim_holds
 from sleec_runtime.language import parse
-from sleec_runtime.model.time import claims
+from sleec_runtime.model import claims
 from sleec_verify.checks import run_checks
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.replay.traces import as_trace

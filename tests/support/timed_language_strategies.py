@@ -10,21 +10,28 @@ from hypothesis import strategies as st
 from sleec_runtime.model import (
     READINGS,
     Atom,
+    Claim,
     Clause,
     Comparison,
     Constant,
     Declaration,
+    Effect,
+    EventRelation,
     Formula,
+    Lasting,
+    Length,
     Measure,
     MeasureRef,
+    MeasureRelation,
     Number,
     Obligation,
     Rule,
     Ruleset,
     ScaleValue,
     Statement,
+    Timing,
+    Window,
 )
-from sleec_runtime.model.time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation, Timing, Window
 from sleec_verify.conformance.vocabulary import formulas
 from tests.support.dsl_strategies import comments
 

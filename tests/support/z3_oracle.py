@@ -17,16 +17,24 @@ from typing import Any, NamedTuple
 import z3
 
 from sleec_runtime.model import (
+    RELATIONS,
+    SECONDS,
     And,
     Assume,
     Atom,
-    Calculated,
+    Calculation,
+    Claim,
     Clause,
     Comparison,
     Declaration,
+    Effect,
+    EventRelation,
     Exclusive,
     Formula,
+    Lasting,
+    Length,
     MeasureRef,
+    MeasureRelation,
     Never,
     Not,
     Number,
@@ -38,16 +46,6 @@ from sleec_runtime.model import (
     Term,
     Truth,
     literals,
-)
-from sleec_runtime.model.time import (
-    RELATIONS,
-    SECONDS,
-    Claim,
-    Effect,
-    EventRelation,
-    Lasting,
-    Length,
-    MeasureRelation,
 )
 
 TRUE, FALSE = z3.BoolVal(True), z3.BoolVal(False)
@@ -343,7 +341,7 @@ def formula(f: Formula | None, instant: Instant) -> Any:
 def side(term: Term, instant: Instant) -> Any:
     if isinstance(term, MeasureRef):
         return instant.measure(term.name)
-    if isinstance(term, Calculated):
+    if isinstance(term, Calculation):
         summands = (z3.Product(factor, *map(instant.measure, names)) for factor, names in term.terms)
         return z3.Sum(*summands)
     return z3.IntVal(term.rank) if isinstance(term, ScaleValue) else number(term.value)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sleec_runtime.model import (
     And,
     Atom,
-    Calculated,
+    Calculation,
     Comparison,
     Formula,
     MeasureRef,
@@ -39,7 +39,7 @@ def print_term(term: Term) -> str:
         return term.name
     if isinstance(term, ScaleValue):
         return term.value
-    if isinstance(term, Calculated):
+    if isinstance(term, Calculation):
         return str(term)
     return term.constant if term.constant is not None else print_number(term.value)
 

@@ -14,7 +14,7 @@ from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.dsl.calculations import Operand, Sum
 from sleec_runtime.language.dsl.name_resolution import Names
 from sleec_runtime.model import (
-    Calculated,
+    Calculation,
     Comparison,
     Defect,
     DefectKind,
@@ -48,7 +48,7 @@ _MIRRORED: Mapping[Operator, Operator] = {"<": ">", "<=": ">=", ">": "<", ">=": 
 class Terms(Names):
     """Makes comparisons and amounts of the names of one text."""
 
-    def amount(self, operand: Operand) -> Union[Number, MeasureRef, Calculated, None]:
+    def amount(self, operand: Operand) -> Union[Number, MeasureRef, Calculation, None]:
         """How long something takes: a number, a constant, a numeric measure, or what is calculated from these; None,
         and a problem, if it is nothing of that."""
         if isinstance(operand, Side):
@@ -63,7 +63,7 @@ class Terms(Names):
             return self._ref(measures[0])
         terms = [(factor, names) for names, factor in whole.terms.items()]
         number = [(whole.number, ())] if whole.number else []
-        return Calculated(tuple(sorted([*terms, *number], key=lambda term: term[0] < 0)), self.line(operand.span))
+        return Calculation(tuple(sorted([*terms, *number], key=lambda term: term[0] < 0)), self.line(operand.span))
 
     def number(self, side: Side) -> Union[Number, MeasureRef, None]:
         """A number, a constant or a numeric measure; None, and a problem, if it is nothing of that."""
@@ -193,7 +193,7 @@ class Terms(Names):
         if whole.number == 0 and [(len(other), times) for other, times in more] == [(1, -factor)] and len(names) == 1:
             return Comparison(self._ref(names[0]), operator, self._ref(more[0][0][0]), span)
         terms = tuple((times // divisor, product) for product, times in whole.terms.items())
-        found = _with_whole_number(Calculated(terms, self.line(span)), operator, number, span)
+        found = _with_whole_number(Calculation(terms, self.line(span)), operator, number, span)
         # A constant that stands alone on one side keeps its name.
         for side, other in ((right, one), (left, two)):
             if isinstance(side, Side) and isinstance(found, Comparison) and other.number == 0:
@@ -298,7 +298,7 @@ class Terms(Names):
         return True
 
 
-def _with_whole_number(measure: MeasureRef | Calculated, operator: Operator, number: Fraction, span: Span) -> Formula:
+def _with_whole_number(measure: MeasureRef | Calculation, operator: Operator, number: Fraction, span: Span) -> Formula:
     """A comparison of a whole number with any."""
     if number.denominator == 1:
         return Comparison(measure, operator, Number(int(number)), span)

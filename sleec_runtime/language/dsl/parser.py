@@ -22,8 +22,7 @@ from sleec_runtime.language.dsl.keywords import BLOCKS, DEFINITIONS, EFFECTS, EV
 from sleec_runtime.language.dsl.misspelt import misspelt, misspelt_whens
 from sleec_runtime.language.dsl.relations import OF_MEASURES, RelationParser
 from sleec_runtime.language.dsl.scanner import mark_relations, scan
-from sleec_runtime.model import Clause, Constant, Formula, Rule, Ruleset, Source, Span, Statement
-from sleec_runtime.model.time import ClaimKind
+from sleec_runtime.model import ClaimKind, Clause, Constant, Formula, Rule, Ruleset, Source, Span, Statement
 from sleec_runtime.support.suggestions import nearest
 
 _Read = TypeVar("_Read")

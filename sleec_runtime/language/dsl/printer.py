@@ -17,19 +17,26 @@ from sleec_runtime.language.common.token_cursor import MAX_DEPTH
 from sleec_runtime.model import (
     And,
     Atom,
-    Calculated,
+    Calculation,
+    Claim,
     Clause,
     Comparison,
     Constant,
     Declaration,
     Dialect,
+    Effect,
+    EventRelation,
     Formula,
+    Lasting,
+    Length,
     Measure,
     MeasureRef,
+    MeasureRelation,
     Not,
     Number,
     Obligation,
     Or,
+    Relation,
     Rule,
     Ruleset,
     ScaleValue,
@@ -37,7 +44,6 @@ from sleec_runtime.model import (
     Term,
     Truth,
 )
-from sleec_runtime.model.time import Claim, Effect, EventRelation, Lasting, Length, MeasureRelation, Relation
 
 _INDENT = "    "
 _SECOND = re.compile(r"#\d+$")
@@ -252,7 +258,7 @@ class _Printer:
             return self._measure(term.name)
         if isinstance(term, ScaleValue):
             return term.value
-        if isinstance(term, Calculated):
+        if isinstance(term, Calculation):
             return term.written(self._measure, "({})".format if self._legos else str)
         return _number(term)
 

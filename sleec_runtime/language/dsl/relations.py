@@ -8,18 +8,22 @@ from sleec_runtime.errors import Problem
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.dsl.keywords import UNNAMED
 from sleec_runtime.language.dsl.responses import ResponseParser
-from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Span
-from sleec_runtime.model.time import (
+from sleec_runtime.model import (
+    NO_COMMENTS,
+    NOWHERE,
     Claim,
+    Clause,
     Effect,
     EventRelation,
+    Formula,
     Lasting,
     MeasureRelation,
+    Span,
 )
 from sleec_runtime.support.suggestions import nearest
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import ClaimForm, ClaimKind, EffectKind, EventRelationKind, MeasureRelationKind
+    from sleec_runtime.model import ClaimForm, ClaimKind, EffectKind, EventRelationKind, MeasureRelationKind
 
 _EVENT_RELATIONS = ("witness", "equal", "mutualExclusive", "happenBefore")
 OF_MEASURES = ("imply", "iff", "mutualExclusive", "opposite", "invariant")

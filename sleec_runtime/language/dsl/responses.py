@@ -18,7 +18,7 @@ from sleec_runtime.language.dsl.slips import before_event, number_for, unit_for
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Number, Obligation, Span
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import Length, Timing, Unit, Window
+    from sleec_runtime.model import Length, Timing, Unit, Window
 
 
 class ResponseParser(DefinitionParser):
@@ -113,7 +113,7 @@ class ResponseParser(DefinitionParser):
     def _timing(self, window: Window | None, alternatives: dict[str, Clause]) -> Timing | None:
         if window is None and not alternatives:
             return None
-        from sleec_runtime.model.time import Timing
+        from sleec_runtime.model import Timing
 
         return Timing(window, alternatives.get("otherwise"), alternatives.get("else"))
 
@@ -123,7 +123,7 @@ class ResponseParser(DefinitionParser):
         first = self.at
         if self.kinds[first] not in ("within", "eventually"):
             return None
-        from sleec_runtime.model.time import Window
+        from sleec_runtime.model import Window
 
         self.at += 1
         if self.kinds[first] == "eventually":
@@ -154,7 +154,7 @@ class ResponseParser(DefinitionParser):
 
     def length(self, may_lack_unit: bool = False) -> Length:
         """``5 minutes``; the number may be a constant or a measure. In brackets the unit may stand behind them."""
-        from sleec_runtime.model.time import Length
+        from sleec_runtime.model import Length
 
         first = self.at
         if self.kinds[first] == "[" or (self.token_text(first) in UNITS and self.kinds[first + 1] != "word"):
@@ -218,7 +218,7 @@ class ResponseParser(DefinitionParser):
 
     def _same_unit(self, start: Length, end: Length, first: int) -> tuple[Length, Length]:
         """``[a, b] UNIT``: the unit behind the brackets is that of both ends, which then have none of their own."""
-        from sleec_runtime.model.time import Length
+        from sleec_runtime.model import Length
 
         bare = [length for length in (start, end) if length.span is NOWHERE]
         if not bare:

@@ -16,7 +16,7 @@ from sleec_runtime.model import Clause, Comments, Number, Obligation
 TYPE_CHECKING = False
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import Length, Window
+    from sleec_runtime.model import Length, Window
 
 _INDENT = "    "
 

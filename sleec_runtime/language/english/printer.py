@@ -27,7 +27,7 @@ from sleec_runtime.model import (
 )
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import Claim, Relation
+    from sleec_runtime.model import Claim, Relation
 
 _BesideRules = Union[Declaration, Measure, Constant, Exclusive, Never, Assume, "Claim", "Relation"]
 

@@ -11,7 +11,7 @@ from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Span
 from sleec_runtime.support.suggestions import nearest
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import (
+    from sleec_runtime.model import (
         Claim,
         ClaimForm,
         ClaimKind,
@@ -80,7 +80,7 @@ class RelationParser(RuleParser):
         return self._claim(kind, label, label_span, first)
 
     def _claim(self, kind: ClaimKind, label: str, label_span: Span, first: int) -> Claim:
-        from sleec_runtime.model.time import Claim
+        from sleec_runtime.model import Claim
 
         at_form = self.at
         if self.kinds[at_form] not in _FORMS:
@@ -193,21 +193,21 @@ class RelationParser(RuleParser):
         return None
 
     def _of_events(self, first: int, event: str, relation: EventRelationKind) -> EventRelation:
-        from sleec_runtime.model.time import EventRelation
+        from sleec_runtime.model import EventRelation
 
         self.at += 1
         other, _ = self._event_named("another event")
         return EventRelation(relation, event, other, self.span(first), self.comments_of(first))
 
     def _effect(self, first: int, event: str, relation: EffectKind) -> Effect:
-        from sleec_runtime.model.time import Effect
+        from sleec_runtime.model import Effect
 
         self.at += 1
         formula = self._condition()
         return Effect(relation, event, formula, self.span(first), self.comments_of(first))
 
     def _of_conditions(self, first: int) -> MeasureRelation:
-        from sleec_runtime.model.time import MeasureRelation
+        from sleec_runtime.model import MeasureRelation
 
         self.at += 1
         left = self._condition()
@@ -222,7 +222,7 @@ class RelationParser(RuleParser):
         return MeasureRelation(relation, left, right, self.span(first), self.comments_of(first))
 
     def _lasting(self, first: int) -> Lasting:
-        from sleec_runtime.model.time import Lasting
+        from sleec_runtime.model import Lasting
 
         self.at += 1
         event, _, condition = self._occasion("an event", self.names.state)

@@ -9,8 +9,7 @@ from sleec_runtime.language.common.formula_printer import guard_text, print_form
 from sleec_runtime.language.common.line_printer import behind
 from sleec_runtime.language.english.chain_printer import ChainPrinter, length_text
 from sleec_runtime.language.english.relations import EFFECTS, OF_CONDITIONS, OF_EVENTS
-from sleec_runtime.model import Comments
-from sleec_runtime.model.time import Claim, Effect, EventRelation, Lasting, MeasureRelation, Relation
+from sleec_runtime.model import Claim, Comments, Effect, EventRelation, Lasting, MeasureRelation, Relation
 
 _Value = TypeVar("_Value")
 

@@ -154,7 +154,7 @@ class ResponseParser(TimeParser):
 
     def _timed(self, name: str, negated: bool, first: int) -> Obligation:
         """The obligation with the time and the alternatives at hand."""
-        from sleec_runtime.model.time import Timing
+        from sleec_runtime.model import Timing
 
         window = self.window()
         alternatives: dict[str, Clause] = {}

@@ -13,7 +13,7 @@ from sleec_runtime.language.english.keywords import ALTERNATIVES, PHRASE, TIMES
 from sleec_runtime.model import MeasureRef, Number, Span
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import Length, Unit, Window
+    from sleec_runtime.model import Length, Unit, Window
 
 _AS_IN = "as in: WITHIN 5 minutes"
 _TO = "TO"
@@ -36,7 +36,7 @@ class TimeParser(DeclarationParser):
         kind = self.kinds[first]
         if kind not in TIMES:
             return None
-        from sleec_runtime.model.time import Window
+        from sleec_runtime.model import Window
 
         self.at += 1
         if kind == "EVENTUALLY":
@@ -54,13 +54,13 @@ class TimeParser(DeclarationParser):
 
     def length(self) -> Length:
         """``5 minutes``; the number may be a constant or a measure."""
-        from sleec_runtime.model.time import Length
+        from sleec_runtime.model import Length
 
         bound = self._bound()
         return Length(bound.amount, bound.unit or self._unit(), bound.span)
 
     def _ends(self) -> tuple[Length | None, Length]:
-        from sleec_runtime.model.time import Length
+        from sleec_runtime.model import Length
 
         if self.token_text(self.at) == "[":
             start, end = self._in_brackets()

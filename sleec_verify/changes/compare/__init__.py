@@ -173,7 +173,7 @@ def _not_comparable(old: Ruleset, new: Ruleset) -> Iterator[Undecidable]:
     """Relations that speak of several instants, where the two sides have others."""
     if not (old.is_timed or new.is_timed):
         return
-    from sleec_runtime.model.time import relation_name
+    from sleec_runtime.model import relation_name
 
     mine, theirs = over_time(old), over_time(new)
     for one, others, word in ((mine, theirs, "gone"), (theirs, mine, "new")):
@@ -196,7 +196,7 @@ def _notes(world: World) -> Iterator[str]:
             "triggered by what is done, are for `sleec-verify check`"
         )
     if old.is_timed or new.is_timed:
-        from sleec_runtime.model.time import Claim
+        from sleec_runtime.model import Claim
 
         one, other = ([s for s in ruleset.statements if isinstance(s, Claim)] for ruleset in (old, new))
         if any(claim not in other for claim in one) or any(claim not in one for claim in other):

@@ -31,7 +31,7 @@ from sleec_verify.changes.decision_diagram import compares
 from sleec_verify.encoding.equation import conjunction, disjunction
 
 if TYPE_CHECKING:
-    from sleec_runtime.model.time import Relation
+    from sleec_runtime.model import Relation
 
 
 @dataclass(frozen=True)
@@ -189,7 +189,7 @@ def _assumed(of: Side, formula: Formula, by: str) -> Given:
 def instants(ruleset: Ruleset) -> Iterator[tuple[str, Formula]]:
     """What the relations say of every single instant, each with its words. What they say of several instants
     (`happenBefore`, ``when … until``) rules out no instant by itself."""
-    from sleec_runtime.model.time import Effect, EventRelation, MeasureRelation, relation_name
+    from sleec_runtime.model import Effect, EventRelation, MeasureRelation, relation_name
 
     for statement in ruleset.statements:
         if isinstance(statement, EventRelation):
@@ -245,7 +245,7 @@ def over_time(ruleset: Ruleset) -> list[Relation]:
     """The relations that speak of several instants."""
     if not ruleset.is_timed:
         return []
-    from sleec_runtime.model.time import EventRelation, Lasting
+    from sleec_runtime.model import EventRelation, Lasting
 
     return [
         s

@@ -16,8 +16,7 @@ from sleec_runtime.model import Obligation
 from sleec_verify.encoding.solver import Undecided
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Rational
-    from sleec_runtime.model.time import Timing, Window
+    from sleec_runtime.model import Rational, Timing, Window
     from sleec_verify.encoding.trace_scope import Untimed
     from sleec_verify.traces.demands import Demand, Occurs
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
-from sleec_runtime.model.spans import NOWHERE, Span
+from sleec_runtime.model import NOWHERE, Span
 from sleec_verify.changes.compare import by_obligation
 from sleec_verify.changes.gate.keys import Policy
 from sleec_verify.changes.gate.result import NEW_SUPPRESSIONS, POLICY_CHANGES, Block, Conformed, Examined, Gated

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
-from sleec_runtime.model import Source
-from sleec_runtime.model.spans import NOWHERE
+from sleec_runtime.model import NOWHERE, Source
 from sleec_verify.changes.gate.baseline import Key
 from sleec_verify.changes.gate.config import Config
 from sleec_verify.changes.gate.keys import is_assertion

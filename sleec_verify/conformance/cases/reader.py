@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sleec_runtime.language import load
-from sleec_runtime.model.untimed import require_untimed
+from sleec_runtime.model import require_untimed
 from sleec_runtime.support.suggestions import nearest
 from sleec_verify.conformance.cases.case import Case, CasesError
 from sleec_verify.entailment.situation_text import SituationError, parse_assignment, parse_situation

@@ -10,7 +10,7 @@ from __future__ import annotations
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from sleec_runtime.model.untimed import require_untimed
+from sleec_runtime.model import require_untimed
 from sleec_verify.conformance.structure.kinds import KINDS
 from sleec_verify.conformance.structure.report import NAME
 from sleec_verify.results.finding import CheckResult, Proved, Refuted, Unknown

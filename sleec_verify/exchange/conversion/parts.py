@@ -6,8 +6,19 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
-from sleec_runtime.model import Assume, Clause, Formula, Never, Obligation, Rule, Statement
-from sleec_runtime.model.time import Claim, Effect, Lasting, MeasureRelation
+from sleec_runtime.model import (
+    Assume,
+    Claim,
+    Clause,
+    Effect,
+    Formula,
+    Lasting,
+    MeasureRelation,
+    Never,
+    Obligation,
+    Rule,
+    Statement,
+)
 
 Hedges = Sequence[Clause]
 _Statement = TypeVar("_Statement", bound=Statement)

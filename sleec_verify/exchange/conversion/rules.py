@@ -12,8 +12,7 @@ from dataclasses import replace
 from itertools import islice, product
 
 from sleec_runtime.errors import Unsayable
-from sleec_runtime.model import NO_COMMENTS, And, Clause, Obligation, Rule
-from sleec_runtime.model.time import Claim
+from sleec_runtime.model import NO_COMMENTS, And, Claim, Clause, Obligation, Rule
 
 MAX_RULES = 1000
 """More rules than this from one are refused: choices between choices multiply."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from sleec_runtime.model import (
+    RELATIONS,
+    Claim,
     Clause,
     Obligation,
     Rule,
@@ -13,7 +15,6 @@ from sleec_runtime.model import (
     Statement,
     literals,
 )
-from sleec_runtime.model.time import RELATIONS, Claim
 from sleec_verify.encoding.calculations import refuse_unsayable_calculations
 from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.exchange.conversion.to_dsl import defined_by, refuse

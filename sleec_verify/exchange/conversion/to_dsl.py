@@ -12,9 +12,11 @@ from sleec_runtime.language.dsl.keywords import KEYWORDS, LEGOS_KEYWORDS
 from sleec_runtime.model import (
     NO_COMMENTS,
     NOWHERE,
+    RELATIONS,
     Agent,
     And,
     Atom,
+    Claim,
     Comments,
     Constant,
     Declaration,
@@ -31,7 +33,6 @@ from sleec_runtime.model import (
     formulas_of,
     leaves,
 )
-from sleec_runtime.model.time import RELATIONS, Claim
 from sleec_verify.encoding.mentioned_names import beside_rules
 from sleec_verify.exchange.conversion.parts import with_formulas
 from sleec_verify.exchange.conversion.rules import narrow, split

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from sleec_runtime.model import (
     And,
+    Claim,
     Comments,
     Comparison,
     Constant,
@@ -22,7 +23,6 @@ from sleec_runtime.model import (
     Span,
     Statement,
 )
-from sleec_runtime.model.time import Claim
 from sleec_verify.encoding.calculations import refuse_unsayable_calculations
 from sleec_verify.encoding.measures import MIRRORED
 from sleec_verify.exchange.conversion.parts import with_formulas

@@ -36,7 +36,7 @@ def test_a_running_robot_needs_contextpy3_and_the_standard_library() -> None:
 def test_rulesets_without_times_load_nothing_that_keeps_them() -> None:
     code = "import sleec_runtime; s = sleec_runtime.load('rulesets/household.sleec'); s.due('CurtainOpenRequest')"
     loaded = modules_after(f"{code}; s.pending(); s.close()")
-    assert not {name for name in loaded if name.startswith("sleec_runtime.timed") or name == "sleec_runtime.model.time"}
+    assert not {name for name in loaded if name.startswith("sleec_runtime.timed")}
 
 
 def test_rulesets_with_times_need_no_more_than_the_standard_library() -> None:

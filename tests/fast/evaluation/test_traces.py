@@ -10,8 +10,7 @@ import pytest
 from sleec_runtime.errors import WrongType
 from sleec_runtime.evaluation.traces import Instant, Trace, broken, broken_so_far, claim_holds
 from sleec_runtime.language import parse
-from sleec_runtime.model import Rule
-from sleec_runtime.model.time import claims
+from sleec_runtime.model import Rule, claims
 
 DEFINITIONS = """def_start
   event A

@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 
 from sleec_runtime.errors import Unsayable
 from sleec_runtime.language import load, parse, print_ruleset
-from sleec_runtime.model import And, Atom, Comparison, Declaration, Not, Or, Rule, Truth
-from sleec_runtime.model.time import RELATIONS, Claim
+from sleec_runtime.model import RELATIONS, And, Atom, Claim, Comparison, Declaration, Not, Or, Rule, Truth
 from sleec_verify.exchange.conversion import Target, convert
 from sleec_verify.exchange.conversion.rules import MAX_RULES
 from tests.support.dsl_strategies import dsl_rulesets

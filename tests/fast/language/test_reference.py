@@ -70,7 +70,7 @@ def test_every_class_of_the_model_comes_from_some_example():
         found |= constructs(parse(example))
     classes = {name for name, value in vars(model).items() if isinstance(value, type) and is_dataclass(value)}
     # A situation is no text, `true` is a formula that simplifies, and only the DSL calculates.
-    assert classes - found == {"Context", "Calculated"}
+    assert classes - found == {"Context", "Calculation"}
 
 
 @pytest.mark.parametrize(("english", "in_the_dsl"), RELATIONS)

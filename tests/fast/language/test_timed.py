@@ -6,14 +6,21 @@ import pytest
 
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, print_ruleset
-from sleec_runtime.model import Atom, Clause, Declaration, MeasureRef, Not, Number, Obligation, Or
-from sleec_runtime.model.time import (
+from sleec_runtime.model import (
+    Atom,
     Claim,
+    Clause,
+    Declaration,
     Effect,
     EventRelation,
     Lasting,
     Length,
+    MeasureRef,
     MeasureRelation,
+    Not,
+    Number,
+    Obligation,
+    Or,
     Timing,
     Window,
 )

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from sleec_runtime.language import parse, print_ruleset
-from sleec_runtime.model import literals
-from sleec_runtime.model.time import RELATIONS, Claim, Effect, EventRelation, Lasting, MeasureRelation
+from sleec_runtime.model import RELATIONS, Claim, Effect, EventRelation, Lasting, MeasureRelation, literals
 from tests.support.timed_strategies import timed_ruleset
 
 MANY = [timed_ruleset(seed) for seed in range(300)]

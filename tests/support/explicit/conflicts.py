@@ -11,8 +11,7 @@ from functools import cached_property
 from itertools import chain, combinations
 from typing import NamedTuple
 
-from sleec_runtime.model import Atom, Ruleset, formulas_of, leaves, literals
-from sleec_runtime.model.time import Effect, Lasting, MeasureRelation
+from sleec_runtime.model import Atom, Effect, Lasting, MeasureRelation, Ruleset, formulas_of, leaves, literals
 from tests.support.explicit.demands import Demand, every, forbids, met_by_silence, progress, strongest
 from tests.support.explicit.rules import Events, Lastings, Meaning, Values, silence, valuations
 

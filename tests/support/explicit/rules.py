@@ -14,9 +14,14 @@ from sleec_runtime.model import (
     Atom,
     Clause,
     Comparison,
+    Effect,
+    EventRelation,
     Exclusive,
     Formula,
+    Lasting,
+    Length,
     MeasureRef,
+    MeasureRelation,
     Never,
     Not,
     Number,
@@ -30,7 +35,6 @@ from sleec_runtime.model import (
     Value,
     leaves,
 )
-from sleec_runtime.model.time import Effect, EventRelation, Lasting, Length, MeasureRelation
 from tests.support.explicit.demands import Demand, Literal, every, some
 
 Values = Mapping[str, Value]

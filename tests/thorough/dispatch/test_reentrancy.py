@@ -19,8 +19,8 @@ import pytest
 
 import sleec_runtime
 from sleec_runtime import Monitor, Sleec, VirtualClock, errors, obligation
+from sleec_runtime.concurrency.critical_section import CriticalSection
 from sleec_runtime.language import parse
-from sleec_runtime.support.critical_section import CriticalSection
 from sleec_runtime.timed.ledger import Act
 
 RUNTIME = str(Path(sleec_runtime.__file__).parent) + os.sep

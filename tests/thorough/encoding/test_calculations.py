@@ -16,7 +16,7 @@ from sleec_runtime.errors import LanguageError, UnsupportedCalculations
 from sleec_runtime.evaluation.evaluation import Situation, holds, truth
 from sleec_runtime.evaluation.traces import Instant, Trace, broken
 from sleec_runtime.language import parse, print_ruleset
-from sleec_runtime.model import Calculated, Comparison, Context
+from sleec_runtime.model import Calculation, Comparison, Context
 from sleec_verify.changes.compare import compare
 from sleec_verify.checks import run_checks
 from sleec_verify.cli import run
@@ -536,7 +536,7 @@ def test_what_is_found_nearby_makes_all_literals_true(data):
         st.lists(st.lists(st.sampled_from(terms), min_size=1, max_size=3, unique=True), min_size=1, max_size=2)
     )
     factors = st.sampled_from((-2, -1, 1, 3))
-    calculations = [Calculated(tuple((drawn(factors), names) for (names,) in terms)) for terms in sums]
+    calculations = [Calculation(tuple((drawn(factors), names) for (names,) in terms)) for terms in sums]
     signs, bounds = st.sampled_from((1, -1)), st.integers(-6, 12)
     cuts = [(name, drawn(bounds), drawn(st.booleans()), drawn(signs)) for name in NAMES if drawn(st.booleans())]
     compared = [(one, drawn(bounds), drawn(st.booleans()), drawn(signs)) for one in calculations]
@@ -591,7 +591,7 @@ def test_rules_at_work_calculate():
 def test_the_model_says_what_it_is_made_of():
     guard = guard_of("(({x} + (2 * {y} * {x})) > K)")
     assert isinstance(guard, Comparison)
-    assert guard.left == Calculated(((1, ("x",)), (2, ("x", "y"))))
+    assert guard.left == Calculation(((1, ("x",)), (2, ("x", "y"))))
     assert guard.left.measures == ("x", "y")
     assert str(guard.left) == "x + 2 * x * y"
     assert guard.left.value({"x": 3, "y": 2}) == 15

@@ -11,8 +11,17 @@ from pathlib import Path
 import pytest
 
 from sleec_runtime.evaluation.traces import Lawlike, broken, broken_so_far, claim_holds
-from sleec_runtime.model import Atom, Calculated, Clause, MeasureRef, leaves, literals
-from sleec_runtime.model.time import RELATIONS, Lasting, relation_name
+from sleec_runtime.model import (
+    RELATIONS,
+    Atom,
+    Calculation,
+    Clause,
+    Lasting,
+    MeasureRef,
+    leaves,
+    literals,
+    relation_name,
+)
 from sleec_verify.certificates.theory.oracle import NoAnswer, answers
 from tests.support.numbered_traces import NumberedTraces
 from tests.support.random_traces import Case, random_cases
@@ -105,7 +114,7 @@ def features_of(clause: Clause) -> Iterator[str]:
             yield f"{sign}eventually"
         else:
             yield f"{sign}{'within' if timing.window.start is None else 'from to'}"
-            if isinstance(timing.window.end.amount, (MeasureRef, Calculated)):
+            if isinstance(timing.window.end.amount, (MeasureRef, Calculation)):
                 yield f"{sign}measured {type(timing.window.end.amount).__name__}"
         if timing is not None:
             for word, alternative in (("otherwise", timing.otherwise), ("else", timing.instead)):
@@ -136,7 +145,7 @@ EVERY = {
     *(f"{count} instants" for count in range(6)),
     *("measured duration", "until with a condition", "chain in a chain", "hedge without a response", "two obligations"),
     *(f"{sign}{window}" for sign in SIGNS for window in ("untimed", "eventually", "within", "from to")),
-    *(f"{sign}measured {amount}" for sign in SIGNS for amount in ("MeasureRef", "Calculated")),
+    *(f"{sign}measured {amount}" for sign in SIGNS for amount in ("MeasureRef", "Calculation")),
     *(f"{word} after {what}" for word in ("otherwise", "else") for what in ("no window", "a window")),
     *(f"{what} in {word}" for word in ("otherwise", "else") for what in ("hedges", "time")),
     *("within in a claim", "otherwise after a window in a claim", "chain in a chain in a claim"),

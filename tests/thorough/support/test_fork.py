@@ -17,9 +17,9 @@ from typing import Any
 import pytest
 
 from sleec_runtime import MonotonicClock, PolledClock, Sleec, VirtualClock, errors, obligation
+from sleec_runtime.concurrency import fork as forks
+from sleec_runtime.concurrency.critical_section import CriticalSection
 from sleec_runtime.language import parse
-from sleec_runtime.support import fork as forks
-from sleec_runtime.support.critical_section import CriticalSection
 from tests.support.paths import ROOT
 
 ISSUE = """

@@ -20,9 +20,7 @@ from hypothesis import strategies as st
 from sleec_runtime import Monitor, MonotonicClock, Sensors, Sleec, VirtualClock, errors, obligation
 from sleec_runtime.dispatch.monitor import Difference
 from sleec_runtime.language import parse
-from sleec_runtime.model import Context
-from sleec_runtime.model.spans import Source, Span
-from sleec_runtime.model.values import exact
+from sleec_runtime.model import Context, Source, Span, exact
 from sleec_runtime.predicates import Direct, Fuzzy, Scale, Threshold, trapezoid
 from sleec_runtime.support.messages import LONGEST, represent, text_of
 from sleec_runtime.timed.failures import Failure

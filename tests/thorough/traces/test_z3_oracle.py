@@ -11,8 +11,7 @@ import pytest
 from sleec_runtime.evaluation.evaluation import holds
 from sleec_runtime.evaluation.traces import Instant, Trace, Untimed, broken, broken_so_far, claim_holds
 from sleec_runtime.language import parse
-from sleec_runtime.model import Context
-from sleec_runtime.model.time import claims
+from sleec_runtime.model import Context, claims
 from tests.support import z3_oracle as oracle
 from tests.support.timed_agreement import conflicts
 from tests.support.timed_strategies import timed_ruleset

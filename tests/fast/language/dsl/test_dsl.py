@@ -16,27 +16,25 @@ from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import (
     And,
     Atom,
-    Calculated,
+    Calculation,
+    Claim,
     Comparison,
     Context,
+    Effect,
+    EventRelation,
+    Lasting,
+    Length,
     MeasureRef,
+    MeasureRelation,
     Not,
     Number,
     Or,
     Ruleset,
     ScaleValue,
     Truth,
-    literals,
-)
-from sleec_runtime.model.time import (
-    Claim,
-    Effect,
-    EventRelation,
-    Lasting,
-    Length,
-    MeasureRelation,
     claims,
     constructs,
+    literals,
 )
 from tests.support.growth import grows_in_proportion
 from tests.support.paths import ROOT
@@ -312,7 +310,7 @@ def test_a_measure_may_say_how_long():
 )
 def test_measures_may_say_how_long_by_a_calculation(text, amount, printed):
     found = timing(f"B within {text}").window.end
-    assert (found.amount, found.seconds, found.measures) == (Calculated(amount), None, ("x",))
+    assert (found.amount, found.seconds, found.measures) == (Calculation(amount), None, ("x",))
     again = print_ruleset(rules(f"R1 when A then B within {text} unless {{m}}"))
     assert f"within {printed}" in again
     assert str(parse(again).rules[0].default.obligations[0].timing) == f"within {found}"

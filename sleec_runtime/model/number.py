@@ -1,33 +1,34 @@
-"""What a condition or a measure is worth: exact numbers, and whether a value fits what the rules declare.
+"""Exact numbers, and the numbers of sensors read as exact ones.
 
-Sensors deliver floats, rules speak of decimals. A float is taken for the decimal that it prints as, so 36.6 from a
-sensor equals the 36.6 of the text, which its binary value does not.
+Sensors deliver floats, rules use decimals. A float stands for the decimal that it prints as: 36.6 from a sensor equals
+the 36.6 of the text, although its binary value does not.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from sleec_runtime.errors import WrongType
+from typing import TYPE_CHECKING, Union
 
 if TYPE_CHECKING:
     from decimal import Decimal
+    from fractions import Fraction
 
-    from sleec_runtime.model import Measure, Rational, Value
-
+Rational = Union[int, "Fraction"]
+"""An exact number. Decimals of the text become fractions, so that 36.6 is 36.6."""
 
 DIGITS = 1_000
-"""How many digits the numerator and the denominator of a number may have. To calculate with longer ones takes long."""
+"""The most digits that the numerator and the denominator of a number may have. Arithmetic with longer ones is slow."""
 
 NUMBER = f"a number of at most {DIGITS:,} digits"
 
 _BITS = 3_322
-"""As many bits as `DIGITS` digits need."""
+"""The number of bits that `DIGITS` digits need."""
 
 
 def exact(value: object) -> Rational | None:
-    """The exact number that `value` stands for, or None if it is not a finite number of at most `DIGITS` digits. A
-    truth value is not a number."""
+    """The exact number that `value` stands for; None if it is not a finite number of at most `DIGITS` digits.
+
+    A truth value is not a number.
+    """
     if type(value) is int:
         return value if value.bit_length() <= _BITS else None
     if isinstance(value, bool):
@@ -62,7 +63,7 @@ def _are_long(numerator: int, denominator: int) -> bool:
 
 
 def _decimal(value: object) -> Decimal | None:
-    """The decimal that another real number stands for; None if it is not finite, or has far too many digits."""
+    """The decimal that another real number stands for; None if it is not finite or has far too many digits."""
     from decimal import Context, Decimal, InvalidOperation
     from numbers import Real
 
@@ -77,24 +78,3 @@ def _decimal(value: object) -> Decimal | None:
     # Rounding is fast, even if there are millions of digits.
     rounded = Context(prec=2 * DIGITS, traps=[]).plus(number)
     return number if rounded == number else None
-
-
-def fit(name: str, value: object, measure: Measure | None) -> Value:
-    """`value` as the rules compare it: a truth value if `measure` is None, else a number or a value of its scale.
-
-    Raises WrongType, which says what would fit.
-    """
-    if measure is None:
-        if isinstance(value, bool):
-            return value
-        raise WrongType(name, value, "a condition, true or false", "give True or False")
-    if measure.kind == "scale":
-        if isinstance(value, str) and value in measure.values:
-            return value
-        raise WrongType(name, value, "a measure on the scale " + " < ".join(measure.values), "give one of these names")
-    number = exact(value)
-    if number is None:
-        raise WrongType(name, value, f"a measure, {NUMBER}", "give an int, a float, a Decimal or a Fraction")
-    if measure.kind == "integer" and not isinstance(number, int):
-        raise WrongType(name, value, "a measure, a whole number", "round it, or declare the measure a number")
-    return number

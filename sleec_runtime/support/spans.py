@@ -1,4 +1,4 @@
-"""The text that rules were read from, and stretches of it."""
+"""Places in a text: spans as offsets, and as lines and columns."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 
 class Span(NamedTuple):
-    """A stretch of the text, as offsets of characters: ``text[start:end]``."""
+    """A part of a text, ``text[start:end]``, as offsets in characters."""
 
     start: int
     end: int
@@ -19,7 +19,7 @@ NOWHERE = Span(0, 0)
 
 
 class Place(NamedTuple):
-    """A span as people count: lines and columns from 1, the end column one past the last character."""
+    """A span as lines and columns, counted from 1. The end column is one after the last character."""
 
     line: int
     column: int
@@ -29,9 +29,10 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True)
 class Source:
-    """The text that a ruleset was read from.
+    """A text and its origin.
 
-    `path` is what to call it (a file's path, or ``<stdin>``); `sha256` is of the bytes as they were read, if known.
+    `path` is the path of the file, or a name such as ``<stdin>``. `sha256` is the digest of the bytes of the file, if
+    known.
     """
 
     path: str
@@ -55,7 +56,7 @@ class Source:
         return Place(line, span.start - starts[line - 1] + 1, end_line, span.end - starts[end_line - 1] + 1)
 
     def line(self, number: int) -> str:
-        """The text of a line (from 1), without its line break."""
+        """The text of a line, counted from 1, without its line break."""
         starts = self._line_starts
         start = starts[number - 1]
         end = starts[number] if number < len(starts) else len(self.text)

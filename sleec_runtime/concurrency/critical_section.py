@@ -7,8 +7,8 @@ from collections.abc import Callable
 from functools import partial, wraps
 from typing import Concatenate, ParamSpec, Protocol, TypeVar
 
+from sleec_runtime.concurrency.fork import renew_after_fork
 from sleec_runtime.errors import Reentrant
-from sleec_runtime.support.fork import renew_after_fork
 
 T = TypeVar("T")
 P = ParamSpec("P")

@@ -1,0 +1,1 @@
+"""Concurrency: changes that exclude one another, and what a forked process renews."""
