@@ -379,7 +379,7 @@ def test_another_course_of_events(tmp_path: Path) -> None:
 
 def test_every_reason_is_in_the_docs() -> None:
     page = (ROOT / "docs" / "certificates.md").read_text(encoding="utf-8")
-    _, _, section = page.partition("## When it is refused")
+    _, _, section = page.partition("## When a certificate is rejected")
     told = set(re.findall(r"^\| `([a-z-]+)` \|", section.partition("\n## ")[0], flags=re.MULTILINE))
     modules = (
         "sleec_verify/certificates/checking.py",
