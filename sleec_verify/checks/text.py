@@ -15,6 +15,7 @@ from sleec_runtime.model import (
     Never,
     Span,
     leaves,
+    literals,
 )
 from sleec_verify.checks.base import Check, FindingKind, clause_name
 from sleec_verify.encoding.name_uses import constants_used, mentions, names_used
@@ -35,7 +36,7 @@ def _unused(cones: Cones) -> Iterator[Finding]:
             yield _unused_finding("measure", statement.name, statement.span)
         elif isinstance(statement, Constant) and statement.name not in constants:
             yield _unused_finding("constant", statement.name, statement.span)
-    obliged = {o.name for clauses in cones.clauses for clause in clauses for o in clause.obligations}
+    obliged = {o.name for clauses in cones.clauses for clause in clauses for o in literals(clause)}
     for name, span in _constrained(cones):
         if name not in obliged:
             yield UNUSED_NAME.finding(

@@ -94,6 +94,11 @@ def test_an_exclusive_of_what_nobody_obliges_is_noted():
     assert finding.obligations == ("q",)
 
 
+def test_what_is_due_otherwise_is_obliged():
+    text = "NEVER p AND c\nCONDITION c\nWHEN t THEN o WITHIN 5 minutes OTHERWISE p\nUNLESS c"
+    assert found(text, "unused-name") == ()
+
+
 def test_a_name_of_two_kinds_names_the_rules_that_hold_it():
     (finding,) = found("RULE a WHEN s THEN Alarm\nRULE b WHEN Alarm THEN c", "trigger-obligation")
     assert finding.rules == ("a", "b")
