@@ -55,8 +55,8 @@ $(INSTALLED): $(LOCKED) pyproject.toml sleec_runtime/pyproject.toml hatch_build.
 
 # Some of the shipped rulesets are there to show findings; that check ends in 1, and the demo is fine.
 demo: $(INSTALLED)
-	@echo '$$ sleec-verify check rulesets --format concise'
-	@$(BIN)/sleec-verify check rulesets --format concise || test $$? -eq 1
+	@echo '$$ sleec-verify check rulesets/*.sleec --format concise'
+	@$(BIN)/sleec-verify check rulesets/*.sleec --format concise || test $$? -eq 1
 	@echo
 	@echo '$$ sleec-verify explain rulesets/household.sleec --when CurtainOpenRequest --given UserUndressed'
 	@$(BIN)/sleec-verify explain rulesets/household.sleec --when CurtainOpenRequest --given UserUndressed

@@ -7,25 +7,26 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 AS_THEY_ARE = {"CHANGELOG.md": "changelog.md", "CONTRIBUTING.md": "contributing.md", "SECURITY.md": "security.md"}
-PAGES = {**AS_THEY_ARE, "rulesets/README.md": "rulesets.md"}
+WITH_RULESETS = {"rulesets": "rulesets.md", "rulesets/studies": "studies.md"}
+PAGES = {**AS_THEY_ARE, **{f"{folder}/README.md": page for folder, page in WITH_RULESETS.items()}}
 """The pages by the files whose text they have."""
 
 
 def pages() -> dict[str, str]:
     """The pages by their paths in the site."""
     same = {page: (ROOT / file).read_text(encoding="utf-8") for file, page in AS_THEY_ARE.items()}
-    return {"rulesets.md": _rulesets(), **same}
+    return {**{page: _with_rulesets(ROOT / folder) for folder, page in WITH_RULESETS.items()}, **same}
 
 
-def _rulesets() -> str:
-    """The table of rulesets/README.md, and below it every file that it names."""
-    folder = ROOT / "rulesets"
+def _with_rulesets(folder: Path) -> str:
+    """The README of a folder, and below it every ruleset that it names."""
     text = (folder / "README.md").read_text(encoding="utf-8")
     names = re.findall(r"\]\(([\w.-]+\.sleec)\)", text)
     page = re.sub(r"\]\(([\w-]+)\.sleec\)", r"](#\1)", text)
-    parts = (
-        f'\n## {name} {{ #{Path(name).stem} }}\n\n```sleec title="{name}"\n'
-        f"{(folder / name).read_text(encoding='utf-8').strip()}\n```\n"
-        for name in names
-    )
-    return page + "".join(parts)
+    return page + "".join(_section(folder / name) for name in names)
+
+
+def _section(path: Path) -> str:
+    text = path.read_text(encoding="utf-8").strip()
+    language = "dsl" if "def_start\n" in text else "sleec"
+    return f'\n## {path.name} {{ #{path.stem} }}\n\n```{language} title="{path.name}"\n{text}\n```\n'

@@ -22,7 +22,14 @@ def test_quick_start_is_two_targets_of_the_makefile() -> None:
 
 
 def test_what_is_linked_exists() -> None:
-    for name in ("README.md", "SECURITY.md", "CONTRIBUTING.md", "rulesets/README.md", "docs/ci.md"):
+    for name in (
+        "README.md",
+        "SECURITY.md",
+        "CONTRIBUTING.md",
+        "docs/ci.md",
+        "rulesets/README.md",
+        "rulesets/studies/README.md",
+    ):
         text = (ROOT / name).read_text(encoding="utf-8")
         for link in re.findall(r"\]\(([^)#:]+)\)", text):
             assert ((ROOT / name).parent / link).exists(), f"{name} links to {link}"

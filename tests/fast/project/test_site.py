@@ -55,9 +55,9 @@ def test_every_command_has_a_page_with_its_options_and_an_example() -> None:
 
 
 def test_every_shipped_ruleset_is_shown() -> None:
-    page = copied.pages()["rulesets.md"]
-    for path in (ROOT / "rulesets").glob("*.sleec"):
-        assert path.read_text(encoding="utf-8").strip() in page
+    for folder, page in copied.WITH_RULESETS.items():
+        for path in (ROOT / folder).glob("*.sleec"):
+            assert path.read_text(encoding="utf-8").strip() in copied.pages()[page]
 
 
 def test_rules_have_colours() -> None:
