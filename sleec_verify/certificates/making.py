@@ -15,12 +15,14 @@ from sleec_verify.certificates.refutation import Disjunction, disjunctions
 from sleec_verify.certificates.whole import conflict_free
 from sleec_verify.checks import Checking, checks_for
 from sleec_verify.encoding.trace_scope import speaks_of_traces
+from sleec_verify.query.question import is_possible
 from sleec_verify.results.finding import Proved, Unknown
+from sleec_verify.traces.partition import partition_of
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
     from sleec_verify.encoding.trace_scope import Untimed
-    from sleec_verify.query.cone import Cones
+    from sleec_verify.query.ruleset_index import RulesetIndex
     from sleec_verify.report.json import Json
     from sleec_verify.results.finding import CheckResult
 
@@ -105,8 +107,8 @@ def rebuild(
     that a solver shows looked at."""
     recorder = Recorder(examining)
     checking = Checking(ruleset, domain, untimed, recorder, chains=chains)
-    for cones in (checking.whole, *checking.by_domain.values()):
-        _ask_what_is_possible(cones)
+    for index in (checking.whole, *checking.by_domain.values()):
+        _ask_what_is_possible(index)
     assumed, models = recorder.take()
     names = checks_for(ruleset)
     for done, name in enumerate(names):
@@ -123,18 +125,18 @@ def rebuild(
         yield Rebuilt(result, found, _named(name, asked, name == "conflict" and isinstance(result.verdict, Proved)))
 
 
-def _ask_what_is_possible(cones: Cones) -> bool:
+def _ask_what_is_possible(index: RulesetIndex) -> bool:
     """Asked before all else, so that what the assumptions rule out is no part of the first check that needs it."""
-    return not cones.assumptions or cones.possible
+    return not index.assumptions or is_possible(index)
 
 
 def _conflict(checking: Checking, recorder: Recorder, result: CheckResult, asked: list[Asked]) -> list[Asked]:
     if not isinstance(result.verdict, Proved):
         # Its findings have witnesses, and that there are no further causes is not claimed.
         return []
-    if any(cones.parts.traces is not None for cones in checking.by_domain.values()):
+    if any(partition_of(index).traces is not None for index in checking.by_domain.values()):
         return asked
-    free = [conflict_free(cones.parts.situations) for cones in checking.by_domain.values()]
+    free = [conflict_free(partition_of(index).situations) for index in checking.by_domain.values()]
     assert all(free), "no cause of a conflict was found"
     return recorder.take()[0]
 

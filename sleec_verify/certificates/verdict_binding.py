@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from sleec_verify.certificates.theory.oracle import NoAnswer, NotRefuted
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Proved, Refuted
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def _in_one_domain(
     if reason is not None:
         return {result.name: Tied(result.name, False, reason) for result in results}
     found: dict[str, Tied | NotTied] = {}
-    cones = Cones(ruleset)
+    index = RulesetIndex(ruleset)
     with Theory(oracle, ruleset, MOST_SECONDS) as theory:
         for result in results:
             check = result.name
@@ -101,7 +101,7 @@ def _in_one_domain(
                 continue
             try:
                 if check in FOUND:
-                    for question in questions(check, result.findings, domain, cones, theory.numbered):
+                    for question in questions(check, result.findings, domain, index, theory.numbered):
                         theory.prove(question)
                 else:
                     theory.prove(check)

@@ -10,24 +10,25 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Sequence
 
-from sleec_verify.query.cone import Cones, Name, names_in, names_of_rule
-from sleec_verify.query.inconsistent_sets import Clash, Exclusion
+from sleec_verify.query.inconsistent_sets import Exclusion, InconsistentSet, inconsistent_sets_of
+from sleec_verify.query.names import Name, names_in, names_of_rule
 from sleec_verify.query.question import Question
+from sleec_verify.query.ruleset_index import RulesetIndex
 
 
-def conflict_free(cones: Cones) -> bool:
+def conflict_free(index: RulesetIndex) -> bool:
     """Whether no situation conflicts. The formulas are linear in the rules that oblige part of a clash and in the
     assumptions."""
     # All are asked, so that all are recorded.
-    answers = [_possible(cones, group) for group in _groups(cones)]
+    answers = [_possible(index, group) for group in _groups(index)]
     return not any(answers)
 
 
-def _possible(cones: Cones, group: Sequence[Clash | Exclusion]) -> bool:
+def _possible(index: RulesetIndex, group: Sequence[InconsistentSet | Exclusion]) -> bool:
     """Whether any of these clashes comes true in some situation."""
     at_odds = {literal for clash in group for literal in clash.literals}
-    with Question(cones) as question:
-        due = question.due(_rules(cones, group), at_odds)
+    with Question(index) as question:
+        due = question.due(_rules(index, group), at_odds)
         questions = []
         for clash in group:
             literals = [due[literal] for literal in sorted(clash.literals, key=str)]
@@ -40,12 +41,12 @@ def _possible(cones: Cones, group: Sequence[Clash | Exclusion]) -> bool:
         return any(answers)
 
 
-def _rules(cones: Cones, group: Iterable[Clash | Exclusion]) -> list[int]:
+def _rules(index: RulesetIndex, group: Iterable[InconsistentSet | Exclusion]) -> list[int]:
     """The rules that oblige part of these clashes, in the order of the text."""
-    return sorted({p.rule for clash in group for literal in clash.literals for p in cones.by_obligation[literal]})
+    return sorted({p.rule for clash in group for literal in clash.literals for p in index.by_obligation[literal]})
 
 
-def _groups(cones: Cones) -> list[list[Clash | Exclusion]]:
+def _groups(index: RulesetIndex) -> list[list[InconsistentSet | Exclusion]]:
     """The clashes in groups that share neither rules nor names that the same assumptions speak of."""
     parent: dict[Hashable, Hashable] = {}
 
@@ -56,22 +57,25 @@ def _groups(cones: Cones) -> list[list[Clash | Exclusion]]:
         return node
 
     assumed: set[Name] = set()
-    for assumption in cones.assumptions:
+    for assumption in index.assumptions:
         names = list(names_in(assumption.formula))
         assumed.update(names)
         for other in names[1:]:
             parent[root(other)] = root(names[0])
-    by_root: dict[Hashable, list[Clash | Exclusion]] = {}
-    clashes: list[Clash | Exclusion] = [*cones.clashes.listed, *cones.clashes.exclusions]
+    by_root: dict[Hashable, list[InconsistentSet | Exclusion]] = {}
+    clashes: list[InconsistentSet | Exclusion] = [
+        *inconsistent_sets_of(index).listed,
+        *inconsistent_sets_of(index).exclusions,
+    ]
     tied: set[int] = set()
     for clash in clashes:
-        for rule in _rules(cones, [clash]):
+        for rule in _rules(index, [clash]):
             parent[root(rule)] = root(clash)
             if rule not in tied:
                 tied.add(rule)
-                for name in assumed.intersection(names_of_rule(cones.rules[rule])):
+                for name in assumed.intersection(names_of_rule(index.rules[rule])):
                     parent[root(name)] = root(rule)
-        for name in assumed.intersection(names_in(clash.situation) if isinstance(clash, Clash) else ()):
+        for name in assumed.intersection(names_in(clash.situation) if isinstance(clash, InconsistentSet) else ()):
             parent[root(name)] = root(clash)
     for clash in clashes:
         by_root.setdefault(root(clash), []).append(clash)

@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.errors import SleecError
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay.situations import replays
 from sleec_verify.report.json import witness_json
 from sleec_verify.results.finding import Witness
@@ -36,7 +36,7 @@ class Replay:
 
     def __init__(self, ruleset: Ruleset) -> None:
         self._ruleset = ruleset
-        self._cones: dict[str, Cones] = {}
+        self._cones: dict[str, RulesetIndex] = {}
 
     def shows(self, finding: Finding, computed: Mapping[str, Any], claim: Mapping[str, Any]) -> bool:
         """Whether the evaluator finds what the finding says in the witness that a manifest has for it, which is written
@@ -80,7 +80,7 @@ class Replay:
         number = Fraction(str(value))
         return number.numerator if number.denominator == 1 else number
 
-    def _in(self, domain: str) -> Cones:
+    def _in(self, domain: str) -> RulesetIndex:
         if domain not in self._cones:
-            self._cones[domain] = Cones(self._ruleset.in_domain(domain) if domain else self._ruleset)
+            self._cones[domain] = RulesetIndex(self._ruleset.in_domain(domain) if domain else self._ruleset)
         return self._cones[domain]

@@ -40,7 +40,8 @@ from sleec_verify.changes.compare.result import Deciding
 from sleec_verify.changes.compare.sides import instants
 from sleec_verify.encoding.equation import conjunction, disjunction, implications
 from sleec_verify.encoding.solver import Undecided
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.question import is_possible
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Witness
 
@@ -128,15 +129,15 @@ def _read_otherwise(ruleset: Ruleset, assertion: Assertion, known: Vocabulary) -
 def _broken(ruleset: Ruleset, assertion: Assertion, measures: Mapping[str, Measure]) -> Broken | None:
     given = [c.formula for c in ruleset.constraints if isinstance(c, Assume)]
     given += [formula for _, formula in instants(ruleset)] if ruleset.is_timed else []
-    cones = Cones(Ruleset((*measures.values(), *map(Assume, given), *ruleset.rules)))
-    if not cones.possible:
+    index = RulesetIndex(Ruleset((*measures.values(), *map(Assume, given), *ruleset.rules)))
+    if not is_possible(index):
         return None
     called = [_called_for(ruleset, literal) for literal in assertion.literals]
     if assertion.kind == "never":
         questions = [conjunction([assertion.when, *called])]
     else:
         questions = [conjunction([assertion.when, Not(formula)]) for formula in called]
-    found = [w for w in (smallest_situation(cones, question) for question in questions) if w is not None]
+    found = [w for w in (smallest_situation(index, question) for question in questions) if w is not None]
     if not found:
         return None
     witness = min(found, key=lambda w: len(w.triggers) + len(w.conditions))

@@ -32,7 +32,7 @@ from sleec_runtime.model import (
 from sleec_verify.encoding.measures import MIRRORED, Cut, cut_at
 
 if TYPE_CHECKING:
-    from sleec_verify.query.cone import Name
+    from sleec_verify.query.names import Name
 
 MOST_NODES = 200_000
 """Nodes of one diagram."""

@@ -30,7 +30,8 @@ from sleec_verify.checks.windows import BARE_PROHIBITION, ZERO_WINDOW
 from sleec_verify.encoding.budget import Undecided, for_file, share
 from sleec_verify.encoding.solver import Recorder
 from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.question import is_possible
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay.situations import replays
 from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
 
@@ -155,7 +156,9 @@ class Checking:
         """`realizable` is how often the environment acts in that check. Without `chains`, what is done triggers no
         rules."""
         self._checks: Mapping[str, Check] = {**CHECKS, REALIZABILITY.name: realizability(realizable)}
-        known: Callable[[Ruleset], Cones] = partial(Cones, recorder=recorder, untimed=untimed, chains=chains)
+        known: Callable[[Ruleset], RulesetIndex] = partial(
+            RulesetIndex, recorder=recorder, untimed=untimed, chains=chains
+        )
         domains = ruleset.domains if domain is None else (domain,)
         self.whole = known(ruleset)
         self.by_domain = {d: known(ruleset.in_domain(d)) for d in domains} or {"": self.whole}
@@ -195,10 +198,10 @@ class Checking:
 
     def _ask_what_is_possible(self) -> None:
         """Ask it first, and once: every question about situations rests on it."""
-        for cones in (self.whole, *self.by_domain.values()):
-            if cones.assumptions:
+        for index in (self.whole, *self.by_domain.values()):
+            if index.assumptions:
                 with share(1 / 2), suppress(Undecided):
-                    _ = cones.possible
+                    _ = is_possible(index)
 
     def result(self, name: str) -> CheckResult:
         """The verdict of one check. Raises KeyError for an unknown one."""
@@ -208,20 +211,20 @@ class Checking:
         return CheckResult(check.name, verdict, perf_counter() - started, reason)
 
 
-def _verdict(check: Check, by_domain: Mapping[str, Cones]) -> tuple[Verdict, str | None]:
+def _verdict(check: Check, by_domain: Mapping[str, RulesetIndex]) -> tuple[Verdict, str | None]:
     found: dict[tuple[object, ...], Finding] = {}
     unknown: list[str] = []
     cut: str | None = None
-    for domain, cones in by_domain.items():
+    for domain, index in by_domain.items():
         try:
-            for finding in check.run(cones):
-                if not replays(cones, finding):
+            for finding in check.run(index):
+                if not replays(index, finding):
                     unknown.append(f"a witness did not replay, which is a bug in sleec-verify: {finding.message}")
                     continue
                 # What covers a redundant rule may be another rule in each domain; it is one finding all the same.
                 rules = finding.rules[:1] if check.scope == "every domain" else finding.rules
                 key: tuple[object, ...] = (finding.code, rules, finding.clauses, finding.obligations, finding.span)
-                if key in found and not replays(cones, found[key]):
+                if key in found and not replays(index, found[key]):
                     # The other domain's situation cannot be in this one, by the assumptions of this one.
                     key = (*key, domain)
                 seen = found.setdefault(key, finding)
@@ -241,8 +244,8 @@ def _verdict(check: Check, by_domain: Mapping[str, Cones]) -> tuple[Verdict, str
     return (Refuted(findings) if findings else Proved()), cut
 
 
-def _everywhere(finding: Finding, by_domain: Mapping[str, Cones]) -> bool:
+def _everywhere(finding: Finding, by_domain: Mapping[str, RulesetIndex]) -> bool:
     """Whether a finding holds in every domain in which its first rule counts."""
     rule = finding.rules[0]
-    counts_in = (domain for domain, cones in by_domain.items() if domain and rule in cones.ruleset.by_label)
+    counts_in = (domain for domain, index in by_domain.items() if domain and rule in index.ruleset.by_label)
     return all(domain in finding.domains for domain in counts_in)

@@ -7,22 +7,22 @@ from collections.abc import Iterator
 from sleec_runtime.model import MeasureRelation
 from sleec_verify.checks.base import Check, FindingKind, listed
 from sleec_verify.encoding.budget import Undecided
-from sleec_verify.query.cone import Cones
-from sleec_verify.query.partition import without
-from sleec_verify.query.question import Question
+from sleec_verify.query.question import Question, is_possible
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
+from sleec_verify.traces.partition import without
 
 
-def _contradictory(cones: Cones) -> Iterator[Finding]:
+def _contradictory(index: RulesetIndex) -> Iterator[Finding]:
     """Unsatisfiable exactly when no situation is possible: the assumptions, and the relations between measures. A model
     is a possible situation."""
-    if any(isinstance(statement, MeasureRelation) for statement in cones.ruleset.statements):
-        cones = without(cones, cones.rules, ())
-    if not cones.assumptions or cones.possible:
+    if any(isinstance(statement, MeasureRelation) for statement in index.ruleset.statements):
+        index = without(index, index.rules, ())
+    if not index.assumptions or is_possible(index):
         return
-    needed, minimal = _at_odds(cones)
-    spans = [cones.assumptions[position].span for position in needed]
-    place = cones.ruleset.source.place
+    needed, minimal = _at_odds(index)
+    spans = [index.assumptions[position].span for position in needed]
+    place = index.ruleset.source.place
     lines = [str(place(span).line) for span in spans]
     note = "no situation is left, so every rule is dead and nothing else that is said of this ruleset means anything"
     yield ASSUMPTIONS.finding(
@@ -35,13 +35,13 @@ def _contradictory(cones: Cones) -> Iterator[Finding]:
     )
 
 
-def _at_odds(cones: Cones) -> tuple[list[int], bool]:
+def _at_odds(index: RulesetIndex) -> tuple[list[int], bool]:
     """Assumptions that contradict one another, and whether none of them can be left out: of those that one refutation
     needs, leave out one after the other."""
-    with Question(cones, assuming=False) as question:
-        switches = {question.encoder.fresh(): position for position in range(len(cones.assumptions))}
+    with Question(index, assuming=False) as question:
+        switches = {question.encoder.fresh(): position for position in range(len(index.assumptions))}
         for switch, position in switches.items():
-            question.require(-switch, question.encoder.literal(cones.assumptions[position].formula))
+            question.require(-switch, question.encoder.literal(index.assumptions[position].formula))
         needed = list(switches)
         try:
             question.ask(*needed)

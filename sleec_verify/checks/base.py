@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 from sleec_runtime.model import Clause, Formula, Obligation, Rule, Span
 from sleec_verify.encoding.equation import guard
-from sleec_verify.query.cone import Cones, Place
+from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding, Severity, Witness
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ class Check:
     name: str
     question: str
     kinds: tuple[FindingKind, ...]
-    run: Callable[[Cones], Iterable[Finding]]
+    run: Callable[[RulesetIndex], Iterable[Finding]]
     scope: Scope = "some domain"
 
     def finding(
@@ -88,13 +88,13 @@ def clause_name(rule: Rule, number: int) -> str:
     return f"hedge {number} of {rule.label}" if number else f"the default of {rule.label}"
 
 
-def clause_at(cones: Cones, place: Place) -> Clause:
-    return cones.clauses[place.rule][place.number]
+def clause_at(index: RulesetIndex, place: ClausePosition) -> Clause:
+    return index.clauses[place.rule][place.number]
 
 
-def guard_at(cones: Cones, place: Place) -> Formula:
+def guard_at(index: RulesetIndex, place: ClausePosition) -> Formula:
     """The guard of a clause, written out."""
-    return guard(cones.rules[place.rule], cones.ruleset.reading, place.number)
+    return guard(index.rules[place.rule], index.ruleset.reading, place.number)
 
 
 def literals_of(clauses: Iterable[Clause]) -> set[Obligation]:

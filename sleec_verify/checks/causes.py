@@ -11,9 +11,9 @@ from sleec_verify.checks.base import clause_at, guard_at, listed
 from sleec_verify.checks.each import each
 from sleec_verify.encoding.budget import spend
 from sleec_verify.encoding.equation import conjunction
-from sleec_verify.query.cone import Cones, Place
-from sleec_verify.query.inconsistent_sets import Clash, Exclusion
+from sleec_verify.query.inconsistent_sets import Exclusion, InconsistentSet, inconsistent_sets_of
 from sleec_verify.query.question import Question
+from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Witness
 
@@ -27,7 +27,7 @@ MANY_WAYS = 16
 PER_ATTEMPT = 8
 """Steps of a budget for one attempt to complete a cause."""
 
-Cause = tuple[Place, ...]
+Cause = tuple[ClausePosition, ...]
 """A minimal set of clauses that clash, in the order of the text."""
 
 
@@ -35,21 +35,21 @@ class Enough(Exception):
     """As many causes are found as are listed, and there may be more."""
 
 
-def causes(cones: Cones) -> Iterator[tuple[Cause, list[tuple[Clash, Witness]]]]:
+def causes(index: RulesetIndex) -> Iterator[tuple[Cause, list[tuple[InconsistentSet, Witness]]]]:
     """Every cause, in the order of the text, with what is ruled out and a smallest situation for each.
 
     Unsatisfiable exactly when a set of clauses is no cause: the guards of the clauses, and the situation in which their
     literals clash. A model is a conflicting context. Raises Undecided or Enough after those that were found.
     """
-    found: dict[Cause, list[tuple[Clash, Witness]]] = {}
-    most = MOST + MOST_PER_RULE * len(cones.rules)
+    found: dict[Cause, list[tuple[InconsistentSet, Witness]]] = {}
+    most = MOST + MOST_PER_RULE * len(index.rules)
 
-    def look(at: tuple[Cause, Clash]) -> tuple[()]:
+    def look(at: tuple[Cause, InconsistentSet]) -> tuple[()]:
         cause, clash = at
-        situation = _situation(cones, cause, clash)
-        if situation is None or not _possible(cones, cause, situation):
+        situation = _situation(index, cause, clash)
+        if situation is None or not _possible(index, cause, situation):
             return ()
-        witness = smallest_situation(cones, situation)
+        witness = smallest_situation(index, situation)
         if witness is not None:
             found.setdefault(cause, []).append((clash, witness))
             if len(found) >= most:
@@ -57,37 +57,37 @@ def causes(cones: Cones) -> Iterator[tuple[Cause, list[tuple[Clash, Witness]]]]:
         return ()
 
     try:
-        for _ in each(_candidates(cones), look):
+        for _ in each(_candidates(index), look):
             raise AssertionError("a look makes no finding")
     finally:
         yield from sorted(found.items())
 
 
-def _candidates(cones: Cones) -> Iterator[tuple[str, tuple[Cause, Clash]]]:
+def _candidates(index: RulesetIndex) -> Iterator[tuple[str, tuple[Cause, InconsistentSet]]]:
     """The clashes, each with every set of clauses that may be its cause, and the rules of these."""
-    found = cones.clashes
-    pairs = (pair for exclusion in found.exclusions for pair in _due_together(cones, exclusion))
+    found = inconsistent_sets_of(index)
+    pairs = (pair for exclusion in found.exclusions for pair in _due_together(index, exclusion))
     for clash in chain(found.listed, pairs):
-        ways = prod(len(cones.by_obligation[literal]) for literal in clash.literals)
-        if ways > MANY_WAYS and not _all_due(cones, clash):
+        ways = prod(len(index.by_obligation[literal]) for literal in clash.literals)
+        if ways > MANY_WAYS and not _all_due(index, clash):
             continue
-        for cause in _covers(cones, clash):
-            rules = dict.fromkeys(cones.rules[place.rule].label for place in cause)
+        for cause in _covers(index, clash):
+            rules = dict.fromkeys(index.rules[place.rule].label for place in cause)
             yield listed(rules) if rules else "the constraints", (cause, clash)
 
 
-def _all_due(cones: Cones, clash: Clash) -> bool:
+def _all_due(index: RulesetIndex, clash: InconsistentSet) -> bool:
     """Whether all literals of a clash are due in some situation."""
-    rules = {place.rule for literal in clash.literals for place in cones.by_obligation[literal]}
-    with Question(cones) as question:
+    rules = {place.rule for literal in clash.literals for place in index.by_obligation[literal]}
+    with Question(index) as question:
         return question.ask(*question.due(sorted(rules), clash.literals).values())
 
 
-def _due_together(cones: Cones, exclusion: Exclusion) -> Iterator[Clash]:
+def _due_together(index: RulesetIndex, exclusion: Exclusion) -> Iterator[InconsistentSet]:
     """The pairs of an exclusion that may be due in some situation: all pairs of a literal that is due with another one.
     One formula, satisfiable exactly when there is a further such literal. A model shows one."""
-    rules = {place.rule for literal in exclusion.literals for place in cones.by_obligation[literal]}
-    with Question(cones) as question:
+    rules = {place.rule for literal in exclusion.literals for place in index.by_obligation[literal]}
+    with Question(index) as question:
         encoder = question.encoder
         due = question.due(sorted(rules), set(exclusion.literals))
         counting = {literal: encoder.fresh() for literal in due}
@@ -100,44 +100,46 @@ def _due_together(cones: Cones, exclusion: Exclusion) -> Iterator[Clash]:
             yield from (exclusion.clash(one, other) for other in counting)
 
 
-def _covers(cones: Cones, clash: Clash) -> Iterator[Cause]:
+def _covers(index: RulesetIndex, clash: InconsistentSet) -> Iterator[Cause]:
     """The minimal sets of clauses, one at most of each rule, that oblige every literal of the clash."""
     literals = sorted(clash.literals, key=str)
     seen: set[Cause] = set()
 
-    def extend(chosen: tuple[Place, ...], covered: frozenset[Obligation]) -> Iterator[tuple[Place, ...]]:
+    def extend(
+        chosen: tuple[ClausePosition, ...], covered: frozenset[Obligation]
+    ) -> Iterator[tuple[ClausePosition, ...]]:
         spend(PER_ATTEMPT)
         missing = next((literal for literal in literals if literal not in covered), None)
         if missing is None:
             yield chosen
             return
-        for place in cones.by_obligation[missing]:
+        for place in index.by_obligation[missing]:
             # Two clauses of one rule never decide together.
             if all(place.rule != other.rule for other in chosen):
-                yield from extend((*chosen, place), covered.union(clause_at(cones, place).obligations))
+                yield from extend((*chosen, place), covered.union(clause_at(index, place).obligations))
 
     for chosen in extend((), frozenset()):
         cause = tuple(sorted(chosen))
-        if cause not in seen and _minimal(cones, cause, clash.literals):
+        if cause not in seen and _minimal(index, cause, clash.literals):
             seen.add(cause)
             yield cause
 
 
-def _minimal(cones: Cones, cause: Cause, literals: frozenset[Obligation]) -> bool:
-    return not any(literals <= _obliged(cones, (other for other in cause if other != place)) for place in cause)
+def _minimal(index: RulesetIndex, cause: Cause, literals: frozenset[Obligation]) -> bool:
+    return not any(literals <= _obliged(index, (other for other in cause if other != place)) for place in cause)
 
 
-def _obliged(cones: Cones, places: Iterable[Place]) -> set[Obligation]:
-    return set(chain.from_iterable(clause_at(cones, place).obligations for place in places))
+def _obliged(index: RulesetIndex, places: Iterable[ClausePosition]) -> set[Obligation]:
+    return set(chain.from_iterable(clause_at(index, place).obligations for place in places))
 
 
-def _situation(cones: Cones, cause: Cause, clash: Clash) -> Formula | None:
+def _situation(index: RulesetIndex, cause: Cause, clash: InconsistentSet) -> Formula | None:
     """Where the clauses decide together and clash, and no part of them clashes already. None if a part always does."""
-    conjuncts = [guard_at(cones, place) for place in cause]
+    conjuncts = [guard_at(index, place) for place in cause]
     if clash.labels:
         conjuncts.append(clash.situation)
     for place in cause:
-        for smaller in cones.clashes.among(_obliged(cones, (other for other in cause if other != place))):
+        for smaller in inconsistent_sets_of(index).among(_obliged(index, (other for other in cause if other != place))):
             if not smaller.labels:
                 return None
             if smaller != clash:
@@ -145,12 +147,12 @@ def _situation(cones: Cones, cause: Cause, clash: Clash) -> Formula | None:
     return conjunction(list(dict.fromkeys(conjuncts)))
 
 
-def _possible(cones: Cones, cause: Cause, situation: Formula) -> bool:
+def _possible(index: RulesetIndex, cause: Cause, situation: Formula) -> bool:
     """Whether the clauses decide together, by a question that can be recorded. Without recorder and assumptions, the
     search for a smallest situation answers it."""
-    if cones.recorder is None and not cones.assumptions:
+    if index.recorder is None and not index.assumptions:
         return True
-    with Question(cones) as question:
+    with Question(index) as question:
         for place in cause:
             question.require(question.guards(place.rule)[place.number])
         question.require_formula(situation)

@@ -8,20 +8,21 @@ from typing import TYPE_CHECKING
 from sleec_verify.checks.base import Check, FindingKind, listed
 from sleec_verify.checks.each import each
 from sleec_verify.checks.relevant_rules import in_words, rules_in
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding, Witness
+from sleec_verify.traces.index import trace_index_of
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Claim
 
 
-def _concerns(cones: Cones) -> Iterator[Finding]:
+def _concerns(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each concern that comes about in some trace that keeps all."""
     from sleec_runtime.model import claims
     from sleec_verify.traces.questions import coming_about
 
     def of(claim: Claim) -> Iterator[Finding]:
-        answer = coming_about(cones.index, claim)
+        answer = coming_about(trace_index_of(index), claim)
         if answer.trace is None:
             return
         moment = next(m for m in answer.trace.moments if claim.event in m.events)
@@ -35,23 +36,23 @@ def _concerns(cones: Cones) -> Iterator[Finding]:
             help="add a rule that prevents it, or a hedge to the one that leads to it",
         )
 
-    yield from each(((claim.label, claim) for claim in claims(cones.ruleset, "concern")), of)
+    yield from each(((claim.label, claim) for claim in claims(index.ruleset, "concern")), of)
 
 
-def _purposes(cones: Cones) -> Iterator[Finding]:
+def _purposes(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each purpose that comes about in no trace that keeps all."""
     from sleec_runtime.model import claims
     from sleec_verify.traces.questions import coming_about
 
     def of(claim: Claim) -> Iterator[Finding]:
-        answer = coming_about(cones.index, claim)
+        answer = coming_about(trace_index_of(index), claim)
         if answer.trace is not None:
             return
-        blocking = in_words(cones.index, answer.matter)
+        blocking = in_words(trace_index_of(index), answer.matter)
         yield PURPOSE.finding(
             f"the purpose {claim.label} cannot come about",
             claim.label_span,
-            rules=rules_in(cones.index, answer.matter),
+            rules=rules_in(trace_index_of(index), answer.matter),
             obligations=(claim.label,),
             note=f"{listed(blocking)} {'blocks' if len(blocking) == 1 else 'block'} it"
             if blocking
@@ -59,7 +60,7 @@ def _purposes(cones: Cones) -> Iterator[Finding]:
             help="give the rules that block it a hedge for this case, or drop the purpose",
         )
 
-    yield from each(((claim.label, claim) for claim in claims(cones.ruleset, "purpose")), of)
+    yield from each(((claim.label, claim) for claim in claims(index.ruleset, "purpose")), of)
 
 
 _EVENTS = "def_start\n  event UserCalls\n  event Answer\n  event Ring\n  measure asleep: boolean\ndef_end\n"

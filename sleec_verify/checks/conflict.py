@@ -15,42 +15,42 @@ from sleec_verify.checks.causes import Cause, causes
 from sleec_verify.checks.each import each
 from sleec_verify.checks.relevant_rules import kind_of, relation_in_words
 from sleec_verify.encoding.trace_scope import responses_of
-from sleec_verify.query.cone import Cones, Place
-from sleec_verify.query.inconsistent_sets import Clash, Clashes, opposite
-from sleec_verify.query.partition import without
+from sleec_verify.query.inconsistent_sets import InconsistentSet, InconsistentSets, opposite
+from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding, Witness
+from sleec_verify.traces.partition import partition_of, without
 
 if TYPE_CHECKING:
     from sleec_verify.results.timeline import Timeline
     from sleec_verify.traces.conflicts import Conflict
-    from sleec_verify.traces.index import Index
+    from sleec_verify.traces.index import TraceIndex
     from sleec_verify.traces.relations import Relation
 
 
-def _conflicts(cones: Cones) -> Iterator[Finding]:
+def _conflicts(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each distinct conflict."""
-    index = cones.parts.traces
-    if index is None:
-        yield from _of_situations(cones.parts.situations)
+    traces = partition_of(index).traces
+    if traces is None:
+        yield from _of_situations(partition_of(index).situations)
         return
     from sleec_verify.traces.components import components, needs_traces
 
     # A component of these rules in which nothing takes time is about situations, too.
-    found = [component for component in components(index) if needs_traces(component)]
-    rest = without(cones, (rule for component in found for rule in component.rules), ())
+    found = [component for component in components(traces) if needs_traces(component)]
+    rest = without(index, (rule for component in found for rule in component.rules), ())
     named = [(listed(rule.label for rule in component.rules), component) for component in found]
 
-    def of(component: Index | None) -> Iterator[Finding]:
-        return _of_situations(rest) if component is None else _of_traces(index, component)
+    def of(component: TraceIndex | None) -> Iterator[Finding]:
+        return _of_situations(rest) if component is None else _of_traces(traces, component)
 
     yield from each([("the rules without time", None), *named], of)
 
 
-def _of_situations(cones: Cones) -> Iterator[Finding]:
-    yield from (_finding(cones, cause, shown) for cause, shown in causes(cones))
+def _of_situations(index: RulesetIndex) -> Iterator[Finding]:
+    yield from (_finding(index, cause, shown) for cause, shown in causes(index))
 
 
-def _of_traces(whole: Index, component: Index) -> Iterator[Finding]:
+def _of_traces(whole: TraceIndex, component: TraceIndex) -> Iterator[Finding]:
     from sleec_verify.traces.conflicts import ConflictSearch
 
     for conflict in ConflictSearch(component).find():
@@ -58,22 +58,28 @@ def _of_traces(whole: Index, component: Index) -> Iterator[Finding]:
 
 
 def conflict_in(
-    cones: Cones, active: Iterable[Place], declared: Clashes, true: Collection[Formula], witness: Witness
+    index: RulesetIndex,
+    active: Iterable[ClausePosition],
+    declared: InconsistentSets,
+    true: Collection[Formula],
+    witness: Witness,
 ) -> Iterator[Finding]:
     """The conflicts of one context: `active` are the clauses that decide there, `declared` the clashes of constraints,
     `true` the labels of these that its situation makes true."""
-    by_literal: dict[Obligation, Place] = {}
+    by_literal: dict[Obligation, ClausePosition] = {}
     for place in active:
-        for literal in clause_at(cones, place).obligations:
+        for literal in clause_at(index, place).obligations:
             by_literal.setdefault(literal, place)
-    direct = [Clash(frozenset((o, opposite(o)))) for o in by_literal if not o.negated and opposite(o) in by_literal]
-    causes: dict[Cause, list[tuple[Clash, Witness]]] = {}
+    direct = [
+        InconsistentSet(frozenset((o, opposite(o)))) for o in by_literal if not o.negated and opposite(o) in by_literal
+    ]
+    causes: dict[Cause, list[tuple[InconsistentSet, Witness]]] = {}
     for clash in (*direct, *declared.among(by_literal)):
         if clash.labels <= set(true):
             cause = tuple(sorted({by_literal[literal] for literal in clash.literals}))
             causes.setdefault(cause, []).append((clash, witness))
     for cause, shown in sorted(causes.items()):
-        yield _finding(cones, cause, shown)
+        yield _finding(index, cause, shown)
 
 
 class _Deciding(NamedTuple):
@@ -89,27 +95,27 @@ class _Deciding(NamedTuple):
         return list(self.rule.clauses())[self.number].obligations
 
 
-def _finding(cones: Cones, cause: Cause, shown: list[tuple[Clash, Witness]]) -> Finding:
+def _finding(index: RulesetIndex, cause: Cause, shown: list[tuple[InconsistentSet, Witness]]) -> Finding:
     clauses = [
-        _Deciding(rule, place.number, clause_name(rule, place.number), clause_at(cones, place).span)
+        _Deciding(rule, place.number, clause_name(rule, place.number), clause_at(index, place).span)
         for place in cause
-        for rule in [cones.rules[place.rule]]
+        for rule in [index.rules[place.rule]]
     ]
     origins = [origin for clash, _ in shown for origin in clash.origins]
     return _conflict(
         clauses,
-        "; ".join(dict.fromkeys(_reason(cones, clash) for clash, _ in shown)),
+        "; ".join(dict.fromkeys(_reason(index, clash) for clash, _ in shown)),
         sorted({literal.name for clash, _ in shown for literal in clash.literals}),
         [(origin.span, "the constraint") for origin in origins],
         min((witness for _, witness in shown), key=lambda w: len(w.triggers) + len(w.conditions)),
     )
 
 
-def _of_trace(index: Index, conflict: Conflict) -> Finding:
+def _of_trace(traces: TraceIndex, conflict: Conflict) -> Finding:
     from sleec_verify.traces.conflicts import LATER
     from sleec_verify.traces.timeline import timeline_of
 
-    rules = index.ruleset.by_label
+    rules = traces.ruleset.by_label
     now = conflict.now
     clauses = []
     # A rule that is triggered now comes first.
@@ -120,34 +126,34 @@ def _of_trace(index: Index, conflict: Conflict) -> Finding:
         else:
             span = list(rule.clauses())[pair.clause].span
             clauses.append(_Deciding(rule, pair.clause, clause_name(rule, pair.clause), span))
-    relations = [index.relation_by_key[key] for key in conflict.relations]
-    required, forbidden = _sides(index, conflict)
+    relations = [traces.relation_by_key[key] for key in conflict.relations]
+    required, forbidden = _sides(traces, conflict)
     is_instant = not conflict.history and not any(one.number == LATER for one in clauses)
-    is_instant = is_instant and all(_is_immediate(index, one) for one in clauses)
+    is_instant = is_instant and all(_is_immediate(traces, one) for one in clauses)
     labels = [one.rule.label for one in clauses]
     return _conflict(
         clauses,
-        _reason_of_trace(index, relations, required, forbidden, now.events, is_instant),
+        _reason_of_trace(traces, relations, required, forbidden, now.events, is_instant),
         sorted(_at_odds(relations, required, forbidden, now.events)),
         [(relation.span, f"the {kind_of(relation)}") for relation in relations],
         Witness(tuple(sorted(now.events)), now.conditions),
-        path=_path(index, conflict),
-        timeline=None if is_instant else timeline_of(index, [*conflict.history, now], len(conflict.history), labels),
+        path=_path(traces, conflict),
+        timeline=None if is_instant else timeline_of(traces, [*conflict.history, now], len(conflict.history), labels),
     )
 
 
-def _is_immediate(index: Index, clause: _Deciding) -> bool:
+def _is_immediate(traces: TraceIndex, clause: _Deciding) -> bool:
     """Whether a clause demands something of the instant of its trigger only."""
-    return all(atom.is_immediate for atom in index.atoms(clause.obligations))
+    return all(atom.is_immediate for atom in traces.atoms(clause.obligations))
 
 
-def _sides(index: Index, conflict: Conflict) -> tuple[set[str], set[str]]:
+def _sides(traces: TraceIndex, conflict: Conflict) -> tuple[set[str], set[str]]:
     """The events that the clauses of a conflict oblige, and those that they forbid."""
     from sleec_verify.traces.conflicts import LATER
 
     sides: dict[bool, set[str]] = {False: set(), True: set()}
     for pair in conflict.pairs:
-        clauses = list(index.ruleset.by_label[pair.rule].clauses())
+        clauses = list(traces.ruleset.by_label[pair.rule].clauses())
         for clause in clauses if pair.clause == LATER else [clauses[pair.clause]]:
             for response in literals(clause):
                 sides[response.negated].add(response.name)
@@ -165,7 +171,7 @@ def _at_odds(
 
 
 def _reason_of_trace(
-    index: Index,
+    traces: TraceIndex,
     relations: Sequence[Relation],
     required: set[str],
     forbidden: set[str],
@@ -175,7 +181,7 @@ def _reason_of_trace(
     at_odds = _at_odds(relations, required, forbidden, given)
     if relations:
         due = _sides_in_words(sorted(at_odds & required), sorted(at_odds & forbidden))
-        return _ruled_out(due, [relation_in_words(index.ruleset, relation) for relation in relations])
+        return _ruled_out(due, [relation_in_words(traces.ruleset, relation) for relation in relations])
     names = sorted(at_odds & forbidden & required)
     if names:
         return (
@@ -187,9 +193,9 @@ def _reason_of_trace(
     return f"{listed(sorted(required))} would have to occur again and again"
 
 
-def _path(index: Index, conflict: Conflict) -> str:
+def _path(traces: TraceIndex, conflict: Conflict) -> str:
     """How the response triggers rules of the conflict: ``through TurnOnLight, which triggers dark_rooms``."""
-    rules = [index.ruleset.by_label[label] for label in conflict.rules]
+    rules = [traces.ruleset.by_label[label] for label in conflict.rules]
     occurred = {event for moment in (*conflict.history, conflict.now) for event in moment.events}
     steps = [
         f"{rule.trigger}, which triggers {rule.label}"
@@ -243,13 +249,13 @@ def _subject(names: Sequence[str]) -> str:
     return f"{listed(names)} cannot {'both' if len(names) == 2 else 'all'} be kept"
 
 
-def _reason(cones: Cones, clash: Clash) -> str:
+def _reason(index: RulesetIndex, clash: InconsistentSet) -> str:
     positive = sorted(o.name for o in clash.literals if not o.negated)
     negative = sorted(o.name for o in clash.literals if o.negated)
     if not clash.origins:
         return f"{positive[0]} is due and forbidden at once"
     return _ruled_out(
-        _sides_in_words(positive, negative), [relation_in_words(cones.ruleset, one) for one in clash.origins]
+        _sides_in_words(positive, negative), [relation_in_words(index.ruleset, one) for one in clash.origins]
     )
 
 

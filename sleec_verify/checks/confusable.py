@@ -10,14 +10,14 @@ from collections.abc import Iterator
 
 from sleec_runtime.model import Ruleset, Span
 from sleec_verify.checks.base import Check, FindingKind
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
 
 _DIRECTION = re.compile("[\u202a-\u202e\u2066-\u2069]")
 
 
-def _confusable(cones: Cones) -> Iterator[Finding]:
-    ruleset = cones.ruleset
+def _confusable(index: RulesetIndex) -> Iterator[Finding]:
+    ruleset = index.ruleset
     if not ruleset.source.text.isascii():
         words, keywords = _words(ruleset)
         alike = _alike(words, keywords)

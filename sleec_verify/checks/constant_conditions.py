@@ -23,8 +23,8 @@ from sleec_runtime.model import (
 )
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.each import each
-from sleec_verify.query.cone import Cones
 from sleec_verify.query.question import Question
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
 
 if TYPE_CHECKING:
@@ -41,22 +41,22 @@ class _Place(NamedTuple):
     if_false: str | None = None
 
 
-def _constant(cones: Cones) -> Iterator[Finding]:
+def _constant(index: RulesetIndex) -> Iterator[Finding]:
     """For each part of a condition: unsatisfiable exactly when it is always false, and its negation when it is always
     true. A model is a situation in which it is not."""
     changing: set[Formula] = set()
-    source = cones.ruleset.source
-    places = ((f"line {source.place(place.condition.span).line}", place) for place in _places(cones.ruleset))
-    yield from each(places, lambda place: _in_condition(cones, place, changing))
+    source = index.ruleset.source
+    places = ((f"line {source.place(place.condition.span).line}", place) for place in _places(index.ruleset))
+    yield from each(places, lambda place: _in_condition(index, place, changing))
 
 
-def _in_condition(cones: Cones, place: _Place, changing: set[Formula]) -> Iterator[Finding]:
+def _in_condition(index: RulesetIndex, place: _Place, changing: set[Formula]) -> Iterator[Finding]:
     """The smallest parts of a condition that are constant. `changing` are conditions that have none, and grows."""
     condition = place.condition
     if not _may_be_constant(condition) or condition in changing:
         return
     parts = list(_parts(condition))
-    always = _always(cones, parts)
+    always = _always(index, parts)
     if place.if_false is None and always[-1] is False:
         # The whole condition of a guard or hedge: that it is dead says so already, and what follows from it.
         return
@@ -65,7 +65,7 @@ def _in_condition(cones: Cones, place: _Place, changing: set[Formula]) -> Iterat
     for part in parts:
         if id(part) not in constant or any(id(inner) in constant for inner in _operands(part)):
             continue
-        if _is_defect(part, cones.ruleset):
+        if _is_defect(part, index.ruleset):
             continue
         what = "this condition" if part is condition else "this part of a condition"
         whole, value = _with_it(part, constant[id(part)], around)
@@ -73,7 +73,7 @@ def _in_condition(cones: Cones, place: _Place, changing: set[Formula]) -> Iterat
             f"{what} is always {_word(constant[id(part)])}",
             part.span,
             rules=place.labels,
-            help=_advice(place, part, whole, value, dsl=cones.ruleset.syntax == "dsl"),
+            help=_advice(place, part, whole, value, dsl=index.ruleset.syntax == "dsl"),
             related=((whole.span, f"so all of this is always {_word(value)}"),) if whole is not part else (),
         )
     if not constant:
@@ -203,9 +203,9 @@ def _operands(formula: Formula) -> tuple[Formula, ...]:
     return formula.operands if isinstance(formula, (And, Or)) else ()
 
 
-def _always(cones: Cones, parts: Sequence[Formula]) -> list[bool | None]:
+def _always(index: RulesetIndex, parts: Sequence[Formula]) -> list[bool | None]:
     """What each formula always is, assumptions left aside; None if it may be either."""
-    with Question(cones, assuming=False) as question:
+    with Question(index, assuming=False) as question:
         literals = [question.encoder.literal(part) for part in parts]
         possible: set[int] = set()
         for literal in (sign * literal for literal in literals for sign in (1, -1)):

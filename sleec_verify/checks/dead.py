@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING
 from sleec_runtime.model import RELATIONS, Clause, MeasureRelation, Rule, in_text_order
 from sleec_verify.checks.base import Check, FindingKind, clause_name
 from sleec_verify.checks.each import each, each_shape, in_both_parts
-from sleec_verify.query.cone import Cones
-from sleec_verify.query.partition import without
 from sleec_verify.query.question import Question
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
+from sleec_verify.traces.partition import without
 
 if TYPE_CHECKING:
-    from sleec_verify.traces.index import Index
+    from sleec_verify.traces.index import TraceIndex
 
 
-def _dead_rules(cones: Cones) -> Iterator[Finding]:
+def _dead_rules(index: RulesetIndex) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule is dead: some guard of the rule. A model is a situation that triggers it."""
 
     def of(position: int) -> Iterator[Finding]:
-        rule = cones.rules[position]
-        with Question(cones) as question:
+        rule = index.rules[position]
+        with Question(index) as question:
             guards = question.guards(position)
             if not question.ask(question.encoder.any_of(guards)):
                 yield DEAD_RULE.finding(
@@ -32,35 +32,35 @@ def _dead_rules(cones: Cones) -> Iterator[Finding]:
                     help="look at its guard and at the assumptions, or remove it",
                 )
 
-    yield from each_shape(cones, of)
+    yield from each_shape(index, of)
 
 
-def _dead_hedges(cones: Cones) -> Iterator[Finding]:
+def _dead_hedges(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each hedge that decides nowhere."""
-    relations = [law for law in cones.ruleset.statements if isinstance(law, RELATIONS)]
+    relations = [law for law in index.ruleset.statements if isinstance(law, RELATIONS)]
     if not relations:
-        yield from _hedges_in_situations(cones)
+        yield from _hedges_in_situations(index)
         return
     between_events = [law for law in relations if not isinstance(law, MeasureRelation)]
     dead: set[tuple[ClauseRef, ...]] = set()
 
-    def in_situations(_: Cones) -> Iterator[Finding]:
-        for finding in _hedges_in_situations(without(cones, (), between_events)):
+    def in_situations(_: RulesetIndex) -> Iterator[Finding]:
+        for finding in _hedges_in_situations(without(index, (), between_events)):
             dead.add(finding.clauses)
             yield finding
 
     # What relations between events add is asked only of the hedges that decide without them.
-    yield from in_both_parts(cones, in_situations, lambda index: _hedges_in_traces(index, dead))
+    yield from in_both_parts(index, in_situations, lambda traces: _hedges_in_traces(traces, dead))
 
 
-def _hedges_in_traces(index: Index, dead: Collection[tuple[ClauseRef, ...]]) -> Iterator[Finding]:
+def _hedges_in_traces(traces: TraceIndex, dead: Collection[tuple[ClauseRef, ...]]) -> Iterator[Finding]:
     """A finding for each hedge, but for those that are dead already, that decides at no instant that the relations
     allow, whether or not rules are kept."""
     from sleec_verify.traces.questions import deciding
 
     def of(place: tuple[Rule, int]) -> Iterator[Finding]:
         rule, number = place
-        if (ClauseRef(rule.label, number),) not in dead and deciding(index, rule, number).trace is None:
+        if (ClauseRef(rule.label, number),) not in dead and deciding(traces, rule, number).trace is None:
             yield DEAD_HEDGE.finding(
                 f"{clause_name(rule, number)} decides in no situation",
                 list(rule.clauses())[number].span,
@@ -69,7 +69,7 @@ def _hedges_in_traces(index: Index, dead: Collection[tuple[ClauseRef, ...]]) -> 
                 help="look at its condition and at the relations, or remove it",
             )
 
-    yield from each(places_of_hedges(index.rules), of)
+    yield from each(places_of_hedges(traces.rules), of)
 
 
 def places_of_hedges(rules: Iterable[Rule]) -> Iterator[tuple[str, tuple[Rule, int]]]:
@@ -80,15 +80,15 @@ def places_of_hedges(rules: Iterable[Rule]) -> Iterator[tuple[str, tuple[Rule, i
                 yield clause_name(rule, number), (rule, number)
 
 
-def _hedges_in_situations(cones: Cones) -> Iterator[Finding]:
+def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
     """Unsatisfiable exactly when the hedge is dead: its guard. A model is a situation in which it decides."""
 
     def of(position: int) -> Iterator[Finding]:
-        rule, clauses = cones.rules[position], cones.clauses[position]
+        rule, clauses = index.rules[position], index.clauses[position]
         inside = _alternatives_with_hedges(clauses)
         if len(clauses) == 1 and not inside:
             return
-        with Question(cones) as question:
+        with Question(index) as question:
             guards = question.guards(position)
             # All is grown before the first question.
             nested = list(_guards_inside(question, guards, clauses)) if inside else []
@@ -99,7 +99,7 @@ def _hedges_in_situations(cones: Cones) -> Iterator[Finding]:
                         clauses[number].span,
                         rules=(rule.label,),
                         clauses=(ClauseRef(rule.label, number),),
-                        note=_why(cones, position, number),
+                        note=_why(index, position, number),
                         help="mend its condition, or remove it",
                     )
             for number, hedge, guard in nested:
@@ -114,7 +114,7 @@ def _hedges_in_situations(cones: Cones) -> Iterator[Finding]:
                         help="mend its condition, or remove it",
                     )
 
-    yield from each_shape(cones, of)
+    yield from each_shape(index, of)
 
 
 def _response_name(rule: Rule, number: int) -> str:
@@ -146,7 +146,7 @@ def _hedges_inside(question: Question, guard: int, clause: Clause) -> Iterator[t
     encoder = question.encoder
     for obligation in clause.obligations:
         for alternative in obligation.timing.alternatives() if obligation.timing is not None else ():
-            decided = encoder.chain(alternative, question.cones.ruleset.reading)
+            decided = encoder.chain(alternative, question.index.ruleset.reading)
             for member, decides in zip(in_text_order(alternative), decided):
                 here = encoder.both(guard, decides)
                 if member is not alternative:
@@ -154,18 +154,18 @@ def _hedges_inside(question: Question, guard: int, clause: Clause) -> Iterator[t
                 yield from _hedges_inside(question, here, member)
 
 
-def _why(cones: Cones, position: int, number: int) -> str:
+def _why(index: RulesetIndex, position: int, number: int) -> str:
     """In words, what kind of thing keeps the hedge from deciding."""
-    condition = cones.clauses[position][number].condition
+    condition = index.clauses[position][number].condition
     assert condition is not None, "only hedges are asked about"
-    with Question(cones) as question:
+    with Question(index) as question:
         triggered = question.encoder.any_of(question.guards(position))
         if not question.ask(triggered):
             return "its rule is active in no situation"
-    with Question(cones) as question:
+    with Question(index) as question:
         if not question.ask(question.encoder.literal(condition)):
             return "its condition can never be true"
-    if len(cones.clauses[position]) == 2:
+    if len(index.clauses[position]) == 2:
         return "its condition can be true, but never where the rule is triggered"
     return "its condition can be true, but never where the rule is triggered and no other hedge decides"
 

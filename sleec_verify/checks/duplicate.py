@@ -6,13 +6,13 @@ from collections.abc import Iterator
 
 from sleec_runtime.model import Rule
 from sleec_verify.checks.base import Check, FindingKind
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
 
 
-def _duplicates(cones: Cones) -> Iterator[Finding]:
+def _duplicates(index: RulesetIndex) -> Iterator[Finding]:
     seen: dict[object, list[Rule]] = {}
-    for rule in cones.rules:
+    for rule in index.rules:
         alike = seen.setdefault((rule.trigger, rule.guard, rule.default, rule.hedges), [])
         first = next((other for other in alike if _share_a_domain(rule, other)), None)
         alike.append(rule)

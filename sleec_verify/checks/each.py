@@ -6,11 +6,13 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeVar
 
 from sleec_verify.encoding.budget import Undecided, begin, share
+from sleec_verify.query.rule_shape import shape_at
 from sleec_verify.results.finding import Finding
+from sleec_verify.traces.partition import partition_of
 
 if TYPE_CHECKING:
-    from sleec_verify.query.cone import Cones
-    from sleec_verify.traces.index import Index
+    from sleec_verify.query.ruleset_index import RulesetIndex
+    from sleec_verify.traces.index import TraceIndex
 
 _Asked = TypeVar("_Asked")
 
@@ -38,14 +40,16 @@ def each(asked: Iterable[tuple[str, _Asked]], question: Callable[[_Asked], Itera
 
 
 def each_shape(
-    cones: Cones, question: Callable[[int], Iterable[Finding]], alone: Callable[[int], bool] = lambda position: True
+    index: RulesetIndex,
+    question: Callable[[int], Iterable[Finding]],
+    alone: Callable[[int], bool] = lambda position: True,
 ) -> Iterator[Finding]:
     """The findings for all rules, by their positions. The question is not asked of a rule that has the shape of one of
     which nothing was found. `alone` says whether it concerns only the rule itself."""
     nothing_found: set[object] = set()
 
     def shape_of(position: int) -> object:
-        shape = cones.shape(position) if alone(position) else None
+        shape = shape_at(index, position) if alone(position) else None
         return None if shape is None else shape.key
 
     def of(position: int) -> Iterator[Finding]:
@@ -57,7 +61,7 @@ def each_shape(
             nothing_found.add(shape_of(position))
 
     def asked() -> Iterator[tuple[str, int]]:
-        for label, position in cones.labelled():
+        for label, position in index.labelled():
             key = shape_of(position)
             if key is None or key not in nothing_found:
                 yield label, position
@@ -66,10 +70,12 @@ def each_shape(
 
 
 def in_both_parts(
-    cones: Cones, situations: Callable[[Cones], Iterable[Finding]], traces: Callable[[Index], Iterable[Finding]]
+    index: RulesetIndex,
+    situations: Callable[[RulesetIndex], Iterable[Finding]],
+    traces: Callable[[TraceIndex], Iterable[Finding]],
 ) -> Iterator[Finding]:
     """The findings about both parts of a ruleset. Raises Undecided, after all of them, where one of the parts does."""
-    parts = cones.parts
+    parts = partition_of(index)
     why: list[str] = []
     try:
         yield from situations(parts.situations)

@@ -7,23 +7,25 @@ from typing import TypeGuard
 
 from sleec_runtime.model import Declaration, Rule, Statement, literals
 from sleec_verify.checks.base import Check, FindingKind, clause_name, listed
-from sleec_verify.encoding.trace_scope import speaks_of_traces
-from sleec_verify.query.cone import Cones
+from sleec_verify.encoding.trace_scope import responses_of, speaks_of_traces
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
 
 
-def _forbidden_inputs(cones: Cones) -> Iterator[Finding]:
+def _forbidden_inputs(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each clause that forbids an event which triggers another rule, and which no rule requires and no
     declaration makes the robot's: it is an input, and the robot cannot keep it from occurring (docs/times.md)."""
-    if not (cones.chains or speaks_of_traces(cones.ruleset)):
+    if not (index.chains or speaks_of_traces(index.ruleset)):
         return
-    index = cones.index
-    acts = {name for one in cones.ruleset.statements if _is_the_robots(one) for name in one.names} | set(index.obliging)
-    for rule in cones.rules:
+    acts = {name for one in index.ruleset.statements if _is_the_robots(one) for name in one.names}
+    acts |= {response.name for rule in index.rules for response in responses_of(rule) if not response.negated}
+    for rule in index.rules:
         for number, clause in enumerate(rule.clauses()):
             for event in dict.fromkeys(response.name for response in literals(clause) if response.negated):
-                triggered = [other.label for other in index.by_trigger.get(event, ()) if event != rule.trigger]
-                if triggered and event not in acts:
+                if event == rule.trigger or event in acts:
+                    continue
+                triggered = [index.rules[position].label for position in index.by_trigger.get(event, ())]
+                if triggered:
                     yield _finding(rule, number, event, triggered)
 
 

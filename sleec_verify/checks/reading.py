@@ -10,9 +10,9 @@ from sleec_runtime.model import Clause, Formula, Not, Obligation, Reading, Rule
 from sleec_verify.checks.base import Check, FindingKind, clause_name, listed
 from sleec_verify.checks.each import each
 from sleec_verify.encoding.equation import conjunction, disjunction, guard, implications
-from sleec_verify.query.cone import Cones
 from sleec_verify.query.question import Question
-from sleec_verify.query.rule_shape import Shape
+from sleec_verify.query.rule_shape import Shape, shape_at
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import ClauseRef, Finding, Witness
 
@@ -23,19 +23,19 @@ part is one question, not one for each hedge."""
 OTHER: dict[Reading, Reading] = {"cascade": "priority", "priority": "cascade"}
 
 
-def _readings(cones: Cones) -> Iterator[Finding]:
+def _readings(index: RulesetIndex) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule means the same: some literal is due under one reading and not under the
     other. A model is a situation in which the readings part."""
 
     known: dict[object, tuple[Shape, _Parted | None]] = {}
 
     def of(position: int) -> Iterator[Finding]:
-        if len(cones.clauses[position]) > 2:
-            parted = _parted_by_shape(cones, position, known)
+        if len(index.clauses[position]) > 2:
+            parted = _parted_by_shape(index, position, known)
             if parted is not None:
-                yield _finding(cones, position, parted)
+                yield _finding(index, position, parted)
 
-    yield from each(cones.labelled(), of)
+    yield from each(index.labelled(), of)
 
 
 class _Parted(NamedTuple):
@@ -45,40 +45,42 @@ class _Parted(NamedTuple):
     deciding: dict[Reading, int]
 
 
-def _parted_by_shape(cones: Cones, position: int, known: dict[object, tuple[Shape, _Parted | None]]) -> _Parted | None:
+def _parted_by_shape(
+    index: RulesetIndex, position: int, known: dict[object, tuple[Shape, _Parted | None]]
+) -> _Parted | None:
     """Where the readings part, asked once for all rules of one shape."""
-    shape = cones.shape(position)
+    shape = shape_at(index, position)
     if shape is None:
-        return _parted(cones, position)
+        return _parted(index, position)
     found = known.get(shape.key)
     if found is None:
-        found = known[shape.key] = shape, _parted(cones, position)
+        found = known[shape.key] = shape, _parted(index, position)
     one, parted = found
     return None if parted is None else parted._replace(witness=shape.renamed(parted.witness, one.names))
 
 
-def _parted(cones: Cones, position: int) -> _Parted | None:
-    situations = _parting(cones, position)
+def _parted(index: RulesetIndex, position: int) -> _Parted | None:
+    situations = _parting(index, position)
     if situations is None:
         return None
-    rule, reading = cones.rules[position], cones.ruleset.reading
-    witness = smallest_situation(cones, situations)
+    rule, reading = index.rules[position], index.ruleset.reading
+    witness = smallest_situation(index, situations)
     assert witness is not None, "the readings part in some situation"
-    with Question(cones) as question:
+    with Question(index) as question:
         by_reading = {r: question.encoder.guards(rule, r) for r in (reading, OTHER[reading])}
         question.ask(*question.encoder.assumptions(witness.context()))
         deciding = {r: next(n for n, g in enumerate(guards) if question.true(g)) for r, guards in by_reading.items()}
     return _Parted(witness, deciding)
 
 
-def _parting(cones: Cones, position: int) -> Formula | None:
+def _parting(index: RulesetIndex, position: int) -> Formula | None:
     """Where the readings part; None if nowhere. Of a long chain, where they part as they do in the situation that was
     found: all of them, written out, grow with the square of its length."""
-    rule, clauses = cones.rules[position], cones.clauses[position]
-    here, there = cones.ruleset.reading, OTHER[cones.ruleset.reading]
+    rule, clauses = index.rules[position], index.clauses[position]
+    here, there = index.ruleset.reading, OTHER[index.ruleset.reading]
     if len(clauses) == 1 + len(rule.hedges) and len(rule.hedges) <= LONG:
-        return _situations(rule, here) if _parts_in_chain(cones, rule) else None
-    with Question(cones) as question:
+        return _situations(rule, here) if _parts_in_chain(index, rule) else None
+    with Question(index) as question:
         encoder = question.encoder
         guards = (question.guards(position), encoder.guards(rule, there))
         one, other = (encoder.due(zip(clauses, each)) for each in guards)
@@ -91,14 +93,14 @@ def _parting(cones: Cones, position: int) -> Formula | None:
     return conjunction([guard(rule, reading, n) for reading, n in zip((here, there), deciding)])
 
 
-def _parts_in_chain(cones: Cones, rule: Rule) -> bool:
+def _parts_in_chain(index: RulesetIndex, rule: Rule) -> bool:
     """Whether they part anywhere, of a chain without chains in it.
 
     They part where hedge j is the last that is true, and one before hedge j - 1 the last before the first false one,
     and the two oblige different things. Each j is asked by itself, with clauses beside one another that oblige others
     than it as one: so the answer "no" needs no search most of the time, and has a short refutation.
     """
-    with Question(cones) as question:
+    with Question(index) as question:
         encoder = question.encoder
         conditions = [encoder.literal(hedge.condition) for hedge in rule.hedges if hedge.condition is not None]
         triggered = encoder.triggered(rule)
@@ -134,11 +136,11 @@ def _situations(rule: Rule, here: Reading) -> Formula:
     return disjunction([conjunction([a[o], Not(b[o])]) for a, b in ((one, other), (other, one)) for o in one])
 
 
-def _finding(cones: Cones, position: int, parted: _Parted) -> Finding:
-    rule, reading, (witness, deciding) = cones.rules[position], cones.ruleset.reading, parted
-    clauses = cones.clauses[position]
+def _finding(index: RulesetIndex, position: int, parted: _Parted) -> Finding:
+    rule, reading, (witness, deciding) = index.rules[position], index.ruleset.reading, parted
+    clauses = index.clauses[position]
     said = [
-        f"read as {r}, {clause_name(rule, n)} decides: {_response(clauses[n], cones.ruleset.syntax == 'dsl')}"
+        f"read as {r}, {clause_name(rule, n)} decides: {_response(clauses[n], index.ruleset.syntax == 'dsl')}"
         for r, n in ((r, deciding[r]) for r in (reading, OTHER[reading]))
     ]
     return READING.finding(
@@ -149,12 +151,12 @@ def _finding(cones: Cones, position: int, parted: _Parted) -> Finding:
         obligations=tuple(sorted({o.name for n in deciding.values() for o in clauses[n].obligations})),
         witness=witness,
         note=f"with all else false: {'; '.join(said)}",
-        help=_help(cones),
+        help=_help(index),
     )
 
 
-def _help(cones: Cones) -> str:
-    ruleset = cones.ruleset
+def _help(index: RulesetIndex) -> str:
+    ruleset = index.ruleset
     if ruleset.syntax == "dsl":
         return f"this ruleset is read as {ruleset.reading}; the DSL means priority, structured English cascade"
     if ruleset.reading_stated:

@@ -7,8 +7,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from sleec_verify.checks.base import Check, FindingKind, listed
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding, Witness
+from sleec_verify.traces.index import trace_index_of
 
 if TYPE_CHECKING:
     from sleec_verify.games.realizability import Loss
@@ -16,16 +17,16 @@ if TYPE_CHECKING:
 
 def realizability(steps: int) -> Check:
     """The check for an environment that acts up to so many times."""
-    return replace(REALIZABILITY, run=lambda cones: _losses(cones, steps))
+    return replace(REALIZABILITY, run=lambda index: _losses(index, steps))
 
 
-def _losses(cones: Cones, steps: int) -> Iterator[Finding]:
+def _losses(index: RulesetIndex, steps: int) -> Iterator[Finding]:
     """A finding for each part of the rules that has nothing to do with the others and cannot always be kept."""
     from sleec_verify.encoding.solver import Undecided
     from sleec_verify.games.realizability import losses
 
     unknown: dict[str, None] = {}
-    for part, question in losses(cones.index, steps):
+    for part, question in losses(trace_index_of(index), steps):
         try:
             loss = question()
         except Undecided as error:
@@ -78,5 +79,5 @@ REALIZABILITY = Check(
             "  R2 when NightBegins then not Vacuum within 8 hours\nrule_end\n",
         ),
     ),
-    lambda cones: _losses(cones, 1),
+    lambda index: _losses(index, 1),
 )

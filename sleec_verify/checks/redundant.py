@@ -12,12 +12,13 @@ from sleec_verify.checks.dead import places_of_hedges
 from sleec_verify.checks.each import each, each_shape, in_both_parts
 from sleec_verify.checks.relevant_rules import in_words, rules_in
 from sleec_verify.encoding.solver import Undecided
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.cone import rules_of_same_obligation
 from sleec_verify.query.question import Question
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
 
 if TYPE_CHECKING:
-    from sleec_verify.traces.index import Index
+    from sleec_verify.traces.index import TraceIndex
 
 
 def with_others(findings: Iterator[Finding]) -> Iterator[Finding]:
@@ -40,42 +41,42 @@ def with_others(findings: Iterator[Finding]) -> Iterator[Finding]:
         raise why
 
 
-def _redundant_rules(cones: Cones) -> Iterator[Finding]:
+def _redundant_rules(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each rule that changes nothing."""
-    yield from with_others(in_both_parts(cones, _rules_in_situations, _rules_in_traces))
+    yield from with_others(in_both_parts(index, _rules_in_situations, _rules_in_traces))
 
 
-def _rules_in_traces(index: Index) -> Iterator[Finding]:
+def _rules_in_traces(traces: TraceIndex) -> Iterator[Finding]:
     """A finding for each rule that no trace breaks which satisfies all the others."""
     from sleec_verify.traces.questions import breaking
 
     def of(rule: Rule) -> Iterator[Finding]:
-        answer = breaking(index, rule)
+        answer = breaking(traces, rule)
         if answer.trace is not None:
             return
-        others = in_words(index, answer.matter)
+        others = in_words(traces, answer.matter)
         yield REDUNDANT_RULE.finding(
             f"{rule.label} can be removed: without it the same is allowed and called for",
             rule.label_span if rule.labelled else rule.span,
-            rules=(rule.label, *rules_in(index, answer.matter)),
+            rules=(rule.label, *rules_in(traces, answer.matter)),
             note=f"it is kept wherever {listed(others)} {'is' if len(others) == 1 else 'are'} kept"
             if others
             else "nothing can break it",
         )
 
-    yield from each(((rule.label, rule) for rule in index.rules), of)
+    yield from each(((rule.label, rule) for rule in traces.rules), of)
 
 
-def _rules_in_situations(cones: Cones) -> Iterator[Finding]:
+def _rules_in_situations(index: RulesetIndex) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule is redundant: it obliges a literal that no other rule obliges. A model is a
     situation in which the rule makes a difference."""
 
     def of(position: int) -> Iterator[Finding]:
-        rule, others = cones.rules[position], cones.rivals(position)
-        if _makes_a_difference(cones, position, others):
+        rule, others = index.rules[position], rules_of_same_obligation(index, position)
+        if _makes_a_difference(index, position, others):
             return
-        needed = _needed(cones, position, others)
-        cover = [cones.rules[other].label for other in needed]
+        needed = _needed(index, position, others)
+        cover = [index.rules[other].label for other in needed]
         yield REDUNDANT_RULE.finding(
             f"{rule.label} can be removed: every situation obliges the same without it",
             rule.label_span if rule.labelled else rule.span,
@@ -85,12 +86,12 @@ def _rules_in_situations(cones: Cones) -> Iterator[Finding]:
             else "it obliges nothing in any situation",
         )
 
-    yield from each_shape(cones, of, lambda position: not cones.rivals(position))
+    yield from each_shape(index, of, lambda position: not rules_of_same_obligation(index, position))
 
 
-def _makes_a_difference(cones: Cones, position: int, others: Sequence[int]) -> bool:
-    about = literals_of(cones.clauses[position])
-    with Question(cones) as question:
+def _makes_a_difference(index: RulesetIndex, position: int, others: Sequence[int]) -> bool:
+    about = literals_of(index.clauses[position])
+    with Question(index) as question:
         mine, theirs = question.due([position], about), question.due(others, about)
         return question.ask(_differs(question, mine, {}, theirs))
 
@@ -108,18 +109,18 @@ def _differs(
     return encoder.any_of(differences)
 
 
-def _needed(cones: Cones, position: int, others: Sequence[int]) -> list[int]:
+def _needed(index: RulesetIndex, position: int, others: Sequence[int]) -> list[int]:
     """A minimal part of `others` that makes the rule redundant: of those that one refutation needs, leave out one after
     the other. One formula, in which each of the others has a switch: a hundred copies of one rule are no rarity."""
-    about = literals_of(cones.clauses[position])
-    with Question(cones) as question:
+    about = literals_of(index.clauses[position])
+    with Question(index) as question:
         encoder = question.encoder
         mine = question.due([position], about)
         switches = {encoder.fresh(): other for other in others}
         pairs = []
         for switch, other in switches.items():
             guards = question.guards(other)
-            pairs += [(c, encoder.both(switch, guard)) for c, guard in zip(cones.clauses[other], guards)]
+            pairs += [(c, encoder.both(switch, guard)) for c, guard in zip(index.clauses[other], guards)]
         differs = _differs(question, mine, {}, encoder.due(pairs))
         question.ask(differs, *switches)
         needed = question.core_among(switches)
@@ -130,12 +131,12 @@ def _needed(cones: Cones, position: int, others: Sequence[int]) -> list[int]:
     return [switches[switch] for switch in needed]
 
 
-def _redundant_hedges(cones: Cones) -> Iterator[Finding]:
+def _redundant_hedges(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each hedge that changes nothing."""
-    yield from in_both_parts(cones, _hedges_in_situations, _hedges_in_traces)
+    yield from in_both_parts(index, _hedges_in_situations, _hedges_in_traces)
 
 
-def _hedges_in_traces(index: Index) -> Iterator[Finding]:
+def _hedges_in_traces(traces: TraceIndex) -> Iterator[Finding]:
     """A finding for each hedge without which the same traces satisfy all: none breaks the rule and satisfies it without
     the hedge, and none breaks that and satisfies the rule."""
     from sleec_verify.traces.questions import exchanging
@@ -143,7 +144,7 @@ def _hedges_in_traces(index: Index) -> Iterator[Finding]:
     def of(place: tuple[Rule, int]) -> Iterator[Finding]:
         rule, number = place
         less = without_hedge(rule, number)
-        if exchanging(index, rule, less).trace is not None or exchanging(index, less, rule).trace is not None:
+        if exchanging(traces, rule, less).trace is not None or exchanging(traces, less, rule).trace is not None:
             return
         hedge = list(rule.clauses())[number]
         yield REDUNDANT_HEDGE.finding(
@@ -154,19 +155,19 @@ def _hedges_in_traces(index: Index) -> Iterator[Finding]:
             help=what_to_do(hedge),
         )
 
-    yield from each(places_of_hedges(index.rules), of)
+    yield from each(places_of_hedges(traces.rules), of)
 
 
-def _hedges_in_situations(cones: Cones) -> Iterator[Finding]:
+def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
     """Unsatisfiable exactly when the hedge is redundant: some literal is due with it and not without it, or without
     it and not with it, and no other rule obliges it. A model is a situation in which the hedge makes a difference."""
 
     def of(position: int) -> Iterator[Finding]:
-        rule, clauses = cones.rules[position], cones.clauses[position]
+        rule, clauses = index.rules[position], index.clauses[position]
         about = literals_of(clauses)
-        others = cones.rivals(position)
-        for number in _not_plainly_needed(cones, position, others):
-            with Question(cones) as question:
+        others = rules_of_same_obligation(index, position)
+        for number in _not_plainly_needed(index, position, others):
+            with Question(index) as question:
                 changed = without_hedge(rule, number)
                 with_it = question.due([position], about)
                 without = question.encoder.due(zip(changed.clauses(), question.guards_of(changed)))
@@ -180,7 +181,7 @@ def _hedges_in_situations(cones: Cones) -> Iterator[Finding]:
                 help=what_to_do(clauses[number]),
             )
 
-    yield from each_shape(cones, of, lambda position: not cones.rivals(position))
+    yield from each_shape(index, of, lambda position: not rules_of_same_obligation(index, position))
 
 
 def what_to_do(hedge: Clause) -> str:
@@ -190,17 +191,17 @@ def what_to_do(hedge: Clause) -> str:
     return "check whether its response is the one you meant, or remove it and check again"
 
 
-def _not_plainly_needed(cones: Cones, position: int, others: Sequence[int]) -> list[int]:
+def _not_plainly_needed(index: RulesetIndex, position: int, others: Sequence[int]) -> list[int]:
     """The hedges but those that oblige, somewhere, what no other clause and no other rule obliges: these make a
     difference, and are found in one formula instead of one for each hedge."""
-    clauses = cones.clauses[position]
+    clauses = index.clauses[position]
     if len(clauses) == 1:
         return []
     count: dict[Obligation, int] = {}
     for clause in clauses:
         for literal in set(clause.obligations):
             count[literal] = count.get(literal, 0) + 1
-    with Question(cones) as question:
+    with Question(index) as question:
         encoder, never = question.encoder, -question.encoder.true()
         anyway = question.due(others, literals_of(clauses))
         added = []

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING
 from sleec_runtime.model import Assume, Exclusive, Never, Ruleset
 
 if TYPE_CHECKING:
-    from sleec_verify.traces.index import Index
+    from sleec_verify.traces.index import TraceIndex
     from sleec_verify.traces.relations import Relation
 
 
-def in_words(index: Index, matter: Iterable[str]) -> list[str]:
+def in_words(index: TraceIndex, matter: Iterable[str]) -> list[str]:
     """Labels of rules and keys of relations as people call them: rules first, each kind in the order of the text."""
     relations = [index.relation_by_key[key] for key in matter if key in index.relation_by_key]
     relations.sort(key=lambda relation: relation.span)
     return [*rules_in(index, matter), *(relation_in_words(index.ruleset, relation) for relation in relations)]
 
 
-def rules_in(index: Index, matter: Iterable[str]) -> tuple[str, ...]:
+def rules_in(index: TraceIndex, matter: Iterable[str]) -> tuple[str, ...]:
     """The rules among what matters, in the order of the text."""
     wanted = set(matter)
     return tuple(rule.label for rule in index.rules if rule.label in wanted)

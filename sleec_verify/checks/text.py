@@ -19,12 +19,12 @@ from sleec_runtime.model import (
 )
 from sleec_verify.checks.base import Check, FindingKind, clause_name
 from sleec_verify.encoding.name_uses import constants_used, mentions, names_used
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
 
 
-def _unused(cones: Cones) -> Iterator[Finding]:
-    ruleset = cones.ruleset
+def _unused(index: RulesetIndex) -> Iterator[Finding]:
+    ruleset = index.ruleset
     used = names_used(ruleset)
     constants = constants_used(ruleset)
     for statement in ruleset.statements:
@@ -36,8 +36,8 @@ def _unused(cones: Cones) -> Iterator[Finding]:
             yield _unused_finding("measure", statement.name, statement.span)
         elif isinstance(statement, Constant) and statement.name not in constants:
             yield _unused_finding("constant", statement.name, statement.span)
-    obliged = {o.name for clauses in cones.clauses for clause in clauses for o in literals(clause)}
-    for name, span in _constrained(cones):
+    obliged = {o.name for clauses in index.clauses for clause in clauses for o in literals(clause)}
+    for name, span in _constrained(index):
         if name not in obliged:
             yield UNUSED_NAME.finding(
                 f"a constraint names {name}, but no rule obliges or forbids it",
@@ -56,9 +56,9 @@ def _unused_finding(kind: str, name: str, span: Span) -> Finding:
     )
 
 
-def _constrained(cones: Cones) -> Iterator[tuple[str, Span]]:
+def _constrained(index: RulesetIndex) -> Iterator[tuple[str, Span]]:
     """The obligations that EXCLUSIVE and NEVER name."""
-    for constraint in cones.constraints:
+    for constraint in index.constraints:
         if isinstance(constraint, Exclusive):
             yield from zip(constraint.names, constraint.name_spans)
         elif isinstance(constraint, Never):
@@ -67,9 +67,9 @@ def _constrained(cones: Cones) -> Iterator[tuple[str, Span]]:
                     yield leaf.name, leaf.span
 
 
-def _empty_hedges(cones: Cones) -> Iterator[Finding]:
-    then = "then" if cones.ruleset.syntax == "dsl" else "IN WHICH CASE"
-    for rule, clauses in zip(cones.rules, cones.clauses):
+def _empty_hedges(index: RulesetIndex) -> Iterator[Finding]:
+    then = "then" if index.ruleset.syntax == "dsl" else "IN WHICH CASE"
+    for rule, clauses in zip(index.rules, index.clauses):
         for number, clause in enumerate(clauses):
             if number and not clause.obligations:
                 yield EMPTY_HEDGE.finding(
@@ -82,8 +82,8 @@ def _empty_hedges(cones: Cones) -> Iterator[Finding]:
                 )
 
 
-def _two_kinds(cones: Cones) -> Iterator[Finding]:
-    ruleset = cones.ruleset
+def _two_kinds(index: RulesetIndex) -> Iterator[Finding]:
+    ruleset = index.ruleset
     # An event may be a trigger; it is one if a rule has it.
     merely_declared = ruleset.declared["event"] - {rule.trigger for rule in ruleset.rules}
     for name in sorted((ruleset.triggers - merely_declared) & ruleset.obligations):
@@ -94,7 +94,7 @@ def _two_kinds(cones: Cones) -> Iterator[Finding]:
             rules=rules,
             obligations=(name,),
             note="doing it triggers the rules of that name; with --no-chains it triggers nothing"
-            if cones.chains
+            if index.chains
             else "doing it triggers nothing here, because of --no-chains",
         )
 
@@ -106,8 +106,8 @@ _TOLD = re.compile(rf".\b(?:before|after|in|by) [0-9]+ (?:{'|'.join(sorted(UNITS
 """A time in a phrase that most likely says when it is due; `wait for 5 minutes` is something to do."""
 
 
-def _lower_case_keywords(cones: Cones) -> Iterator[Finding]:
-    ruleset = cones.ruleset
+def _lower_case_keywords(index: RulesetIndex) -> Iterator[Finding]:
+    ruleset = index.ruleset
     measures = set(ruleset.measures)
     for name in sorted(ruleset.triggers | ruleset.conditions | ruleset.obligations | measures):
         words = name.split()

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sleec_verify.checks.base import Check, FindingKind
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
 
 _KINDS = {"repeated-label": 0, "foreign-value": 1, "number-as-value": 2, "repeated-definition": 3}
 
 
-def _defects(cones: Cones) -> Iterator[Finding]:
-    for defect in cones.ruleset.defects:
+def _defects(index: RulesetIndex) -> Iterator[Finding]:
+    for defect in index.ruleset.defects:
         yield DEFECTS.finding(defect.message, defect.span, kind=_KINDS[defect.kind], help=defect.help)
 
 

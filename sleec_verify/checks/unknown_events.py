@@ -9,19 +9,19 @@ from typing import TYPE_CHECKING
 from sleec_runtime.model import Span, in_text_order, literals
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.encoding.name_uses import events_of_rules
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Claim
 
 
-def _stray(cones: Cones) -> Iterator[Finding]:
+def _stray(index: RulesetIndex) -> Iterator[Finding]:
     from sleec_runtime.model import RELATIONS, Claim
     from sleec_runtime.support.suggestions import nearest
     from sleec_verify.traces.relations import events_of
 
-    ruleset = cones.ruleset
+    ruleset = index.ruleset
     known = events_of_rules(ruleset)
     related = Counter(name for law in ruleset.constraints for name in set(events_of(law)))
     relations = [(s, set(events_of(s))) for s in ruleset.statements if isinstance(s, RELATIONS)]

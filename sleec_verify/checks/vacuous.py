@@ -13,69 +13,71 @@ from sleec_verify.checks.each import each, in_both_parts
 from sleec_verify.checks.relevant_rules import in_words, rules_in
 from sleec_verify.encoding.budget import OutOfBudget, Undecided
 from sleec_verify.encoding.equation import conjunction
-from sleec_verify.query.cone import Cones, names_in, names_of_rule
-from sleec_verify.query.inconsistent_sets import Clashes
+from sleec_verify.query.cone import rules_active_with
+from sleec_verify.query.inconsistent_sets import InconsistentSets, inconsistent_sets_of
+from sleec_verify.query.names import names_in, names_of_rule
 from sleec_verify.query.question import Question
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Finding
 
 if TYPE_CHECKING:
-    from sleec_verify.traces.index import Index
+    from sleec_verify.traces.index import TraceIndex
 
 
-def _vacuous(cones: Cones) -> Iterator[Finding]:
+def _vacuous(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each rule that is triggered only where the rules conflict."""
-    yield from in_both_parts(cones, _in_situations, partial(_in_traces, cones))
+    yield from in_both_parts(index, _in_situations, partial(_in_traces, index))
 
 
-def _in_situations(cones: Cones) -> Iterator[Finding]:
+def _in_situations(index: RulesetIndex) -> Iterator[Finding]:
     """Unsatisfiable exactly when the rule is vacuous: it is triggered, and nothing that is due clashes. A model is a
     situation in which the rule can be kept."""
-    if not cones.clashes:
+    if not inconsistent_sets_of(index):
         return
     with ExitStack() as stack:
         kept: dict[str, _Kept | None] = {}
 
         def of(position: int) -> Iterator[Finding]:
-            rule = cones.rules[position]
+            rule = index.rules[position]
             if rule.trigger not in kept:
                 stack.close()
                 kept.clear()
-                kept[rule.trigger] = _Kept.of(cones, rule.trigger, stack)
+                kept[rule.trigger] = _Kept.of(index, rule.trigger, stack)
             peace = kept[rule.trigger]
             others = None if peace is None else peace.always_met(position)
             if others is not None:
-                yield _finding(cones, position, others)
+                yield _finding(index, position, others)
 
-        yield from each(_by_trigger(cones), of)
+        yield from each(_by_trigger(index), of)
 
 
-def _in_traces(cones: Cones, index: Index) -> Iterator[Finding]:
+def _in_traces(index: RulesetIndex, traces: TraceIndex) -> Iterator[Finding]:
     """A finding for each rule that no trace triggers, though its condition can hold."""
     from sleec_verify.traces.questions import triggering
 
     def of(rule: Rule) -> Iterator[Finding]:
-        answer = triggering(index, rule)
-        if answer.trace is not None or not _is_triggered_by_itself(cones, rule):
+        answer = triggering(traces, rule)
+        if answer.trace is not None or not _is_triggered_by_itself(index, rule):
             return
         matter = [key for key in answer.matter if key != rule.label]
-        others = in_words(index, matter)
+        others = in_words(traces, matter)
         yield VACUOUS_CONFLICT.finding(
             f"{rule.label} can be triggered, but never without a conflict",
             rule.label_span if rule.labelled else rule.span,
-            rules=(rule.label, *rules_in(index, matter)),
-            note=f"it always meets {listed(others)}" if others else _alone(index, rule),
+            rules=(rule.label, *rules_in(traces, matter)),
+            note=f"it always meets {listed(others)}" if others else _alone(traces, rule),
             help="no course of events is left in which it is triggered and all is kept; mend it, or what it meets",
         )
 
-    yield from each(((rule.label, rule) for rule in index.rules), of)
+    yield from each(((rule.label, rule) for rule in traces.rules), of)
 
 
-def _alone(index: Index, rule: Rule) -> str:
+def _alone(traces: TraceIndex, rule: Rule) -> str:
     """Why a rule that meets no other cannot be kept."""
     from sleec_verify.traces.model import TraceModel
 
-    model = TraceModel(index.part([rule], ()))
+    model = TraceModel(traces.part([rule], ()))
     try:
         contradicts = not model.ask(model.instants[model.instant(model.formula.true)].event(rule.trigger))
     except OutOfBudget:
@@ -85,52 +87,52 @@ def _alone(index: Index, rule: Rule) -> str:
     return "it contradicts itself" if contradicts else "what it calls for never comes to an end"
 
 
-def _is_triggered_by_itself(cones: Cones, rule: Rule) -> bool:
+def _is_triggered_by_itself(index: RulesetIndex, rule: Rule) -> bool:
     """Whether some situation triggers the rule, whatever relations say of it; else it is a dead rule."""
-    with Question(cones) as question:
+    with Question(index) as question:
         return question.ask(question.encoder.any_of(question.guards_of(rule)))
 
 
-def _by_trigger(cones: Cones) -> Iterator[tuple[str, int]]:
+def _by_trigger(index: RulesetIndex) -> Iterator[tuple[str, int]]:
     """The label of each rule, with its position; rules of one trigger stand together."""
-    return ((cones.rules[position].label, position) for same in cones.by_trigger.values() for position in same)
+    return ((index.rules[position].label, position) for same in index.by_trigger.values() for position in same)
 
 
-def _finding(cones: Cones, position: int, others: Sequence[int]) -> Finding:
-    rule = cones.rules[position]
-    labels = [cones.rules[other].label for other in others]
+def _finding(index: RulesetIndex, position: int, others: Sequence[int]) -> Finding:
+    rule = index.rules[position]
+    labels = [index.rules[other].label for other in others]
     triggered = [Atom("trigger", rule.trigger), *([] if rule.guard is None else [rule.guard])]
     return VACUOUS_CONFLICT.finding(
         f"{rule.label} can be triggered, but never without a conflict",
         rule.label_span if rule.labelled else rule.span,
         rules=(rule.label, *labels),
         # Whatever the measures are there is a conflict, but each must be something.
-        witness=smallest_situation(cones, conjunction(triggered), _measures(cones, [position, *others])),
+        witness=smallest_situation(index, conjunction(triggered), _measures(index, [position, *others])),
         note=f"it always meets {listed(labels)}" if labels else None,
         help="the findings of the conflict check say what is at odds; no situation is left in which to keep it",
     )
 
 
-def _measures(cones: Cones, group: Sequence[int]) -> set[str]:
+def _measures(index: RulesetIndex, group: Sequence[int]) -> set[str]:
     """The measures that decide these rules, or the constraints."""
-    named = {name for position in group for _, name in names_of_rule(cones.rules[position])}
-    named.update(n for c in cones.constraints if isinstance(c, Never) for _, n in names_in(c.formula))
-    return named & set(cones.ruleset.measures)
+    named = {name for position in group for _, name in names_of_rule(index.rules[position])}
+    named.update(n for c in index.constraints if isinstance(c, Never) for _, n in names_in(c.formula))
+    return named & set(index.ruleset.measures)
 
 
 class _Kept:
     """The formula "nothing that is due clashes" over the rules that may be active with one trigger."""
 
-    def __init__(self, cones: Cones, trigger: str, group: Sequence[int], clashes: Clashes) -> None:
-        self._cones = cones
-        self._question = Question(cones)
+    def __init__(self, index: RulesetIndex, trigger: str, group: Sequence[int], clashes: InconsistentSets) -> None:
+        self._index = index
+        self._question = Question(index)
         encoder = self._question.encoder
         # A rule speaks only if it is let in, so that the solver's core names the rules that matter.
         self._switches = {position: encoder.fresh() for position in group}
         pairs = []
         for position, switch in self._switches.items():
             guards = self._question.guards(position)
-            pairs += [(c, encoder.both(guard, switch)) for c, guard in zip(cones.clauses[position], guards)]
+            pairs += [(c, encoder.both(guard, switch)) for c, guard in zip(index.clauses[position], guards)]
         due = encoder.due(pairs)
         for exclusion in clashes.exclusions:
             self._question.require(-encoder.at_least_two([due[literal] for literal in exclusion.literals]))
@@ -139,20 +141,22 @@ class _Kept:
                 *(-due[literal] for literal in sorted(clash.literals, key=str)), -encoder.literal(clash.situation)
             )
         self._triggered = {
-            position: encoder.any_of(self._question.guards(position)) for position in cones.by_trigger[trigger]
+            position: encoder.any_of(self._question.guards(position)) for position in index.by_trigger[trigger]
         }
 
     @classmethod
-    def of(cls, cones: Cones, trigger: str, stack: ExitStack) -> _Kept | None:
+    def of(cls, index: RulesetIndex, trigger: str, stack: ExitStack) -> _Kept | None:
         """None if the rules of this trigger, and those that may be active with them, come to no clash. `stack` closes
         it."""
-        group = cones.together_with(trigger, keeping=True)
-        clashes = cones.clashes.among({literal for other in group for literal in literals_of(cones.clauses[other])})
+        group = rules_active_with(index, trigger, satisfying=True)
+        clashes = inconsistent_sets_of(index).among(
+            {literal for other in group for literal in literals_of(index.clauses[other])}
+        )
         if not clashes:
             return None
         part = clashes.literals()
-        matter = [other for other in group if not part.isdisjoint(literals_of(cones.clauses[other]))]
-        found = cls(cones, trigger, matter, clashes)
+        matter = [other for other in group if not part.isdisjoint(literals_of(index.clauses[other]))]
+        found = cls(index, trigger, matter, clashes)
         stack.enter_context(found._question)
         return found
 
@@ -170,7 +174,7 @@ class _Kept:
             without = [one for one in needed if one != switch]
             if len(without) < len(needed) and not question.ask(*given, *without):
                 needed = question.core_among(without)
-        with Question(self._cones) as triggering:
+        with Question(self._index) as triggering:
             triggered = triggering.encoder.any_of(triggering.guards(position))
             return [others[switch] for switch in needed] if triggering.ask(triggered) else None
 

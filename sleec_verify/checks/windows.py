@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Clause, Obligation, Rule, in_text_order, literals
 from sleec_verify.checks.base import Check, FindingKind
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Claim
 
 
-def _without_length(cones: Cones) -> Iterator[Finding]:
+def _without_length(index: RulesetIndex) -> Iterator[Finding]:
     from sleec_runtime.model import Lasting
 
-    for labels, literal in _literals(cones):
+    for labels, literal in _literals(index):
         window = literal.timing.window if literal.timing is not None else None
         if window is not None and window.end is not None and window.end.seconds == 0:
             only = "is forbidden" if literal.negated else "is due"
@@ -27,10 +27,10 @@ def _without_length(cones: Cones) -> Iterator[Finding]:
                 rules=labels,
                 obligations=(literal.name,),
                 help="write the time that you mean; at once is what a response without a window says, too"
-                if cones.ruleset.dialect != "sleec-tk"
+                if index.ruleset.dialect != "sleec-tk"
                 else "write the time that you mean; if that is at once, SLEEC-TK has no other way to say so",
             )
-    for statement in cones.ruleset.statements:
+    for statement in index.ruleset.statements:
         if isinstance(statement, Lasting) and statement.duration is not None and statement.duration.seconds == 0:
             yield ZERO_WINDOW.finding(
                 "this time has no length: the relation says nothing",
@@ -39,8 +39,8 @@ def _without_length(cones: Cones) -> Iterator[Finding]:
             )
 
 
-def _bare(cones: Cones) -> Iterator[Finding]:
-    for labels, literal in _literals(cones):
+def _bare(index: RulesetIndex) -> Iterator[Finding]:
+    for labels, literal in _literals(index):
         if literal.negated and (literal.timing is None or literal.timing.window is None):
             yield BARE_PROHIBITION.finding(
                 f"{literal.name} is forbidden without a window: at the instant of the trigger, and not later",
@@ -52,11 +52,11 @@ def _bare(cones: Cones) -> Iterator[Finding]:
             )
 
 
-def _literals(cones: Cones) -> Iterator[tuple[tuple[str, ...], Obligation]]:
+def _literals(index: RulesetIndex) -> Iterator[tuple[tuple[str, ...], Obligation]]:
     """Every response, those of concerns and purposes too, with the label of the rule that it stands in."""
     from sleec_runtime.model import Claim
 
-    for statement in cones.ruleset.statements:
+    for statement in index.ruleset.statements:
         if isinstance(statement, Rule):
             for clause in statement.clauses():
                 yield from (((statement.label,), literal) for literal in literals(clause))

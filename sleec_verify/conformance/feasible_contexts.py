@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 
 from sleec_runtime.model import Context, Ruleset, Value
-from sleec_verify.query.cone import Cones
 from sleec_verify.query.question import Question
+from sleec_verify.query.ruleset_index import RulesetIndex
 
 EVERYTHING: frozenset[str] = frozenset()
 
@@ -15,11 +15,11 @@ class Assumptions:
     """The assumptions of a ruleset as one question, asked as often as contexts come."""
 
     def __init__(self, ruleset: Ruleset) -> None:
-        cones = Cones(ruleset)
+        index = RulesetIndex(ruleset)
         self._question: Question | None = None
-        if cones.assumptions:
-            self._question = Question(cones, assuming=False)
-            for assumption in cones.assumptions:
+        if index.assumptions:
+            self._question = Question(index, assuming=False)
+            for assumption in index.assumptions:
                 self._question.require_formula(assumption.formula)
 
     def nearest(self, context: Context, fixed: Collection[str] = EVERYTHING) -> Context | None:

@@ -8,7 +8,7 @@ from itertools import islice
 
 from sleec_runtime.model import Assume, Context, Exclusive, Never, Obligation, Rule, Ruleset, require_untimed
 from sleec_verify.entailment.entailment import Definition1
-from sleec_verify.query.inconsistent_sets import Clash, clashes
+from sleec_verify.query.inconsistent_sets import InconsistentSet, inconsistent_sets
 
 _KEPT = 512
 """Compiled sets of triggers that are kept. A suite asks of the same few again and again."""
@@ -53,7 +53,7 @@ class Oracle:
         self.ruleset = whole if domain is None else whole.in_domain(domain)
         forbidding = (c for c in self.ruleset.constraints if isinstance(c, (Exclusive, Never)))
         obliged = {o for rule in self.ruleset.rules for clause in rule.clauses() for o in clause.obligations}
-        self.clashes = clashes(forbidding, obliged)
+        self.clashes = inconsistent_sets(forbidding, obliged)
         self.assumptions = [c.formula for c in self.ruleset.constraints if isinstance(c, Assume)]
         self._by_trigger: dict[str, list[Rule]] = {}
         for rule in self.ruleset.rules:
@@ -66,7 +66,7 @@ class Oracle:
         rules = [rule for trigger in triggers for rule in self._by_trigger.get(trigger, ())]
         return sorted(rules, key=lambda rule: self._position[rule.label])
 
-    def clashes_among(self, literals: Iterable[Obligation]) -> list[Clash]:
+    def clashes_among(self, literals: Iterable[Obligation]) -> list[InconsistentSet]:
         """The clashes that can come of these literals, with those that a situation makes by itself."""
         return list(self.clashes.among(frozenset(literals)))
 

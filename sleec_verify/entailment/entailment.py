@@ -17,8 +17,9 @@ from sleec_verify.checks.conflict import conflict_in
 from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.entailment.situation_feasibility import Law, settled
-from sleec_verify.query.cone import Cones, Place, names_in, names_of_rule, obligations_in
-from sleec_verify.query.inconsistent_sets import clashes
+from sleec_verify.query.inconsistent_sets import inconsistent_sets
+from sleec_verify.query.names import names_in, names_of_rule, obligations_in
+from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.results.finding import Finding, Witness
 
 if TYPE_CHECKING:
@@ -165,11 +166,13 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
         related = list(of_one_instant(ruleset))
         ruleset = untimed(ruleset)
     rules = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
-    cones = Cones(ruleset)
-    ruled_out = clashes(cones.constraints, {o for rule in rules for c in rule.clauses() for o in c.obligations})
+    index = RulesetIndex(ruleset)
+    ruled_out = inconsistent_sets(
+        index.constraints, {o for rule in rules for c in rule.clauses() for o in c.obligations}
+    )
     labels = list(dict.fromkeys(label for clash in ruled_out.listed for label in clash.labels))
     conditions = [formula for rule in rules for formula, _, _ in _conditions(rule)]
-    assumed = [assumption.formula for assumption in cones.assumptions]
+    assumed = [assumption.formula for assumption in index.assumptions]
     named = [name for rule in rules for name in names_of_rule(rule)]
     named += [name for formula in assumed for name in names_in(formula)]
     missing = {n for _, n in named if n in ruleset.measures and n not in context.conditions}
@@ -181,31 +184,31 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     # Equal labels of several constraints were asked about once.
     come_true = {label for label in labels if truth[id(label)]}
 
-    laws = [*((one, one.formula) for one in cones.assumptions), *related]
+    laws = [*((one, one.formula) for one in index.assumptions), *related]
     situation = settled([Law(law, formula, truth[id(formula)]) for law, formula in laws], context, ruleset.measures)
 
-    position = {rule.label: p for p, rule in enumerate(cones.rules)}
+    position = {rule.label: p for p, rule in enumerate(index.rules)}
     active = [
-        Place(position[rule.label], number)
+        ClausePosition(position[rule.label], number)
         for rule, guards in definition.guards
         for number, guard in enumerate(guards)
         if true(guard)
     ]
     due = definition.entailed(context)
-    obliged = {o for place in active for o in cones.clauses[place.rule][place.number].obligations}
+    obliged = {o for place in active for o in index.clauses[place.rule][place.number].obligations}
     witness = Witness(tuple(sorted(context.triggers)), dict(context.conditions))
-    conflicts = tuple(conflict_in(cones, active, ruled_out, come_true, witness))
+    conflicts = tuple(conflict_in(index, active, ruled_out, come_true, witness))
     consistent = due is not None and not conflicts
-    later = [o for place in active for o in _clause(stated[cones.rules[place.rule].label], place.number) if o.timing]
+    later = [o for place in active for o in _clause(stated[index.rules[place.rule].label], place.number) if o.timing]
     due = frozenset((due or frozenset()) | set(later))
     return Entailment(
         consistent=consistent,
         obligations=tuple(sorted({o.name for o in due if not o.negated})) if consistent else (),
         prohibitions=tuple(sorted({o.name for o in due if o.negated})) if consistent else (),
         because=tuple(
-            _because(stated[cones.rules[place.rule].label], place.number, ruleset.reading, truth) for place in active
+            _because(stated[index.rules[place.rule].label], place.number, ruleset.reading, truth) for place in active
         ),
-        consequences=tuple(_consequences(cones, obliged, context)) if consistent else (),
+        consequences=tuple(_consequences(index, obliged, context)) if consistent else (),
         conflicts=conflicts,
         broken_assumptions=situation.broken,
         unsettled=situation.unsettled,
@@ -262,15 +265,15 @@ def _looked_at(rule: Rule, reading: str, truth: dict[int, bool]) -> list[tuple[C
     return sorted(looked, key=lambda pair: pair[1])
 
 
-def _consequences(cones: Cones, due: set[Obligation], context: Context) -> Iterator[Consequence]:
+def _consequences(index: RulesetIndex, due: set[Obligation], context: Context) -> Iterator[Consequence]:
     """What must be so where the constraints hold and what is due is done, though no rule says so. Two questions for
     each obligation that is tied to what is due."""
     names = {literal.name for literal in due}
-    constraints = cones.constraints_about(names)
+    constraints = index.constraints_about(names)
     tied = sorted({name for constraint in constraints for name in obligations_in(constraint)} - names)
     if not tied:
         return
-    measures = cones.ruleset.measures
+    measures = index.ruleset.measures
     encoder = Encoder(measures, frozenset(measures) - set(context.conditions))
     kept = {}
     for constraint in constraints:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from sleec_runtime.model import Assume, Context, Formula, Measure, Value
 from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.solver import MiniSat, Undecided
-from sleec_verify.query.cone import names_in
+from sleec_verify.query.names import names_in
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Relation

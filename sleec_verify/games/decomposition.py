@@ -13,7 +13,7 @@ from sleec_runtime.model import Atom, Formula, Rule, formulas_of, leaves, measur
 from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.traces.demands import Occurs
 from sleec_verify.traces.event_conditions import named_atoms
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.relations import Relation, events_of, formulas_of_relation
 
 
@@ -28,7 +28,7 @@ class Part:
     windows: Mapping[str, tuple[Occurs, ...]]
 
 
-def free_events(index: Index) -> frozenset[str]:
+def free_events(index: TraceIndex) -> frozenset[str]:
     """What the robot can do at any time without consequence. Linear in the size of the rules, but for those that call
     for something later which leads back to them."""
     tied = {name for law in index.relations for name in events_of(law)}
@@ -51,7 +51,7 @@ def free_events(index: Index) -> frozenset[str]:
     return frozenset(index.agents) - bound
 
 
-def _endless(index: Index, windows: Mapping[str, list[Occurs]]) -> Iterator[str]:
+def _endless(index: TraceIndex, windows: Mapping[str, list[Occurs]]) -> Iterator[str]:
     """Events that call for others which are due strictly later and lead back to them."""
     for rule in index.rules:
         for window in windows[rule.label]:
@@ -68,7 +68,7 @@ def _endless(index: Index, windows: Mapping[str, list[Occurs]]) -> Iterator[str]
                     yield rule.trigger
 
 
-def parts(index: Index) -> Iterator[Part]:
+def parts(index: TraceIndex) -> Iterator[Part]:
     """The parts of a ruleset, in the order of their first rules and laws. O(size of the rules).
 
     Rules that share an event belong together, and so do those that a law ties. What a law says of measures only holds

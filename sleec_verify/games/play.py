@@ -31,7 +31,7 @@ from sleec_verify.games.time_grid import Grid
 from sleec_verify.games.values import Scales, Values
 from sleec_verify.traces.demands import Demand, Every, Occurs, seconds
 from sleec_verify.traces.event_conditions import named_atoms
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.relations import Relation, events_of, exclusions, formulas_of_relation
 
 
@@ -95,7 +95,7 @@ class Play:
 
     def __init__(
         self,
-        index: Index,
+        index: TraceIndex,
         part: Part,
         steps: int,
         spare: int,

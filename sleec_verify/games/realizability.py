@@ -17,7 +17,7 @@ from sleec_verify.games.decomposition import Part, parts
 from sleec_verify.games.play import Play
 from sleec_verify.games.qbf import Move, winning
 from sleec_verify.traces.demands import Occurs
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.induction import impossible_events
 from sleec_verify.traces.relations import Relation
 
@@ -69,7 +69,7 @@ class Loss:
     strategy: Strategy
 
 
-def losses(index: Index, steps: int) -> Iterator[tuple[Sequence[Rule], Callable[[], Loss | None]]]:
+def losses(index: TraceIndex, steps: int) -> Iterator[tuple[Sequence[Rule], Callable[[], Loss | None]]]:
     """The parts of the rules, each with the question whether the environment wins against it within `steps` acts.
 
     A question raises Undecided past the bounds of what is tried, as does the first step where a measure says how long
@@ -82,7 +82,7 @@ def losses(index: Index, steps: int) -> Iterator[tuple[Sequence[Rule], Callable[
 class _Contest:
     """A part of the rules, and the games about it."""
 
-    def __init__(self, index: Index, part: Part) -> None:
+    def __init__(self, index: TraceIndex, part: Part) -> None:
         self.index = index
         self.part = part
 
@@ -130,7 +130,7 @@ class _Contest:
 class _Costs:
     """How many instants may come to be called for, where some events never occur."""
 
-    def __init__(self, index: Index, part: Part, never: frozenset[str]) -> None:
+    def __init__(self, index: TraceIndex, part: Part, never: frozenset[str]) -> None:
         self._index = index
         self._part = part
         self._never = never

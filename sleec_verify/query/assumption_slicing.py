@@ -10,13 +10,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 
-from sleec_runtime.evaluation.evaluation import holds
-from sleec_runtime.model import And, Assume, Atom, Context, Formula, Measure, Not, Or, Ruleset, Truth
+from sleec_runtime.model import And, Assume, Atom, Formula, Measure, Not, Or, Ruleset, Truth
 from sleec_verify.encoding.equation import conjunction, disjunction
-from sleec_verify.query.cone import Cones, Name, names_in
+from sleec_verify.encoding.three_valued import is_true_in_empty_context
+from sleec_verify.query.names import Name, names_in, names_of_constraint
+from sleec_verify.query.question import Question
+from sleec_verify.query.ruleset_index import RulesetIndex
 
 
-class Cutting:
+class AssumptionSlicing:
     """Some assumptions, to be cut to one question after the other.
 
     A trigger *may have to occur* where others do if some assumption, with those that need not occur taken not to,
@@ -77,7 +79,7 @@ class Cutting:
     def _always(self) -> frozenset[str]:
         """The triggers of which some occur in every situation."""
         cut = (Assume(without(formula, self.anywhere)) for formula in self.formulas)
-        return Cones(Ruleset((*self._measures, *cut))).always
+        return _triggers_of_every_situation(RulesetIndex(Ruleset((*self._measures, *cut))))
 
     def about(self, names: Iterable[Name], occurring: set[str]) -> list[Formula]:
         """The assumptions that share names with `names`, directly or through one another, where no triggers but these
@@ -100,12 +102,45 @@ class Cutting:
     def kept_by(self, names: Iterable[Name], occurring: set[str]) -> list[Formula]:
         """The same, with the assumptions that do not hold of nothing: a situation that is shown must name something for
         these."""
-        restless = (name for formula in self._restless for name in names_in(without(formula, occurring)))
-        return self.about({*names, *restless}, occurring)
+        demanding = (name for formula in self._demanding for name in names_in(without(formula, occurring)))
+        return self.about({*names, *demanding}, occurring)
 
     @cached_property
-    def _restless(self) -> list[Formula]:
-        return [formula for formula in self.formulas if not holds(formula, Context())]
+    def _demanding(self) -> list[Formula]:
+        return [formula for formula in self.formulas if not is_true_in_empty_context(formula)]
+
+
+def slicing_of(index: RulesetIndex) -> AssumptionSlicing:
+    """The assumptions of a ruleset. No slice leaves out the triggers that constraints mention."""
+    return index.once(_slicing)
+
+
+def _slicing(index: RulesetIndex) -> AssumptionSlicing:
+    forbidden = {name for c in index.constraints for kind, name in names_of_constraint(c) if kind == "trigger"}
+    return AssumptionSlicing((one.formula for one in index.assumptions), forbidden, index.ruleset.measures.values())
+
+
+def _triggers_of_every_situation(index: RulesetIndex) -> frozenset[str]:
+    """The triggers of assumptions that are false where none of their triggers occurs: some of these occur in every
+    situation."""
+    found: set[str] = set()
+    seen: set[int] = set()
+    for assumption in index.assumptions:
+        if id(assumption) in seen:
+            continue
+        related = index.assumptions_about(names_in(assumption.formula)) or [assumption]
+        seen.update(map(id, related))
+        triggers = {name for a in related for kind, name in names_in(a.formula) if kind == "trigger"}
+        if not triggers:
+            continue
+        with Question(index, assuming=False) as question:
+            for other in related:
+                question.require_formula(other.formula)
+            for trigger in triggers:
+                question.require(-question.encoder.variable(("trigger", trigger)))
+            if not question.ask():
+                found |= triggers
+    return frozenset(found)
 
 
 def conjuncts(formulas: Iterable[Formula]) -> Iterator[Formula]:

@@ -19,6 +19,7 @@ from itertools import combinations
 from sleec_runtime.model import And, Atom, Exclusive, Formula, Never, Not, Obligation, Or, Truth, leaves
 from sleec_verify.encoding.budget import Undecided, spend
 from sleec_verify.encoding.equation import conjunction
+from sleec_verify.query.ruleset_index import RulesetIndex
 
 Constraint = Exclusive | Never
 
@@ -41,7 +42,7 @@ class TooEntangled(Undecided):
 
 
 @dataclass(frozen=True)
-class Clash:
+class InconsistentSet:
     """These literals cannot all be due where the situation makes all the `labels` true.
 
     `origins` are the constraints that rule it out; none for a name and its own negation.
@@ -64,22 +65,22 @@ class Exclusion:
     literals: tuple[Obligation, ...]
     origin: Exclusive
 
-    def clash(self, one: Obligation, other: Obligation) -> Clash:
+    def clash(self, one: Obligation, other: Obligation) -> InconsistentSet:
         """The clash of two of its literals."""
-        return Clash(frozenset((one, other)), origins=(self.origin,))
+        return InconsistentSet(frozenset((one, other)), origins=(self.origin,))
 
 
-class Clashes:
+class InconsistentSets:
     """Minimal inconsistent sets of literals: those that are `listed`, and all pairs of each of the `exclusions`."""
 
-    def __init__(self, listed: Sequence[Clash], exclusions: Sequence[Exclusion] = ()) -> None:
+    def __init__(self, listed: Sequence[InconsistentSet], exclusions: Sequence[Exclusion] = ()) -> None:
         self.listed = listed
         self.exclusions = exclusions
 
     def __bool__(self) -> bool:
         return bool(self.listed or self.exclusions)
 
-    def __iter__(self) -> Iterator[Clash]:
+    def __iter__(self) -> Iterator[InconsistentSet]:
         """Every set. Quadratic in the size of an exclusion."""
         yield from self.listed
         for exclusion in self.exclusions:
@@ -93,9 +94,9 @@ class Clashes:
         return set().union(*held)
 
     @cached_property
-    def _by_literal(self) -> dict[Obligation | None, list[Clash]]:
+    def _by_literal(self) -> dict[Obligation | None, list[InconsistentSet]]:
         """The sets by their least literals."""
-        index: dict[Obligation | None, list[Clash]] = {}
+        index: dict[Obligation | None, list[InconsistentSet]] = {}
         for clash in self.listed:
             index.setdefault(min(clash.literals, default=None, key=str), []).append(clash)
         return index
@@ -104,7 +105,7 @@ class Clashes:
     def _excluded(self) -> list[frozenset[Obligation]]:
         return [frozenset(exclusion.literals) for exclusion in self.exclusions]
 
-    def among(self, literals: Collection[Obligation]) -> Clashes:
+    def among(self, literals: Collection[Obligation]) -> InconsistentSets:
         """Those that these literals hold. O(the literals, and the sets whose least literal is one of them)."""
         # In an order, so that the same rules make the same clauses.
         ordered = sorted(set(literals), key=str)
@@ -115,14 +116,43 @@ class Clashes:
             within = tuple(literal for literal in ordered if literal in excluded)
             if len(within) > 1:
                 exclusions.append(Exclusion(within, exclusion.origin))
-        return Clashes(listed, exclusions)
+        return InconsistentSets(listed, exclusions)
 
 
 def opposite(literal: Obligation) -> Obligation:
     return Obligation(literal.name, not literal.negated)
 
 
-def clashes(constraints: Iterable[Constraint], obliged: Collection[Obligation]) -> Clashes:
+def inconsistent_sets_of(index: RulesetIndex) -> InconsistentSets:
+    """Every minimal set of literals that the rules can oblige and that cannot all be obliged in one context."""
+    return index.once(_inconsistent_sets)
+
+
+def _inconsistent_sets(index: RulesetIndex) -> InconsistentSets:
+    obliged = index.by_obligation
+    direct = [
+        InconsistentSet(frozenset((literal, opposite(literal))))
+        for literal in obliged
+        if not literal.negated and opposite(literal) in obliged
+    ]
+    declared = inconsistent_sets(index.constraints, obliged)
+    return InconsistentSets([*direct, *declared.listed], declared.exclusions)
+
+
+def constraints_on_situations(index: RulesetIndex) -> list[Constraint]:
+    """The constraints that rule out a situation whatever is obliged, each alone or several together.
+
+    Raises `Undecided` where the constraints are too entangled.
+    """
+    return index.once(_constraints_on_situations)
+
+
+def _constraints_on_situations(index: RulesetIndex) -> list[Constraint]:
+    without_literals = (found for found in inconsistent_sets_of(index).listed if not found.literals)
+    return list(dict.fromkeys(origin for found in without_literals for origin in found.origins))
+
+
+def inconsistent_sets(constraints: Iterable[Constraint], obliged: Collection[Obligation]) -> InconsistentSets:
     """The minimal inconsistent sets of literals of `obliged` that these constraints give, without the sets of a name
     and its negation.
 
@@ -133,7 +163,7 @@ def clashes(constraints: Iterable[Constraint], obliged: Collection[Obligation]) 
     nevers = [constraint.formula for constraint in constraints if isinstance(constraint, Never)]
     # What is resolved upon has to be listed.
     resolved = {name for formula in nevers for name in _negated(formula, True)}
-    found: list[Clash] = []
+    found: list[InconsistentSet] = []
     for group in _groups([term for constraint in constraints for term in _terms(constraint, resolved)]):
         found += _eliminated(group, obliged)
     alone = {literal for clash in found if len(clash.literals) == 1 and not clash.labels for literal in clash.literals}
@@ -147,7 +177,7 @@ def clashes(constraints: Iterable[Constraint], obliged: Collection[Obligation]) 
     for exclusion in exclusions:
         excluded = frozenset(exclusion.literals)
         found = [clash for clash in found if len(excluded & clash.literals) < 2]
-    return Clashes(found, exclusions)
+    return InconsistentSets(found, exclusions)
 
 
 def _negated(formula: Formula, value: bool) -> Iterator[str]:
@@ -167,7 +197,7 @@ def _not_listed(constraint: Exclusive, resolved: Collection[str]) -> list[str]:
     return [name for name in names if name not in resolved] if len(names) > MOST_LISTED else []
 
 
-def _groups(terms: list[Clash]) -> list[list[Clash]]:
+def _groups(terms: list[InconsistentSet]) -> list[list[InconsistentSet]]:
     """The terms that are tied to one another by the obligations they share."""
     parent: dict[str, str] = {}
 
@@ -181,13 +211,13 @@ def _groups(terms: list[Clash]) -> list[list[Clash]]:
         first, *rest = sorted(literal.name for literal in term.literals) or [""]
         for name in rest:
             parent[root(name)] = root(first)
-    groups: dict[str, list[Clash]] = {}
+    groups: dict[str, list[InconsistentSet]] = {}
     for term in terms:
         groups.setdefault(root(min((literal.name for literal in term.literals), default="")), []).append(term)
     return list(groups.values())
 
 
-def _terms(constraint: Constraint, resolved: Collection[str]) -> list[Clash]:
+def _terms(constraint: Constraint, resolved: Collection[str]) -> list[InconsistentSet]:
     if isinstance(constraint, Exclusive):
         names, rest = sorted(set(constraint.names)), set(_not_listed(constraint, resolved))
         listed = [name for name in names if name not in rest]
@@ -199,12 +229,12 @@ def _terms(constraint: Constraint, resolved: Collection[str]) -> list[Clash]:
         found = []
         for one, other in pairs:
             spend(_PER_STEP)
-            found.append(Clash(frozenset((Obligation(one), Obligation(other))), origins=(constraint,)))
+            found.append(InconsistentSet(frozenset((Obligation(one), Obligation(other))), origins=(constraint,)))
         return found
     found = []
     for literals, labels in _disjuncts(constraint.formula, True):
         if not any(opposite(literal) in literals for literal in literals):
-            found.append(Clash(literals, labels, (constraint,)))
+            found.append(InconsistentSet(literals, labels, (constraint,)))
     return found
 
 
@@ -234,9 +264,9 @@ def _disjuncts(formula: Formula, value: bool) -> list[_Term]:
     return terms
 
 
-def _minimal(found: Iterable[Clash]) -> list[Clash]:
+def _minimal(found: Iterable[InconsistentSet]) -> list[InconsistentSet]:
     """Those that no other subsumes, smallest first."""
-    kept: list[Clash] = []
+    kept: list[InconsistentSet] = []
     bits: dict[Obligation, int] = {}
     by_literal: dict[Obligation | None, list[tuple[int, frozenset[Formula]]]] = {}
     for clash in sorted(found, key=lambda c: (len(c.literals) + len(c.labels), len(c.origins))):
@@ -251,7 +281,7 @@ def _minimal(found: Iterable[Clash]) -> list[Clash]:
     return kept
 
 
-def _eliminated(terms: list[Clash], obliged: Collection[Obligation]) -> list[Clash]:
+def _eliminated(terms: list[InconsistentSet], obliged: Collection[Obligation]) -> list[InconsistentSet]:
     """The minimal sets over `obliged`: resolve on one obligation after the other, and after each drop the sets with a
     literal of it that nothing obliges (Tison's method, kept to the literals that matter)."""
     found = _minimal(terms)
@@ -275,7 +305,7 @@ def _eliminated(terms: list[Clash], obliged: Collection[Obligation]) -> list[Cla
                 literals = (one.literals - {done}) | (other.literals - {undone})
                 if not any(opposite(literal) in literals for literal in literals):
                     origins = sorted({*one.origins, *other.origins}, key=lambda origin: origin.span)
-                    fresh.append(Clash(literals, one.labels | other.labels, tuple(origins)))
+                    fresh.append(InconsistentSet(literals, one.labels | other.labels, tuple(origins)))
             if steps > STEPS:
                 raise TooEntangled("the constraints rule out more combinations than can be listed")
         idle = {literal for literal in (done, undone) if literal not in obliged}

@@ -8,7 +8,8 @@ from types import TracebackType
 from sleec_runtime.model import Clause, Context, Formula, Obligation, Rule, Value
 from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.solver import MiniSat, Solver, Undecided
-from sleec_verify.query.cone import Cones, Name
+from sleec_verify.query.names import Name
+from sleec_verify.query.ruleset_index import RulesetIndex
 
 
 class Question:
@@ -17,11 +18,11 @@ class Question:
     Grow it through `encoder` and the methods here, then `ask`. What is grown after the first `ask` is not seen.
     """
 
-    def __init__(self, cones: Cones, assuming: bool = True) -> None:
+    def __init__(self, index: RulesetIndex, assuming: bool = True) -> None:
         """`assuming` False leaves the assumptions out: for questions about them."""
-        self.cones = cones
-        self._assuming = assuming and bool(cones.assumptions)
-        self.encoder = Encoder(cones.ruleset.measures)
+        self.index = index
+        self._assuming = assuming and bool(index.assumptions)
+        self.encoder = Encoder(index.ruleset.measures)
         self._guards: dict[int, list[int]] = {}
         self._solver: Solver | None = None
         self._doubt: Undecided | None = None
@@ -31,19 +32,19 @@ class Question:
         """The guards of the rule at `position`, one literal a clause."""
         guards = self._guards.get(position)
         if guards is None:
-            rule = self.cones.rules[position]
-            guards = self._guards[position] = self.encoder.guards(rule, self.cones.ruleset.reading)
+            rule = self.index.rules[position]
+            guards = self._guards[position] = self.encoder.guards(rule, self.index.ruleset.reading)
         return guards
 
     def guards_of(self, rule: Rule) -> list[int]:
         """The guards of a rule that is not in the ruleset: a variant to compare with."""
-        return self.encoder.guards(rule, self.cones.ruleset.reading)
+        return self.encoder.guards(rule, self.index.ruleset.reading)
 
     def due(self, positions: Sequence[int], about: frozenset[Obligation] | set[Obligation]) -> dict[Obligation, int]:
         """For each literal of `about` that these rules can oblige, the literal "one of them obliges it"."""
         pairs: list[tuple[Clause, int]] = []
         for position in positions:
-            clauses = self.cones.clauses[position]
+            clauses = self.index.clauses[position]
             if any(not about.isdisjoint(clause.obligations) for clause in clauses):
                 pairs += zip(clauses, self.guards(position))
         return {obligation: literal for obligation, literal in self.encoder.due(pairs).items() if obligation in about}
@@ -63,11 +64,11 @@ class Question:
     def _complete(self) -> Solver:
         if self._assuming:
             try:
-                possible = self.cones.possible
+                possible = is_possible(self.index)
             except Undecided as error:
                 possible, self._doubt = True, error
             if possible:
-                for assumption in self.cones.assumptions_about(self.names()):
+                for assumption in self.index.assumptions_about(self.names()):
                     self.require_formula(assumption.formula)
             else:
                 self.require()
@@ -85,7 +86,7 @@ class Question:
             answer = self._solver.solve(literals)
             if answer is None:
                 raise Undecided("the solver gave up after its budget of conflicts")
-            recorder, clauses = self.cones.recorder, self.encoder.clauses
+            recorder, clauses = self.index.recorder, self.encoder.clauses
             if not answer:
                 if recorder is not None:
                     recorder.refuted(clauses, literals)
@@ -110,7 +111,7 @@ class Question:
     def _refused(self) -> list[int] | None:
         """A clause that rules out the model at hand, where measures cannot have values as it says."""
         assert self._solver is not None
-        return self.encoder.measures.refused(self._solver.holds, self.cones.recorder is not None)
+        return self.encoder.measures.refused(self._solver.holds, self.index.recorder is not None)
 
     def true(self, literal: int) -> bool:
         """Whether the context that the last `ask` found makes a literal true."""
@@ -149,3 +150,25 @@ class Question:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         if self._solver is not None:
             self._solver.__exit__(kind, error, at)
+
+
+def is_possible(index: RulesetIndex) -> bool:
+    """Whether the assumptions leave any situation possible.
+
+    If they do, those that share no name with a question can be left out of it; if they do not, every question has the
+    answer no. It is asked once. Raises Undecided each time if it was not decided then.
+    """
+    answer = index.once(_is_possible)
+    if isinstance(answer, Undecided):
+        raise Undecided(answer.message, answer.hint)
+    return answer
+
+
+def _is_possible(index: RulesetIndex) -> bool | Undecided:
+    with Question(index, assuming=False) as question:
+        for assumption in index.assumptions:
+            question.require_formula(assumption.formula)
+        try:
+            return question.ask()
+        except Undecided as error:
+            return error

@@ -24,6 +24,7 @@ from sleec_runtime.model import (
     Term,
     formulas_of,
 )
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Witness
 
 LARGEST = 100
@@ -60,6 +61,23 @@ def shape_of(formulas: Iterable[Formula], measures: Mapping[str, Measure]) -> Sh
     # The places of names in the order of their first use tell how to rank them.
     ranks = tuple(rank[at] for at in range(len(names)))
     return Shape((tuple(tops), ranks, *found.nodes), names)
+
+
+def shape_at(index: RulesetIndex, position: int) -> Shape | None:
+    """The shape of the rule at `position`, if a question about it alone has the same answer for all rules of its shape.
+
+    None where assumptions may distinguish them, and where every question is recorded.
+    """
+    if index.assumptions or index.recorder is not None:
+        return None
+    known = index.once(_shapes)
+    if position not in known:
+        known[position] = shape_of_rule(index.rules[position], index.ruleset.measures)
+    return known[position]
+
+
+def _shapes(_: RulesetIndex) -> dict[int, Shape | None]:
+    return {}
 
 
 def shape_of_rule(rule: Rule, measures: Mapping[str, Measure]) -> Shape | None:

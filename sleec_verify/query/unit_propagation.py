@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from sleec_runtime.model import And, Atom, Comparison, Formula, Not, Or, Truth
-from sleec_verify.query.cone import Name, names_in
+from sleec_verify.encoding.three_valued import value_of
+from sleec_verify.query.names import Name, names_in
 
 Literals = dict[Name, bool]
 _Part = tuple[Formula, bool]
@@ -78,7 +79,7 @@ def _left(part: Formula, value: bool, known: Literals) -> list[Formula]:
     assert isinstance(part, (And, Or))
     left = []
     for operand in part.operands:
-        found = _value(operand, known)
+        found = value_of(operand, lambda leaf: known.get((leaf.kind, leaf.name)) if isinstance(leaf, Atom) else None)
         if found == value:
             return []
         if found is None:
@@ -86,20 +87,3 @@ def _left(part: Formula, value: bool, known: Literals) -> list[Formula]:
     if not left:
         raise Impossible
     return left
-
-
-def _value(formula: Formula, known: Literals) -> bool | None:
-    if isinstance(formula, Not):
-        value = _value(formula.operand, known)
-        return None if value is None else not value
-    if isinstance(formula, Atom):
-        return known.get((formula.kind, formula.name))
-    if isinstance(formula, Truth):
-        return formula.value
-    if isinstance(formula, (And, Or)):
-        deciding = isinstance(formula, Or)
-        values = [_value(operand, known) for operand in formula.operands]
-        if deciding in values:
-            return deciding
-        return None if None in values else not deciding
-    return None

@@ -13,12 +13,14 @@ from collections.abc import Iterable, Mapping
 from sleec_runtime.model import And, Comparison, Formula, Not, Or, Truth, Value, measures_of
 from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.solver import MiniSat, Solver, Undecided
-from sleec_verify.query.cone import Cones, Name, names_in
+from sleec_verify.query.assumption_slicing import slicing_of
+from sleec_verify.query.names import Name, names_in
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.query.unit_propagation import Impossible, Literals, forced
 from sleec_verify.results.finding import Witness
 
 
-def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = ()) -> Witness | None:
+def smallest_situation(index: RulesetIndex, formula: Formula, valued: Iterable[str] = ()) -> Witness | None:
     """A situation of fewest names that makes `formula` (over triggers, conditions and measures) true, or None.
 
     The measures of `valued` get a value whether the formula needs it or not. Taking all that the situation does not
@@ -26,7 +28,7 @@ def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = (
 
     Raises `Undecided` where the solver did not decide.
     """
-    valued, assumed = set(valued), _assumed(cones, formula, valued)
+    valued, assumed = set(valued), _assumed(index, formula, valued)
     least = 0
     if not assumed and not valued:
         try:
@@ -36,7 +38,7 @@ def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = (
         if not found.open_parts:
             return _of_literals(found.literals)
         least = found.least()
-    rails = _Rails(cones)
+    rails = _Rails(index)
     rails.encoder.clauses.append([rails.known(formula, True)])
     for measure in sorted(valued):
         rails.require_value(measure)
@@ -46,15 +48,15 @@ def smallest_situation(cones: Cones, formula: Formula, valued: Iterable[str] = (
     return rails.smallest(least)
 
 
-def _assumed(cones: Cones, formula: Formula, valued: Iterable[str]) -> list[Formula]:
+def _assumed(index: RulesetIndex, formula: Formula, valued: Iterable[str]) -> list[Formula]:
     """The assumptions that a situation of the formula may break, cut to what may have to occur there."""
-    if not cones.assumptions:
+    if not index.assumptions:
         return []
     named = set(names_in(formula))
     # A trigger that need not occur makes no situation smaller.
-    occurring = cones.cutting.occurring_with(name for kind, name in named if kind == "trigger")
+    occurring = slicing_of(index).occurring_with(name for kind, name in named if kind == "trigger")
     named.update(("condition", measure) for measure in valued)
-    return cones.cutting.kept_by(named, occurring)
+    return slicing_of(index).kept_by(named, occurring)
 
 
 def _of_literals(literals: Literals) -> Witness:
@@ -69,8 +71,8 @@ def _of_literals(literals: Literals) -> Witness:
 class _Rails:
     """The formula over what is known, and the search for the fewest names."""
 
-    def __init__(self, cones: Cones) -> None:
-        self.encoder = Encoder(cones.ruleset.measures)
+    def __init__(self, index: RulesetIndex) -> None:
+        self.encoder = Encoder(index.ruleset.measures)
         self._rails: dict[Name, tuple[int, int]] = {}
         self._mentioned: dict[Name, int] = {}
         self._known: dict[tuple[int, bool], int] = {}

@@ -11,10 +11,10 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.games.players import is_environments
 from sleec_verify.games.realizability import Act, Strategy
 from sleec_verify.results.finding import Finding
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 
 
-def plays(index: Index, finding: Finding) -> bool:
+def plays(index: TraceIndex, finding: Finding) -> bool:
     """Whether the evaluator agrees with a strategy."""
     assert finding.strategy is not None, "only strategies are replayed here"
     whole = index.ruleset

@@ -19,6 +19,7 @@ from sleec_verify.traces.relation_violations import BrokenRelations, Point, with
 from sleec_verify.traces.relations import events_of
 from sleec_verify.traces.situations import Situations
 from sleec_verify.traces.templates import Later, Template
+from sleec_verify.traces.trivial_responses import contested
 
 
 class _Plan(NamedTuple):
@@ -84,7 +85,7 @@ class Defeat:
             (rule.trigger, what.event, self._s.instant.both(self._s.selected[rule.label], guard))
             for rule in index.ruleset.rules
             for clause, guard in zip(rule.clauses(), self._s.guards[rule.label])
-            for what in conjuncts(index.responses.of(index.contested(clause), self._chain))
+            for what in conjuncts(index.responses.of(contested(index, clause), self._chain))
             if what.is_immediate and not what.negated and what.event not in index.mere_inputs
         ]
         # A chain of requirements is at most as long as there are requirements; most end after one or two rounds.
@@ -146,9 +147,9 @@ class Defeat:
             if trigger == -self._true:
                 continue
             for clause, guard in zip(rule.clauses(), s.guards[rule.label]):
-                contested = s.index.contested(clause)
-                if contested:
-                    broken = s.index.responses.of(contested, self._chain, kept=False)
+                obligations = contested(s.index, clause)
+                if obligations:
+                    broken = s.index.responses.of(obligations, self._chain, kept=False)
                     fails = self._holds(timeline, fixed[0], broken)
                     yield every([trigger, s.selected[rule.label], guard, fails])
         for slot in slots:

@@ -14,11 +14,12 @@ from sleec_runtime.model import RELATIONS, MeasureRelation, Obligation, Rule, fo
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.traces.event_conditions import is_of_state
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.relations import Relation, events_of, formulas_of_relation
+from sleec_verify.traces.trivial_responses import contested
 
 
-def components(index: Index) -> list[Index]:
+def components(index: TraceIndex) -> list[TraceIndex]:
     """The components with more than one side to an event or with relations, in the order of the text."""
     index = index.stated
     union = UnionFind()
@@ -68,11 +69,11 @@ def _roots(union: UnionFind, root: object, rules: list[Rule]) -> list[object]:
     return list(dict.fromkeys([root, *(union.root(("measure", name)) for name in measures)]))
 
 
-def _contested(index: Index, rule: Rule) -> Iterator[Obligation]:
+def _contested(index: TraceIndex, rule: Rule) -> Iterator[Obligation]:
     """The responses at any depth that a conflict can be about."""
     for clause in rule.clauses():
         try:
-            obligations = index.contested(clause)
+            obligations = contested(index, clause)
         except Undecided:
             obligations = clause.obligations
         yield from literals(replace(clause, obligations=obligations))
@@ -86,7 +87,7 @@ def _has_sides(rules: list[tuple[Rule, list[Obligation]]]) -> bool:
     return bool(required & forbidden or required & triggers or forbidden & triggers)
 
 
-def needs_traces(component: Index) -> bool:
+def needs_traces(component: TraceIndex) -> bool:
     """Whether a conflict of a component can need more than one instant, a chain, or a relation between events."""
     for relation in component.relations:
         if isinstance(relation, RELATIONS) and not isinstance(relation, MeasureRelation) and not is_of_state(relation):

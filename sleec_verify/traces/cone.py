@@ -11,11 +11,11 @@ from collections.abc import Iterable
 
 from sleec_runtime.model import Formula, Rule, formulas_of
 from sleec_verify.encoding.trace_scope import responses_of
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.relations import Name, Relation, holds_of_nothing, may_require, names_in, names_of_relation
 
 
-def cone(index: Index, events: Iterable[str], formulas: Iterable[Formula]) -> Index:
+def cone(index: TraceIndex, events: Iterable[str], formulas: Iterable[Formula]) -> TraceIndex:
     """The part of a ruleset that can matter to a question about these events and formulas. Linear in the size of that
     part, and of the relations."""
     ahead: list[Name] = [("event", event) for event in events]
@@ -45,3 +45,12 @@ def cone(index: Index, events: Iterable[str], formulas: Iterable[Formula]) -> In
                 ahead += (("event", response.name) for response in responses_of(rule))
                 ahead += (one for formula in formulas_of(rule) for one in names_in(formula))
     return index.part(rules.values(), relations.values())
+
+
+def surroundings(index: TraceIndex) -> TraceIndex:
+    """The part of the whole ruleset that the events of this part can lead to: a history has to satisfy it, too."""
+    return index.once(_surroundings)
+
+
+def _surroundings(index: TraceIndex) -> TraceIndex:
+    return index if index.whole is None else cone(surroundings(index.whole), index.by_trigger, ())

@@ -18,7 +18,7 @@ from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import minimal_rules, weakest, without_slots
 from sleec_verify.traces.event_conditions import event_of, is_of_state, named_atoms
 from sleec_verify.traces.histories import Histories
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.refinement import Refinement
 from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.timeline import Moment
@@ -61,7 +61,7 @@ class Conflict(NamedTuple):
 class ConflictSearch:
     """The conflicts of one component of a ruleset."""
 
-    def __init__(self, index: Index) -> None:
+    def __init__(self, index: TraceIndex) -> None:
         self._index = index = index.stated
         self._found: list[Conflict] = []
         self._undecided: list[Undecided] = []

@@ -10,11 +10,13 @@ from collections.abc import Collection, Iterable, Sequence
 
 from sleec_runtime.model import Lasting, Rule
 from sleec_verify.encoding.budget import OutOfBudget, Undecided
+from sleec_verify.traces.cone import surroundings
 from sleec_verify.traces.demands import Demand, Every, Occurs
 from sleec_verify.traces.model import TraceModel
 from sleec_verify.traces.pending_demands import Slot
 from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.timeline import Moment
+from sleec_verify.traces.trivial_responses import contested
 
 
 class Histories(TraceModel):
@@ -23,7 +25,7 @@ class Histories(TraceModel):
     With `strict`, the slots of the facts are all that the history leaves pending of `rules`."""
 
     def __init__(self, situations: Situations, facts: Iterable[Fact], rules: Collection[str]) -> None:
-        super().__init__(situations.index.surroundings)
+        super().__init__(surroundings(situations.index))
         self.strict = self.formula.fresh()
         self._situations = situations
         self._of = frozenset(rules)
@@ -124,7 +126,7 @@ class Histories(TraceModel):
         if rule.label not in self._of:
             return
         for number, (clause, guard) in enumerate(self.guards(at, rule)):
-            for obligation in self.index.contested(clause):
+            for obligation in contested(self.index, clause):
                 demand = self.due(at, (obligation,))
                 settled = self.formula.any_of([self._settled(at, demand), *self._dominated(at, rule, number, demand)])
                 self.add([-self.strict, -guard, settled])

@@ -23,6 +23,8 @@ from sleec_runtime.model import (
 )
 from sleec_verify.encoding.solver import Recorder
 from sleec_verify.encoding.trace_scope import Untimed, responses_of
+from sleec_verify.query.memo import Memo
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.traces.demands import Occurs, Responses, occurrences
 from sleec_verify.traces.event_conditions import named_events, with_states
 from sleec_verify.traces.relations import Name, Relation, events_of, names_of_relation, relation_key, required_events
@@ -30,7 +32,7 @@ from sleec_verify.traces.relations import Name, Relation, events_of, names_of_re
 _Indexed = TypeVar("_Indexed", Rule, Relation)
 
 
-class Index:
+class TraceIndex(Memo):
     """A ruleset under one meaning of responses without a window. `recorder` is told of every question asked."""
 
     def __init__(
@@ -38,35 +40,33 @@ class Index:
         ruleset: Ruleset,
         untimed: Untimed = "at",
         recorder: Recorder | None = None,
-        whole: Index | None = None,
+        whole: TraceIndex | None = None,
     ) -> None:
         """`whole` is the ruleset that this is a part of."""
+        super().__init__()
         self.ruleset = ruleset
+        self.whole = whole
         if whole is not None:
             self.mere_inputs = whole.mere_inputs
-            self.free = whole.free
-        self._whole = whole
-        self.ruleset = ruleset
         self.untimed = untimed
         self.recorder = recorder
         self.responses = Responses(untimed)
         self._windows: dict[str, list[Occurs]] = {}
-        self._contested: dict[int, tuple[Clause, tuple[Obligation, ...]]] = {}
         self.impossible: dict[frozenset[str], frozenset[str]] = {}
         """The events that never occur, by the rules and relations that count (`sleec_verify.traces.induction`)."""
 
     @cached_property
-    def stated(self) -> Index:
+    def stated(self) -> TraceIndex:
         """The same with states in place of the inputs that conditions name (`sleec_verify.traces.event_conditions`)."""
         ruleset = with_states(self.ruleset, self.mere_inputs)
-        return self if ruleset is self.ruleset else Index(ruleset, self.untimed, self.recorder)
+        return self if ruleset is self.ruleset else TraceIndex(ruleset, self.untimed, self.recorder)
 
-    def part(self, rules: Iterable[Rule], relations: Iterable[Relation]) -> Index:
+    def part(self, rules: Iterable[Rule], relations: Iterable[Relation]) -> TraceIndex:
         """Some of the rules and relations, in which events keep what they are in the whole."""
         kept = sorted((*rules, *relations), key=lambda statement: statement.span)
         measures = tuple(self.ruleset.measures.values())
         ruleset = replace(self.ruleset, statements=tuple(kept), inferred=measures)
-        return Index(ruleset, self.untimed, self.recorder, self)
+        return TraceIndex(ruleset, self.untimed, self.recorder, self)
 
     @property
     def rules(self) -> tuple[Rule, ...]:
@@ -84,15 +84,6 @@ class Index:
     def atoms(self, obligations: tuple[Obligation, ...]) -> Iterator[Occurs]:
         """Every atom that obligations can demand. Raises Undecided for a window whose length a measure gives."""
         return occurrences(self.responses.of(obligations, lambda inner: [1] * _members(inner)))
-
-    @cached_property
-    def surroundings(self) -> Index:
-        """The part of the whole that the events of this part can lead to: a history has to satisfy it, too."""
-        from sleec_verify.traces.cone import cone
-
-        if self._whole is None:
-            return self
-        return cone(self._whole.surroundings, self.by_trigger, ())
 
     @cached_property
     def relations(self) -> list[Relation]:
@@ -124,30 +115,6 @@ class Index:
 
     def _responding(self, negated: bool) -> dict[str, list[Rule]]:
         return _index((o.name, rule) for rule in self.ruleset.rules for o in responses_of(rule) if o.negated == negated)
-
-    @cached_property
-    def free(self) -> frozenset[str]:
-        """The events that are free (`sleec_verify.traces.trivial_responses`)."""
-        from sleec_verify.traces.trivial_responses import free_events
-
-        return free_events(self)
-
-    def contested(self, clause: Clause) -> tuple[Obligation, ...]:
-        """The obligations of a clause that cannot always be met, whatever the hedges inside them decide.
-
-        Raises Undecided for a window whose length a measure gives.
-        """
-        from sleec_verify.traces.trivial_responses import is_always_met
-
-        known = self._contested.get(id(clause))
-        if known is None or known[0] is not clause:
-            found = tuple(
-                obligation
-                for obligation in clause.obligations
-                if not all(is_always_met(demand, self.free) for demand, _ in self.responses.variants(obligation))
-            )
-            known = self._contested[id(clause)] = (clause, found)
-        return known[1]
 
     @cached_property
     def relations_of_name(self) -> dict[Name, list[tuple[str, Relation]]]:
@@ -199,6 +166,15 @@ class Index:
     def mere_inputs(self) -> frozenset[str]:
         """The events that only the environment causes (docs/times.md)."""
         return frozenset(event for event, agent in self.agents.items() if agent == "environment")
+
+
+def trace_index_of(index: RulesetIndex) -> TraceIndex:
+    """The same ruleset, for questions about traces."""
+    return index.once(_trace_index)
+
+
+def _trace_index(index: RulesetIndex) -> TraceIndex:
+    return TraceIndex(index.ruleset, index.untimed, index.recorder)
 
 
 def _members(clause: Clause) -> int:

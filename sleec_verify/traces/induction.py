@@ -10,14 +10,14 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from sleec_verify.encoding.budget import OutOfBudget, Undecided
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.model import TraceModel
 
 
 class InductiveModel(TraceModel):
     """Whole traces, in which no events occur that the rules and relations that count never let occur."""
 
-    def __init__(self, index: Index) -> None:
+    def __init__(self, index: TraceIndex) -> None:
         super().__init__(index)
         self._induction: dict[frozenset[str], int] = {}
         self._counting: frozenset[str] = frozenset()
@@ -52,7 +52,7 @@ class InductiveModel(TraceModel):
         return super().matter() if self.core.isdisjoint(self._induction.values()) else sorted(self._counting)
 
 
-def impossible_events(index: Index, counting: Collection[str], among: Collection[str]) -> frozenset[str]:
+def impossible_events(index: TraceIndex, counting: Collection[str], among: Collection[str]) -> frozenset[str]:
     """The largest set of events of which each occurrence requires a later one, by the rules and relations `counting`,
     as far as that is decided. At most quadratic in the number of events."""
     left = set(among)
@@ -64,7 +64,7 @@ def impossible_events(index: Index, counting: Collection[str], among: Collection
     return frozenset(left)
 
 
-def _can_be_last(index: Index, counting: Collection[str], event: str, group: Collection[str]) -> bool:
+def _can_be_last(index: TraceIndex, counting: Collection[str], event: str, group: Collection[str]) -> bool:
     """Whether an event can occur at an instant after which none of a group occurs."""
     model = TraceModel(index)
     last = model.instant(model.formula.true)

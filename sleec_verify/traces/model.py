@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from sleec_runtime.model import Clause, Obligation, Rule
 from sleec_verify.traces.demands import Demand, Every, Occurs
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.temporal import relation_at
 from sleec_verify.traces.unrolling import Unrolling
 
@@ -29,7 +29,7 @@ class Decided(NamedTuple):
 class TraceModel(Unrolling):
     """The traces of a ruleset, or what follows or precedes the instant `now`."""
 
-    def __init__(self, index: Index, rules: Mapping[str, Sequence[Rule]] | None = None) -> None:
+    def __init__(self, index: TraceIndex, rules: Mapping[str, Sequence[Rule]] | None = None) -> None:
         """`rules` replace those of the ruleset, by their triggers."""
         super().__init__(index)
         self.decided: list[Decided] = []

@@ -13,7 +13,8 @@ from functools import cached_property
 
 from sleec_runtime.model import Obligation, Rule
 from sleec_verify.traces.demands import Demand, Every, Occurs, occurrences
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
+from sleec_verify.traces.trivial_responses import contested
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,11 +74,11 @@ class Slot:
         return self.pending.demand
 
 
-def pending_of(index: Index) -> Iterator[Pending]:
+def pending_of(index: TraceIndex) -> Iterator[Pending]:
     """All that a history can leave pending. Raises Undecided for a window whose length a measure gives."""
     for rule in index.ruleset.rules:
         for number, clause in enumerate(rule.clauses()):
-            for obligation in index.contested(clause):
+            for obligation in contested(index, clause):
                 for demand, choices in index.responses.variants(obligation):
                     pending = Pending(rule, number, obligation, demand, tuple(choices))
                     if pending.can_last:
@@ -93,14 +94,14 @@ def alternatives(demand: Demand) -> Iterator[Occurs]:
             yield from alternatives(part)
 
 
-def most_prohibitions(index: Index) -> int:
+def most_prohibitions(index: TraceIndex) -> int:
     """How many prohibitions one response has at most."""
     return max(
         (
             sum(atom.negated for atom in occurrences(demand))
             for rule in index.ruleset.rules
             for clause in rule.clauses()
-            for obligation in index.contested(clause)
+            for obligation in contested(index, clause)
             for demand, _ in index.responses.variants(obligation)
         ),
         default=0,

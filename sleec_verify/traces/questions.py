@@ -13,7 +13,7 @@ from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.results.timeline import Timeline
 from sleec_verify.traces.cone import cone
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.induction import InductiveModel
 from sleec_verify.traces.model import TraceModel
 from sleec_verify.traces.timeline import Moment, timeline_of
@@ -30,7 +30,7 @@ class Answer(NamedTuple):
     matter: tuple[str, ...] = ()
 
 
-def breaking(index: Index, rule: Rule) -> Answer:
+def breaking(index: TraceIndex, rule: Rule) -> Answer:
     """A trace that satisfies all else and breaks `rule`. Without one, the rule is redundant."""
     part = _about(index, [rule])
     others: dict[str, Sequence[Rule]] = {
@@ -39,7 +39,7 @@ def breaking(index: Index, rule: Rule) -> Answer:
     return _ask(part, lambda model, at: [_broken(model, at, rule)], rules={**part.by_trigger, **others})
 
 
-def exchanging(index: Index, rule: Rule, other: Rule) -> Answer:
+def exchanging(index: TraceIndex, rule: Rule, other: Rule) -> Answer:
     """A trace that satisfies all with `other`, of the same trigger and label, in the place of `rule`, and breaks
     `rule`."""
     part = _about(index, [rule, other])
@@ -48,7 +48,7 @@ def exchanging(index: Index, rule: Rule, other: Rule) -> Answer:
     return _ask(part, lambda model, at: [_broken(model, at, rule)], rules=rules)
 
 
-def triggering(index: Index, rule: Rule) -> Answer:
+def triggering(index: TraceIndex, rule: Rule) -> Answer:
     """A trace in which `rule` is triggered and its guard holds. Without one, the rule is vacuous."""
     return _ask(
         _about(index, [rule]),
@@ -56,12 +56,12 @@ def triggering(index: Index, rule: Rule) -> Answer:
     )
 
 
-def deciding(index: Index, rule: Rule, clause: int) -> Answer:
+def deciding(index: TraceIndex, rule: Rule, clause: int) -> Answer:
     """An instant at which a clause of `rule` decides, that the relations allow, whether or not rules are satisfied."""
     return _ask(_about(index, [rule]), lambda model, at: [model.guards(at, rule)[clause][1]], rules={})
 
 
-def coming_about(index: Index, claim: Claim) -> Answer:
+def coming_about(index: TraceIndex, claim: Claim) -> Answer:
     """A trace in which a concern or purpose comes about. Its `meanwhile` may come about at any other instant."""
 
     def at_instant(model: TraceModel, at: int, part: Claim) -> list[int]:
@@ -92,7 +92,7 @@ def _parts(claim: Claim) -> list[Claim]:
     return [claim, *(() if claim.meanwhile is None else _parts(claim.meanwhile))]
 
 
-def _about(index: Index, rules: Sequence[Rule]) -> Index:
+def _about(index: TraceIndex, rules: Sequence[Rule]) -> TraceIndex:
     """The cone of the question about some rules."""
     events = {event for rule in rules for event in (rule.trigger, *(o.name for o in responses_of(rule)))}
     return cone(index, sorted(events), [formula for rule in rules for formula in formulas_of(rule)])
@@ -110,7 +110,7 @@ def _broken(model: TraceModel, at: int, rule: Rule) -> int:
 
 
 def _ask(
-    index: Index, what: What, but: Rule | None = None, rules: Mapping[str, Sequence[Rule]] | None = None
+    index: TraceIndex, what: What, but: Rule | None = None, rules: Mapping[str, Sequence[Rule]] | None = None
 ) -> Answer:
     """Whether some trace has an instant of which `what` holds. The rule `but` does not count; `rules` replace those of
     the ruleset.

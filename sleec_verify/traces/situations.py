@@ -16,7 +16,7 @@ from sleec_runtime.model import Formula as Condition
 from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
 from sleec_verify.traces.difference import Differences
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.instant import Formula, Instant
 from sleec_verify.traces.pending_demands import Pending, Slot, alternatives, pending_of
 from sleec_verify.traces.relations import formulas_of_relation, relation_key
@@ -30,7 +30,7 @@ seconds after node a), ``("occurred", event)`` or ``("lasts", key)``."""
 class Situations:
     """The formula of all abstract states of a component."""
 
-    def __init__(self, index: Index) -> None:
+    def __init__(self, index: TraceIndex) -> None:
         self.index = index
         self.reading = index.ruleset.reading
         self.formula = Formula()
@@ -281,7 +281,7 @@ class Situations:
         return self._solver.holds(literal)
 
 
-def state_formulas(index: Index) -> Iterator[Condition]:
+def state_formulas(index: TraceIndex) -> Iterator[Condition]:
     """All formulas over conditions and measures that decide anything at one instant."""
     for rule in index.ruleset.rules:
         yield from formulas_of(rule)

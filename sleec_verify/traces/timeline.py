@@ -13,7 +13,7 @@ from sleec_runtime.model import Context, Rule, Value, formulas_of, names_of, obl
 from sleec_verify.encoding.response_windows import Windowed, Windows
 from sleec_verify.results import timeline
 from sleec_verify.results.timeline import Due, Timeline
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 
 
 class Moment(NamedTuple):
@@ -25,7 +25,7 @@ class Moment(NamedTuple):
 
 
 def timeline_of(
-    index: Index, moments: Sequence[Moment], now: int | None = None, labels: Collection[str] | None = None
+    index: TraceIndex, moments: Sequence[Moment], now: int | None = None, labels: Collection[str] | None = None
 ) -> Timeline:
     """The timeline of a trace, or of a history up to the moment `now`. With `labels`, of these rules only.
 
@@ -45,7 +45,9 @@ def timeline_of(
     return Timeline(tuple(shown), now)
 
 
-def _due(index: Index, rules: Sequence[Rule], moment: Moment, course: Sequence[Moment], over: bool) -> Iterator[Due]:
+def _due(
+    index: TraceIndex, rules: Sequence[Rule], moment: Moment, course: Sequence[Moment], over: bool
+) -> Iterator[Due]:
     """What the rules that speak at a moment require. If all is `over`, nothing happens after the last moment."""
     context = Context(moment.events, moment.conditions)
     windows = Windows(index.ruleset, context, index.untimed)

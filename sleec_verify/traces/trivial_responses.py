@@ -8,13 +8,43 @@ It can be in no minimal set of rules in conflict.
 
 from __future__ import annotations
 
+from sleec_runtime.model import Clause, Obligation
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.traces.demands import Demand, Every, Occurs, Some, occurrences
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 
 
-def free_events(index: Index) -> frozenset[str]:
-    """The free events: the least fixpoint, so that what leads back to itself is not among them. Quadratic at most."""
+def free_events(index: TraceIndex) -> frozenset[str]:
+    """The free events of the whole ruleset: the least fixpoint, so that no event that leads back to itself is free.
+
+    Quadratic at most.
+    """
+    return free_events(index.whole) if index.whole is not None else index.once(_free_events)
+
+
+def contested(index: TraceIndex, clause: Clause) -> tuple[Obligation, ...]:
+    """The obligations of a clause that cannot always be met, whatever the hedges inside them decide.
+
+    Raises Undecided for a window whose length a measure gives.
+    """
+    known = index.once(_contested)
+    entry = known.get(id(clause))
+    if entry is None or entry[0] is not clause:
+        free = free_events(index)
+        found = tuple(
+            obligation
+            for obligation in clause.obligations
+            if not all(is_always_met(demand, free) for demand, _ in index.responses.variants(obligation))
+        )
+        entry = known[id(clause)] = (clause, found)
+    return entry[1]
+
+
+def _contested(_: TraceIndex) -> dict[int, tuple[Clause, tuple[Obligation, ...]]]:
+    return {}
+
+
+def _free_events(index: TraceIndex) -> frozenset[str]:
     free: set[str] = set()
     candidates = set(index.obliging) - set(index.forbidding) - index.mere_inputs
     candidates -= {*index.relations_of_event, *index.naming}
@@ -26,7 +56,7 @@ def free_events(index: Index) -> frozenset[str]:
     return frozenset(free)
 
 
-def _leads_to_free(index: Index, event: str, free: frozenset[str]) -> bool:
+def _leads_to_free(index: TraceIndex, event: str, free: frozenset[str]) -> bool:
     try:
         return all(
             is_always_met(demand, free)

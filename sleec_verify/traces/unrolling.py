@@ -20,7 +20,7 @@ from sleec_runtime.model import Formula as Condition
 from sleec_runtime.model import Value
 from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.traces.difference import Differences
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.instant import Formula, Instant
 
 MOST = 30
@@ -55,7 +55,7 @@ class Unrolling(ABC):
     A node is a time; the nodes in `instants` have events and measures too.
     """
 
-    def __init__(self, index: Index) -> None:
+    def __init__(self, index: TraceIndex) -> None:
         self.index = index
         self.formula = Formula()
         self.add = self.formula.clauses.append

@@ -18,7 +18,7 @@ from sleec_verify.checks import run_checks
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.replay.traces import as_trace
 from sleec_verify.results.finding import Unknown
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.questions import breaking, coming_about, triggering
 from tests.support import z3_oracle as oracle
 from tests.support.timed_english import timed_english
@@ -42,7 +42,7 @@ def answered(question):
 
 def compare(ruleset, untimed):
     """How many questions were answered; fails where the two methods differ."""
-    index = Index(ruleset, untimed)
+    index = TraceIndex(ruleset, untimed)
     count = 0
     for rule in ruleset.rules:
         answer = answered(lambda: breaking(index, rule))  # noqa: B023

@@ -11,72 +11,76 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from sleec_runtime.model import Rule
 from sleec_verify.certificates.theory.numbering import Numbered
 from sleec_verify.checks.dead import DEAD_RULE
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.cone import rules_of_same_obligation
+from sleec_verify.query.inconsistent_sets import constraints_on_situations
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
 
 AT_ONCE = 200
 """Findings of one formula. The oracle's stack holds some hundred thousand clauses."""
 
 
-def questions(check: str, findings: Sequence[Finding], domain: str, cones: Cones, numbered: Numbered) -> Iterator[str]:
-    """What the oracle is asked about the findings of a check in one domain, whose rules `cones` and `numbered` are
+def questions(
+    check: str, findings: Sequence[Finding], domain: str, index: RulesetIndex, numbered: Numbered
+) -> Iterator[str]:
+    """What the oracle is asked about the findings of a check in one domain, whose rules `index` and `numbered` are
     about: whether one of them is false. Nothing, if it has none there."""
-    told = [FOUND[check](one, domain, cones, numbered) for one in findings if not domain or domain in one.domains]
+    told = [FOUND[check](one, domain, index, numbered) for one in findings if not domain or domain in one.domains]
     if check == "vacuous-conflict":
         # It passes over the rules that nothing triggers.
-        told += [_dead_rule(one, domain, cones, numbered) for one in DEAD_RULE.run(cones)]
+        told += [_dead_rule(one, domain, index, numbered) for one in DEAD_RULE.run(index)]
     for start in range(0, len(told), AT_ONCE):
         part = told[start : start + AT_ONCE]
         yield f"findings {len(part)} {' '.join(part)}"
 
 
-def _rule(finding: Finding, cones: Cones) -> Rule:
-    return cones.ruleset.by_label[finding.rules[0]]
+def _rule(finding: Finding, index: RulesetIndex) -> Rule:
+    return index.ruleset.by_label[finding.rules[0]]
 
 
-def _dead_rule(finding: Finding, domain: str, cones: Cones, numbered: Numbered) -> str:
+def _dead_rule(finding: Finding, domain: str, index: RulesetIndex, numbered: Numbered) -> str:
     return f"dead-rule {numbered.rule(finding.rules[0])}"
 
 
-def _dead_hedge(finding: Finding, domain: str, cones: Cones, numbered: Numbered) -> str:
-    return f"dead-hedge {_hedge(finding, cones, numbered)}"
+def _dead_hedge(finding: Finding, domain: str, index: RulesetIndex, numbered: Numbered) -> str:
+    return f"dead-hedge {_hedge(finding, index, numbered)}"
 
 
-def _redundant_rule(finding: Finding, domain: str, cones: Cones, numbered: Numbered) -> str:
+def _redundant_rule(finding: Finding, domain: str, index: RulesetIndex, numbered: Numbered) -> str:
     # The finding names those that suffice in the first of its domains.
     named = domain in finding.domains[:1] or not domain
-    cover = finding.rules[1:] if named else _rivals(finding, cones)
+    cover = finding.rules[1:] if named else _rivals(finding, index)
     return f"redundant-rule {numbered.rule(finding.rules[0])} {_listed(map(numbered.rule, cover))}"
 
 
-def _redundant_hedge(finding: Finding, domain: str, cones: Cones, numbered: Numbered) -> str:
-    cover = map(numbered.rule, _rivals(finding, cones))
-    return f"redundant-hedge {_hedge(finding, cones, numbered)} {_listed(cover)}"
+def _redundant_hedge(finding: Finding, domain: str, index: RulesetIndex, numbered: Numbered) -> str:
+    cover = map(numbered.rule, _rivals(finding, index))
+    return f"redundant-hedge {_hedge(finding, index, numbered)} {_listed(cover)}"
 
 
-def _vacuous_conflict(finding: Finding, domain: str, cones: Cones, numbered: Numbered) -> str:
-    rules = (cones.ruleset.by_label[label] for label in finding.rules)
+def _vacuous_conflict(finding: Finding, domain: str, index: RulesetIndex, numbered: Numbered) -> str:
+    rules = (index.ruleset.by_label[label] for label in finding.rules)
     due = {obligation.name for rule in rules for clause in rule.clauses() for obligation in clause.obligations}
-    about = {id(constraint) for constraint in (*cones.constraints_about(due), *cones.constraints_on_situations)}
-    kept = (place for place, constraint in enumerate(cones.ruleset.constraints) if id(constraint) in about)
+    about = {id(constraint) for constraint in (*index.constraints_about(due), *constraints_on_situations(index))}
+    kept = (place for place, constraint in enumerate(index.ruleset.constraints) if id(constraint) in about)
     number, *meeting = map(numbered.rule, finding.rules)
     return f"vacuous-conflict {number} {_listed(meeting)} {_listed(kept)}"
 
 
-def _assumptions(finding: Finding, domain: str, cones: Cones, numbered: Numbered) -> str:
+def _assumptions(finding: Finding, domain: str, index: RulesetIndex, numbered: Numbered) -> str:
     return "assumptions"
 
 
-def _hedge(finding: Finding, cones: Cones, numbered: Numbered) -> str:
-    rule = _rule(finding, cones)
+def _hedge(finding: Finding, index: RulesetIndex, numbered: Numbered) -> str:
+    rule = _rule(finding, index)
     # Where a default with a chain of its own is written as a first hedge, it has a number.
     number = finding.clauses[0].clause + bool(rule.default.hedges and rule.hedges)
     return f"{numbered.rule(rule.label)} {number}"
 
 
-def _rivals(finding: Finding, cones: Cones) -> Iterator[str]:
-    position = cones.rules.index(_rule(finding, cones))
-    return (cones.rules[other].label for other in cones.rivals(position))
+def _rivals(finding: Finding, index: RulesetIndex) -> Iterator[str]:
+    position = index.rules.index(_rule(finding, index))
+    return (index.rules[other].label for other in rules_of_same_obligation(index, position))
 
 
 def _listed(numbers: Iterable[int]) -> str:
@@ -84,7 +88,7 @@ def _listed(numbers: Iterable[int]) -> str:
     return " ".join(map(str, (len(known), *known)))
 
 
-FOUND: Mapping[str, Callable[[Finding, str, Cones, Numbered], str]] = {
+FOUND: Mapping[str, Callable[[Finding, str, RulesetIndex, Numbered], str]] = {
     "vacuous-conflict": _vacuous_conflict,
     "assumptions": _assumptions,
     "dead-rule": _dead_rule,

@@ -35,6 +35,7 @@ from sleec_verify.changes.compare.vocabulary import name_changes
 from sleec_verify.encoding.budget import Undecided, for_file
 from sleec_verify.encoding.calculations import calculations, named
 from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
+from sleec_verify.query.question import is_possible
 
 __all__ = [
     "Change",
@@ -109,10 +110,10 @@ def _compared(world: World, domain: str | None) -> list[_Any]:
     found: list[_Any] = []
     try:
         found += situation_changes(world)
-        if world.cones.possible:
+        if is_possible(world.index):
             found += conflict_changes(world)
             found += changes(world)
-        elif all(world.situations_of(which).possible for which in world.sides):
+        elif all(is_possible(world.situations_of(which)) for which in world.sides):
             why = "the assumptions of the two sides leave no situation that both allow"
             found.append(Undecidable("the obligations", why))
     except Undecided as error:

@@ -30,9 +30,10 @@ from sleec_verify.changes.compare.sides import Side, common, mentions, side
 from sleec_verify.changes.compare.timing_order import implies
 from sleec_verify.encoding.equation import Implication, conjunction, disjunction, implications
 from sleec_verify.encoding.trace_scope import Untimed
-from sleec_verify.query.assumption_slicing import Cutting
-from sleec_verify.query.cone import Cones, Name, names_in, names_of_rule
-from sleec_verify.query.inconsistent_sets import Clash, clashes, opposite
+from sleec_verify.query.assumption_slicing import AssumptionSlicing
+from sleec_verify.query.inconsistent_sets import InconsistentSet, constraints_on_situations, inconsistent_sets, opposite
+from sleec_verify.query.names import Name, names_in, names_of_rule
+from sleec_verify.query.ruleset_index import RulesetIndex
 
 Which = Literal["old", "new"]
 SIDES: tuple[Which, Which] = ("old", "new")
@@ -57,11 +58,11 @@ class Cone(NamedTuple):
     say where no trigger of another row occurs."""
 
     rows: list[int]
-    cones: Cones
+    assumed: RulesetIndex
 
     def in_force(self, formula: Formula) -> list[Formula]:
         """The assumptions that share names with a formula, directly or through one another."""
-        return [assumption.formula for assumption in self.cones.assumptions_about(names_in(formula))]
+        return [assumption.formula for assumption in self.assumed.assumptions_about(names_in(formula))]
 
 
 class World:
@@ -90,10 +91,10 @@ class World:
             self.changed.append((pair, places))
         self._guards: dict[tuple[int, Which], list[Implication]] = {}
         self._said: dict[tuple[int, Which], list[tuple[Formula, Obligation]]] = {}
-        self._cones_of: dict[frozenset[str], Cone] = {}
+        self._cone_of: dict[frozenset[str], Cone] = {}
         self._conflicts: dict[tuple[Which, tuple[int, ...]], Formula] = {}
         given = [one.formula for which in SIDES for one in self.sides[which].given]
-        self.cones = self._cones([self._plain(row) for row in self.rows], given)
+        self.index = self._index([self._plain(row) for row in self.rows], given)
 
     def _plain(self, row: Row) -> Rule:
         which: Which = "new" if row.new is not None else "old"
@@ -101,42 +102,42 @@ class World:
         assert rule is not None
         return self.sides[which].plain(rule)
 
-    def _cones(self, rules: Iterable[Rule], given: Iterable[Formula]) -> Cones:
+    def _index(self, rules: Iterable[Rule], given: Iterable[Formula]) -> RulesetIndex:
         assumed = [Assume(formula) for formula in dict.fromkeys(given)]
-        return Cones(Ruleset((*self.vocabulary.measures.values(), *assumed, *rules)))
+        return RulesetIndex(Ruleset((*self.vocabulary.measures.values(), *assumed, *rules)))
 
     @property
     def measures(self) -> dict[str, Measure]:
         return self.vocabulary.measures
 
-    def situations_of(self, which: Which) -> Cones:
+    def situations_of(self, which: Which) -> RulesetIndex:
         """The assumptions of one side alone."""
         return self._situations[which]
 
     @cached_property
-    def _situations(self) -> dict[Which, Cones]:
-        return {which: self._cones((), [one.formula for one in self.sides[which].given]) for which in SIDES}
+    def _situations(self) -> dict[Which, RulesetIndex]:
+        return {which: self._index((), [one.formula for one in self.sides[which].given]) for which in SIDES}
 
     @cached_property
-    def _cutting_of(self) -> dict[Which, Cutting]:
-        return {which: Cutting([one.formula for one in self.sides[which].given], ()) for which in SIDES}
+    def _slicing_of(self) -> dict[Which, AssumptionSlicing]:
+        return {which: AssumptionSlicing([one.formula for one in self.sides[which].given], ()) for which in SIDES}
 
-    def situations_about(self, which: Which, formula: Formula) -> Cones:
+    def situations_about(self, which: Which, formula: Formula) -> RulesetIndex:
         """The assumptions of one side alone that may matter to the formula, where no trigger occurs that need not."""
-        cutting, named = self._cutting_of[which], set(names_in(formula))
-        return self._cones(
-            (), cutting.kept_by(named, cutting.occurring_with(name for kind, name in named if kind == "trigger"))
+        slicing, named = self._slicing_of[which], set(names_in(formula))
+        return self._index(
+            (), slicing.kept_by(named, slicing.occurring_with(name for kind, name in named if kind == "trigger"))
         )
 
     @cached_property
-    def _constraints(self) -> dict[Which, Cones]:
-        return {which: Cones(Ruleset(tuple(self.sides[which].constraints))) for which in SIDES}
+    def _constraints(self) -> dict[Which, RulesetIndex]:
+        return {which: RulesetIndex(Ruleset(tuple(self.sides[which].constraints))) for which in SIDES}
 
     def constraints_about(self, which: Which, names: Iterable[str]) -> list[Exclusive | Never]:
         """The constraints that may conflict with these obligations, and those that rule out a situation by
         themselves. Raises `Undecided` where the constraints are too entangled."""
-        cones = self._constraints[which]
-        return list(dict.fromkeys((*cones.constraints_about(names), *cones.constraints_on_situations)))
+        index = self._constraints[which]
+        return list(dict.fromkeys((*index.constraints_about(names), *constraints_on_situations(index))))
 
     # The cone ----------------------------------------------------------------------------------------------
 
@@ -144,15 +145,15 @@ class World:
         """What may have to be at work where these triggers occur, by assumptions or because a constraint on what is due
         then speaks of another trigger."""
         given = frozenset(triggers)
-        found = self._cones_of.get(given)
+        found = self._cone_of.get(given)
         if found is None:
-            found = self._cones_of[given] = self._cone(given)
+            found = self._cone_of[given] = self._cone(given)
         return found
 
     def _cone(self, given: frozenset[str]) -> Cone:
-        wanted, names = self._cutting.reached(given, self._named_at)
+        wanted, names = self._slicing.reached(given, self._named_at)
         # A situation that is shown keeps the other assumptions as well. It can, without any other trigger.
-        return Cone(self.rows_of(wanted), self._cones((), self._cutting.kept_by(names, wanted)))
+        return Cone(self.rows_of(wanted), self._index((), self._slicing.kept_by(names, wanted)))
 
     def _named_at(self, triggers: set[str]) -> Iterator[Name]:
         """What the rules of these triggers speak of, and the constraints on them."""
@@ -164,12 +165,12 @@ class World:
 
     def rows_of(self, triggers: Iterable[str]) -> list[int]:
         """The rows of these triggers, in the order of the text."""
-        return sorted(row for trigger in triggers for row in self.cones.by_trigger.get(trigger, ()))
+        return sorted(row for trigger in triggers for row in self.index.by_trigger.get(trigger, ()))
 
     @cached_property
-    def _cutting(self) -> Cutting:
-        assumed = (one.formula for one in self.cones.assumptions)
-        return Cutting(assumed, self._triggers_forbidden, self.vocabulary.measures.values())
+    def _slicing(self) -> AssumptionSlicing:
+        assumed = (one.formula for one in self.index.assumptions)
+        return AssumptionSlicing(assumed, self._triggers_forbidden, self.vocabulary.measures.values())
 
     @cached_property
     def _triggers_forbidden(self) -> set[str]:
@@ -247,18 +248,20 @@ class World:
     def _conflicting(self, rows: Sequence[int], which: Which) -> Formula:
         at_once = {o for row in rows for o in self.literals(row, which) if o.timing is None}
         parts = []
-        for clash in self.clashes(which, at_once):
+        for clash in self.inconsistent_sets(which, at_once):
             due = [self._due_exactly(rows, which, literal) for literal in sorted(clash.literals, key=str)]
             parts.append(conjunction([*due, *sorted(clash.labels, key=repr)]))
         return disjunction(parts)
 
-    def clashes(self, which: Which, literals: set[Obligation]) -> list[Clash]:
+    def inconsistent_sets(self, which: Which, literals: set[Obligation]) -> list[InconsistentSet]:
         """The minimal sets of these literals that cannot all be due on one side."""
         direct = [
-            Clash(frozenset((one, opposite(one)))) for one in sorted(literals, key=str) if opposite(one) in literals
+            InconsistentSet(frozenset((one, opposite(one))))
+            for one in sorted(literals, key=str)
+            if opposite(one) in literals
         ]
         declared = self.constraints_about(which, {literal.name for literal in literals})
-        return list(dict.fromkeys(direct)) + (list(clashes(declared, literals)) if declared else [])
+        return list(dict.fromkeys(direct)) + (list(inconsistent_sets(declared, literals)) if declared else [])
 
     def _due_exactly(self, rows: Iterable[int], which: Which, literal: Obligation) -> Formula:
         return disjunction([self.obliges(row, which, literal.__eq__) for row in rows])

@@ -16,7 +16,7 @@ from sleec_verify.changes.compare.situation_count import Counting, all_of, condi
 from sleec_verify.changes.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.equation import disjunction
 from sleec_verify.encoding.solver import Undecided
-from sleec_verify.query.inconsistent_sets import Clash
+from sleec_verify.query.inconsistent_sets import InconsistentSet
 from sleec_verify.query.witness import smallest_situation
 
 MOST, MOST_PER_RULE = 2_000, 10
@@ -52,7 +52,7 @@ def _on(world: World, which: Which, way: Way) -> Iterator[Union[ConflictChange, 
             yield found
 
 
-def _causes(world: World, which: Which) -> Iterator[tuple[Clash, frozenset[int]]]:
+def _causes(world: World, which: Which) -> Iterator[tuple[InconsistentSet, frozenset[int]]]:
     """The clashes that a changed rule or a changed constraint may bring, each with the rules that oblige its literals;
     smaller sets of rules first."""
     changed = {places[which] for _, places in world.changed if which in places}
@@ -65,7 +65,7 @@ def _causes(world: World, which: Which) -> Iterator[tuple[Clash, frozenset[int]]
     tied = world.constraints_about(which, names)
     names.update(name for constraint in tied for name in _names(constraint))
     obliging = _obliging(world, which, names)
-    for clash in world.clashes(which, set(obliging)):
+    for clash in world.inconsistent_sets(which, set(obliging)):
         is_new = any(origin in new_constraints for origin in clash.origins)
         chosen = {
             frozenset(rows)
@@ -81,7 +81,7 @@ def _constraints(world: World, which: Which) -> list[Exclusive | Never]:
 
 
 def _names(constraint: Exclusive | Never) -> Iterator[str]:
-    from sleec_verify.query.cone import obligations_in
+    from sleec_verify.query.names import obligations_in
 
     return obligations_in(constraint)
 
@@ -103,7 +103,7 @@ def _obliging(world: World, which: Which, names: set[str]) -> dict[Obligation, l
     return found
 
 
-def _region(world: World, which: Which, clash: Clash, rows: Iterable[int]) -> Formula:
+def _region(world: World, which: Which, clash: InconsistentSet, rows: Iterable[int]) -> Formula:
     """Where these rules oblige every literal of the clash, and the situation allows it to come true."""
     parts = [
         disjunction(
@@ -118,7 +118,7 @@ def _found(
     world: World,
     which: Which,
     way: Way,
-    clash: Clash,
+    clash: InconsistentSet,
     rows: frozenset[int],
     region: Formula,
     within: list[Formula],
@@ -141,7 +141,7 @@ def _found(
         extent = counting.extent(node, [*named_in(own), *named_in(clash.labels)])
     except TooLarge as error:
         extent = not_counted(triggers, str(error))
-    witness = smallest_situation(cone.cones, situation)
+    witness = smallest_situation(cone.assumed, situation)
     if witness is None:
         assert extent.affected is None, "a solver and a diagram disagree"
         return None

@@ -78,7 +78,7 @@ def _of_pair(world: World, pair: Pair, places: dict[Which, int]) -> Iterator[Fou
         peace = not_both(conflicts)
         groups = [_Group([one], all_of([one.region, *peace]), not_counted(triggers, why)) for one in found]
     for group in groups:
-        witness = smallest_situation(cone.cones, group.situation)
+        witness = smallest_situation(cone.assumed, group.situation)
         if witness is None:
             # Only without a diagram: it has no node for what no situation makes true.
             assert group.extent.affected is None, "a solver and a diagram disagree"

@@ -8,7 +8,7 @@ from sleec_runtime.model import Atom, Formula, Measure, Rule, Truth
 from sleec_verify.changes.compare.result import Extent
 from sleec_verify.changes.decision_diagram import FALSE, TRUE, Diagram
 from sleec_verify.encoding.equation import conjunction
-from sleec_verify.query.cone import Name, names_in
+from sleec_verify.query.names import Name, names_in
 
 
 class Counting:

@@ -13,6 +13,7 @@ from sleec_verify.changes.compare.sides import Given
 from sleec_verify.changes.compare.situation_count import Counting, named_in, not_counted
 from sleec_verify.changes.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.solver import Undecided
+from sleec_verify.query.question import is_possible
 from sleec_verify.query.witness import smallest_situation
 
 
@@ -37,15 +38,15 @@ def situation_changes(world: World) -> Iterator[Union[SituationChange, Undecidab
 def _allowed(world: World, by: Which, given: Given, way: Way) -> SituationChange | None:
     """The situations that `by` allows and that break `given`."""
     broken = Not(given.formula)
-    cones = world.situations_about(by, broken)
-    witness = smallest_situation(cones, broken)
-    if witness is None or not world.situations_of(by).possible:
+    index = world.situations_about(by, broken)
+    witness = smallest_situation(index, broken)
+    if witness is None or not is_possible(world.situations_of(by)):
         return None
     context = witness.context()
     if not possible(world, by, context) or _keeps(world, other(by), given, context):
         raise Undecided("a situation did not replay, which is a bug in sleec-verify")
     named = named_in([given.formula])
-    assumed = [assumption.formula for assumption in cones.assumptions_about(named)]
+    assumed = [assumption.formula for assumption in index.assumptions_about(named)]
     try:
         counting = Counting([broken], assumed, (), world.measures)
         node = counting.where(broken)

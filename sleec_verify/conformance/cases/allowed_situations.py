@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from sleec_runtime.model import Assume, Context, Formula, Never, formulas_of, names_of
-from sleec_verify.query.cone import Cones
-from sleec_verify.query.inconsistent_sets import clashes, opposite
+from sleec_verify.query.inconsistent_sets import inconsistent_sets, opposite
 from sleec_verify.query.question import Question
+from sleec_verify.query.ruleset_index import RulesetIndex
 
 
 class Goal(NamedTuple):
@@ -23,18 +23,18 @@ class World:
     """The question, with the rules of one domain in it. `single` allows no two triggers at once, `peaceful` False also
     situations in which the rules conflict."""
 
-    def __init__(self, cones: Cones, single: bool = False, peaceful: bool = True) -> None:
-        self.cones = cones
-        self.question = Question(cones)
+    def __init__(self, index: RulesetIndex, single: bool = False, peaceful: bool = True) -> None:
+        self.index = index
+        self.question = Question(index)
         self.encoder = self.question.encoder
-        self.guards = [self.question.guards(position) for position in range(len(cones.rules))]
+        self.guards = [self.question.guards(position) for position in range(len(index.rules))]
         # Also those that share no name with a rule: a situation is to keep every one.
-        for assumption in cones.assumptions:
+        for assumption in index.assumptions:
             self.question.require_formula(assumption.formula)
         if peaceful:
             self._forbid_conflicts()
         if single:
-            self._at_most_one([self.trigger(name) for name in sorted(cones.ruleset.triggers)])
+            self._at_most_one([self.trigger(name) for name in sorted(index.ruleset.triggers)])
 
     def trigger(self, name: str) -> int:
         return self.encoder.variable(("trigger", name))
@@ -48,12 +48,12 @@ class World:
 
     def _forbid_conflicts(self) -> None:
         due = self.encoder.due(
-            pair for clauses, guards in zip(self.cones.clauses, self.guards) for pair in zip(clauses, guards)
+            pair for clauses, guards in zip(self.index.clauses, self.guards) for pair in zip(clauses, guards)
         )
         for obligation, literal in due.items():
             if not obligation.negated and opposite(obligation) in due:
                 self.question.require(-literal, -due[opposite(obligation)])
-        declared = clashes(self.cones.constraints, due)
+        declared = inconsistent_sets(self.index.constraints, due)
         for exclusion in declared.exclusions:
             self._at_most_one([due[obligation] for obligation in exclusion.literals])
         for clash in declared.listed:
@@ -92,9 +92,9 @@ class World:
         return self._trimmed(self.question.situation())
 
     def _trimmed(self, found: Context) -> Context:
-        positions = [p for name in found.triggers for p in self.cones.by_trigger.get(name, ())]
-        looked_at = {n for p in positions for formula in formulas_of(self.cones.rules[p]) for n in names_of(formula)}
-        formulas = (c.formula for c in self.cones.ruleset.constraints if isinstance(c, (Assume, Never)))
+        positions = [p for name in found.triggers for p in self.index.by_trigger.get(name, ())]
+        looked_at = {n for p in positions for formula in formulas_of(self.index.rules[p]) for n in names_of(formula)}
+        formulas = (c.formula for c in self.index.ruleset.constraints if isinstance(c, (Assume, Never)))
         constrained = {name for formula in formulas for name in names_of(formula)}
         return Context(
             found.triggers,

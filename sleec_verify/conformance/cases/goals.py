@@ -30,14 +30,14 @@ def goals(world: World, criterion: str, labels: frozenset[str]) -> list[Goal]:
     """The goals of the rules with these labels."""
     return [
         goal
-        for position, rule in enumerate(world.cones.rules)
+        for position, rule in enumerate(world.index.rules)
         if rule.label in labels
         for goal in (*_clauses(world, position), *CRITERIA[criterion](world, position))
     ]
 
 
 def _clauses(world: World, position: int) -> Iterator[Goal]:
-    rule = world.cones.rules[position]
+    rule = world.index.rules[position]
     for number, guard in enumerate(world.guards[position]):
         yield Goal(clause_name(rule, number), rule.trigger, guard)
 
@@ -48,11 +48,11 @@ def _no_more(world: World, position: int) -> Iterator[Goal]:
 
 def _literals(world: World, position: int) -> list[tuple[str, int]]:
     """Each condition of a rule by its text, and the literal of it."""
-    return [(print_formula(c), world.literal(c)) for c in conditions_of(world.cones.rules[position])]
+    return [(print_formula(c), world.literal(c)) for c in conditions_of(world.index.rules[position])]
 
 
 def _conditions(world: World, position: int) -> Iterator[Goal]:
-    rule = world.cones.rules[position]
+    rule = world.index.rules[position]
     in_guard = set(leaves(rule.guard)) if rule.guard is not None else set()
     asked = world.encoder.any_of(world.guards[position])
     for condition in conditions_of(rule):
@@ -67,7 +67,7 @@ def _conditions(world: World, position: int) -> Iterator[Goal]:
 
 
 def _pairs(world: World, position: int) -> Iterator[Goal]:
-    rule = world.cones.rules[position]
+    rule = world.index.rules[position]
     conditions = _literals(world, position)
     if len(conditions) == 1:
         yield from _conditions(world, position)
@@ -77,9 +77,9 @@ def _pairs(world: World, position: int) -> Iterator[Goal]:
 
 
 def _mcdc(world: World, position: int) -> Iterator[Goal]:
-    rule = world.cones.rules[position]
+    rule = world.index.rules[position]
     conditions = conditions_of(rule)
-    found = deciding_vectors(world.cones, position, conditions)
+    found = deciding_vectors(world.index, position, conditions)
     texts = [text for text, _ in _literals(world, position)]
     literals = [literal for _, literal in _literals(world, position)]
     for vector in found.vectors:

@@ -13,8 +13,8 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from sleec_runtime.model import And, Atom, Clause, Comparison, Formula, Not, Or, Rule, Truth
-from sleec_verify.query.cone import Cones
 from sleec_verify.query.question import Question
+from sleec_verify.query.ruleset_index import RulesetIndex
 
 Vector = tuple[bool, ...]
 _Condition = Atom | Comparison
@@ -28,12 +28,12 @@ class Deciding(NamedTuple):
     undecided: tuple[int, ...]
 
 
-def deciding_vectors(cones: Cones, position: int, conditions: Sequence[_Condition]) -> Deciding:
+def deciding_vectors(index: RulesetIndex, position: int, conditions: Sequence[_Condition]) -> Deciding:
     """Few vectors that show every condition to decide. A condition is tried first as a change of what is there already,
     which gives one vector more for each condition where that works out. Raises `Undecided`."""
-    rule = cones.rules[position]
+    rule = index.rules[position]
     undecided: list[int] = []
-    with Question(cones) as question:
+    with Question(index) as question:
         literals = [question.encoder.literal(condition) for condition in conditions]
         guards = question.guards(position)
         question.require(question.encoder.variable(("trigger", rule.trigger)))
@@ -53,7 +53,7 @@ def deciding_vectors(cones: Cones, position: int, conditions: Sequence[_Conditio
                     outcomes[flipped] = found
                     break
             else:
-                pair = _pair(cones, position, conditions, place)
+                pair = _pair(index, position, conditions, place)
                 if pair is None:
                     undecided.append(place)
                     continue
@@ -64,12 +64,14 @@ def deciding_vectors(cones: Cones, position: int, conditions: Sequence[_Conditio
     return Deciding(tuple(outcomes), tuple(undecided))
 
 
-def _pair(cones: Cones, position: int, conditions: Sequence[_Condition], place: int) -> tuple[Vector, Vector] | None:
+def _pair(
+    index: RulesetIndex, position: int, conditions: Sequence[_Condition], place: int
+) -> tuple[Vector, Vector] | None:
     """Two vectors that differ at `place` only and let another clause be active, or None if there are none."""
-    rule = cones.rules[position]
+    rule = index.rules[position]
     blocked: list[list[tuple[int, bool]]] = []
     while True:
-        with Question(cones) as question:
+        with Question(index) as question:
             encoder = question.encoder
             literals = [encoder.literal(condition) for condition in conditions]
             question.require(encoder.variable(("trigger", rule.trigger)))

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from sleec_runtime.model import Atom, Comparison, Ruleset
 from sleec_verify.conformance.cases.goals import conditions_of
 from sleec_verify.conformance.cases.mcdc import deciding_vectors
-from sleec_verify.query.cone import Cones
 from sleec_verify.query.question import Question
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef
 
 
@@ -18,12 +18,12 @@ def reachable_clauses(ruleset: Ruleset) -> frozenset[ClauseRef]:
     Raises `Undecided` where the solver did not decide.
     """
     found: set[ClauseRef] = set()
-    for cones in _cones(ruleset):
-        for position, rule in enumerate(cones.rules):
-            refs = [ClauseRef(rule.label, number) for number in range(len(cones.clauses[position]))]
+    for index in _index(ruleset):
+        for position, rule in enumerate(index.rules):
+            refs = [ClauseRef(rule.label, number) for number in range(len(index.clauses[position]))]
             if found.issuperset(refs):
                 continue
-            with Question(cones) as question:
+            with Question(index) as question:
                 found.update(ref for ref, guard in zip(refs, question.guards(position)) if question.ask(guard))
     return frozenset(found)
 
@@ -35,15 +35,15 @@ def deciding_conditions(ruleset: Ruleset) -> frozenset[tuple[str, Atom | Compari
     Raises `Undecided` where the solver did not decide.
     """
     found: set[tuple[str, Atom | Comparison]] = set()
-    for cones in _cones(ruleset):
-        for position, rule in enumerate(cones.rules):
+    for index in _index(ruleset):
+        for position, rule in enumerate(index.rules):
             conditions = conditions_of(rule)
-            never = deciding_vectors(cones, position, conditions).undecided
+            never = deciding_vectors(index, position, conditions).undecided
             found.update((rule.label, one) for place, one in enumerate(conditions) if place not in never)
     return frozenset(found)
 
 
-def _cones(ruleset: Ruleset) -> Iterator[Cones]:
+def _index(ruleset: Ruleset) -> Iterator[RulesetIndex]:
     """For each domain, the rules that are in force there together."""
     for domain in ruleset.domains or (None,):
-        yield Cones(ruleset if domain is None else ruleset.in_domain(domain))
+        yield RulesetIndex(ruleset if domain is None else ruleset.in_domain(domain))

@@ -12,7 +12,7 @@ from sleec_verify.conformance.cases.case import Case
 from sleec_verify.conformance.cases.goals import goals
 from sleec_verify.conformance.cases.minimisation import fewer
 from sleec_verify.conformance.oracle import Oracle
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 
 _SEVERAL_ORDERS = 150
 """Up to this many goals, the search is made more than once and the best is taken."""
@@ -53,8 +53,8 @@ def choose_cases(ruleset: Ruleset, criterion: str, domain: str | None = None, si
     done: set[str] = set()
     for where in (domain,) if domain is not None else ruleset.domains or (None,):
         part = ruleset if where is None else ruleset.in_domain(where)
-        cones = Cones(part)
-        world = World(cones, single)
+        index = RulesetIndex(part)
+        world = World(index, single)
         labels = frozenset(rule.label for rule in part.rules)
         wanted = [goal for goal in goals(world, criterion, labels) if goal.name not in done]
         chosen, unreached = _cover(world, wanted)
@@ -62,7 +62,7 @@ def choose_cases(ruleset: Ruleset, criterion: str, domain: str | None = None, si
         for one in chosen:
             found.append(_case(oracle, one, len(found) + 1, done))
             done.update(goal.name for goal in one.goals)
-        missed.update({u.name: u for u in _reasons(cones, criterion, unreached, single)})
+        missed.update({u.name: u for u in _reasons(index, criterion, unreached, single)})
     return Cases(tuple(found), len(done), tuple(u for name, u in missed.items() if name not in done))
 
 
@@ -114,18 +114,18 @@ def _case(oracle: Oracle, found: _Found, number: int, done: set[str]) -> Case:
     )
 
 
-def _reasons(cones: Cones, criterion: str, unreached: Sequence[Goal], single: bool) -> Iterable[Unreached]:
+def _reasons(index: RulesetIndex, criterion: str, unreached: Sequence[Goal], single: bool) -> Iterable[Unreached]:
     """Asks again with less asked for: where a goal can be reached then, that is why it was not."""
     if not unreached:
         return
     names = {goal.name for goal in unreached}
-    labels = frozenset(rule.label for rule in cones.rules)
+    labels = frozenset(rule.label for rule in index.rules)
 
     def reachable(world: World) -> set[str]:
         return {g.name for g in goals(world, criterion, labels) if g.name in names and world.reaches(g.literal)}
 
-    together = reachable(World(cones)) if single else set()
-    at_all = reachable(World(cones, peaceful=False))
+    together = reachable(World(index)) if single else set()
+    at_all = reachable(World(index, peaceful=False))
     for goal in unreached:
         if goal.name in together:
             yield Unreached(goal.name, "only when other triggers occur as well")

@@ -12,7 +12,7 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_verify.checks import run_checks
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay.situations import replays
 from sleec_verify.results.finding import Unknown
 from tests.support.paths import ROOT
@@ -81,7 +81,7 @@ def test_every_timeline_is_replayed(name, variant):
     ruleset, results = study(name, variant)
     for check in ("conflict", "concern"):
         for finding in results[check].findings:
-            assert replays(Cones(ruleset), finding)
+            assert replays(RulesetIndex(ruleset), finding)
 
 
 OF_SLEEC_TK = (

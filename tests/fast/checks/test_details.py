@@ -11,8 +11,8 @@ from sleec_runtime.language import parse
 from sleec_runtime.model import Context, Obligation
 from sleec_verify.checks import run_checks
 from sleec_verify.entailment.entailment import Definition1, entail
-from sleec_verify.query.cone import Cones
 from sleec_verify.query.question import Question
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef
 
 
@@ -282,14 +282,14 @@ def test_names_in_nested_hedges_of_a_claim_are_used():
 def test_assumptions_that_a_situation_can_break():
     # What the replay asks is an index; Definition 1's context asks them all.
     text = "ASSUME a OR b\nASSUME NOT (a AND u)\nASSUME NOT c OR x > 1\nASSUME NOT d\nMEASURE x: integer\nWHEN t THEN o"
-    cones = Cones(parse(f"{text}\nWHEN u AND c AND d THEN p"))
+    index = RulesetIndex(parse(f"{text}\nWHEN u AND c AND d THEN p"))
     broken = 0
     for *on, x in product([False, True], [False, True], [False, True], [False, True], [False, True], [None, 1, 2]):
         conditions = dict(zip("abcd", on)) | ({} if x is None else {"x": x})
         context = Context(frozenset("tu" if on[4] else "t"), {name: v for name, v in conditions.items() if v})
-        asked = cones.assumptions_that_may_break(context)
-        expected = broken_assumptions(cones.ruleset, context)
-        assert {a for a in asked if not holds(a.formula, context, cones.ruleset.measures)} == set(expected)
+        asked = index.assumptions_that_may_break(context)
+        expected = broken_assumptions(index.ruleset, context)
+        assert {a for a in asked if not holds(a.formula, context, index.ruleset.measures)} == set(expected)
         broken += bool(expected)
     assert broken == 96 - 16, "a, b and u leave 4 of 8, c and x 4 of 6, d one of 2"
 

@@ -10,7 +10,7 @@ from sleec_runtime.language import parse
 from sleec_runtime.model import And, Comparison, Not, Or, Ruleset, ScaleValue, formulas_of
 from sleec_verify.checks import checks_for, run_checks
 from sleec_verify.checks.constant_conditions import CONSTANT_CONDITION
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Unknown
 from tests.support import brute_force as brute
 from tests.support.small_rulesets import small_rulesets
@@ -235,7 +235,7 @@ def test_what_never_changes_is_found_as_by_brute_force(ruleset):
     ]
     (result,) = run_checks(ruleset, ["constant-condition"])
     # The rulesets have no text, so that findings of one rule have one place and are one.
-    found = {(f.rules[0], f.message.endswith("true")) for f in CONSTANT_CONDITION.run(Cones(ruleset))}
+    found = {(f.rules[0], f.message.endswith("true")) for f in CONSTANT_CONDITION.run(RulesetIndex(ruleset))}
     assert found == set(expected)
     assert bool(result.findings) == bool(expected)
 

@@ -10,12 +10,12 @@ from sleec_verify.checks import causes, run_checks
 from sleec_verify.encoding import solver
 from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.entailment.entailment import entail
-from sleec_verify.query.cone import Cones
-from sleec_verify.query.inconsistent_sets import clashes
+from sleec_verify.query.inconsistent_sets import inconsistent_sets
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay import situations as replay
 from sleec_verify.results.finding import Proved, Refuted, Unknown
 from sleec_verify.traces import unrolling
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.questions import triggering
 
 # As many minimal inconsistent sets as there are ways to choose one of each pair: 2 to the 14th.
@@ -62,7 +62,7 @@ def test_a_long_chain_of_constraints_is_no_entanglement():
 def test_a_never_of_too_many_cases_is_unknown():
     cases = " AND ".join(f"(A{n} OR B{n})" for n in range(13))
     with pytest.raises(Undecided):
-        clashes(Cones(parse(f"NEVER {cases}\nWHEN t THEN A0")).constraints, {Obligation("A0")})
+        inconsistent_sets(RulesetIndex(parse(f"NEVER {cases}\nWHEN t THEN A0")).constraints, {Obligation("A0")})
 
 
 def test_a_question_past_the_budget_is_unknown(monkeypatch):
@@ -119,7 +119,7 @@ def test_an_unknown_check_is_a_key_error():
 @pytest.mark.parametrize("limit", ["MOST", "MOST_CLAUSES", "MOST_COMPARED"])
 def test_a_trace_that_takes_too_much_is_unknown_with_what_it_came_to(monkeypatch, limit):
     text = "RULE a WHEN A THEN B WITHIN 9 seconds\nRULE b WHEN B THEN C WITHIN [2, 5] seconds\nRULE c WHEN C THEN NOT B"
-    index = Index(parse(text))
+    index = TraceIndex(parse(text))
     assert triggering(index, index.rules[0]).trace is not None
     monkeypatch.setattr(unrolling, limit, 0)
     with pytest.raises(Undecided, match=r"no answer with [1-9] instant"):

@@ -25,7 +25,7 @@ from sleec_verify.certificates.whole import conflict_free
 from sleec_verify.checks import run_checks
 from sleec_verify.checks.conflict import CONFLICT
 from sleec_verify.encoding.trace_scope import Untimed
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Proved
 from tests.support.paths import ROOT
 from tests.support.small_rulesets import small_rulesets
@@ -175,8 +175,8 @@ def test_the_same_rules_give_the_same_bytes() -> None:
 @given(small_rulesets(measures=True))
 @settings(max_examples=150)
 def test_one_formula_for_all_says_what_the_causes_say(ruleset: Ruleset) -> None:
-    cones = Cones(ruleset)
-    assert conflict_free(cones) == (not list(CONFLICT.run(cones)))
+    index = RulesetIndex(ruleset)
+    assert conflict_free(index) == (not list(CONFLICT.run(index)))
 
 
 @given(rulesets())

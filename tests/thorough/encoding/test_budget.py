@@ -15,7 +15,9 @@ from sleec_verify.encoding import budget
 from sleec_verify.encoding.arithmetic import values_for
 from sleec_verify.encoding.budget import OutOfBudget, limited
 from sleec_verify.encoding.solver import MiniSat
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.inconsistent_sets import inconsistent_sets_of
+from sleec_verify.query.question import is_possible
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Proved, Refuted, Unknown
 from tests.support.small_rulesets import small_rulesets
 
@@ -103,12 +105,12 @@ def test_an_exclusive_beside_constraints_that_share_its_names_gives_what_its_pai
     names = ", ".join(f"O{n}" for n in range(25))
     rules = "".join(f"WHEN T THEN O{n}\n" for n in range(25))
     more = "NEVER O1\nNEVER O2 AND O3\nNEVER O4 AND NOT O5 AND c\nNEVER O6 AND O7 AND P\nNEVER P AND NOT Q\n"
-    cones = [Cones(parse(f"EXCLUSIVE {names}\n{more}{rules}WHEN T THEN P AND NOT Q\n")) for _ in range(2)]
-    few = {(clash.literals, clash.labels) for clash in cones[0].clashes}
-    assert cones[0].clashes.exclusions
+    indices = [RulesetIndex(parse(f"EXCLUSIVE {names}\n{more}{rules}WHEN T THEN P AND NOT Q\n")) for _ in range(2)]
+    few = {(clash.literals, clash.labels) for clash in inconsistent_sets_of(indices[0])}
+    assert inconsistent_sets_of(indices[0]).exclusions
     monkeypatch.setattr("sleec_verify.query.inconsistent_sets.MOST_LISTED", 100)
-    assert not cones[1].clashes.exclusions
-    assert {(clash.literals, clash.labels) for clash in cones[1].clashes} == few
+    assert not inconsistent_sets_of(indices[1]).exclusions
+    assert {(clash.literals, clash.labels) for clash in inconsistent_sets_of(indices[1])} == few
 
 
 # Fair shares ------------------------------------------------------------------------------------------------
@@ -154,10 +156,10 @@ def test_assumptions_known_to_contradict_are_reported_though_not_as_few_as_can_b
     lines = adversarial.pigeonhole(6, 1).splitlines()
     assumed = lines[0].removeprefix("ASSUME ").split(" AND (")
     text = "\n".join(["ASSUME " + ("(" if n else "") + part for n, part in enumerate(assumed)] + lines[1:])
-    cones = Cones(parse(text))
-    assert not cones.possible
+    index = RulesetIndex(parse(text))
+    assert not is_possible(index)
     monkeypatch.setattr("sleec_verify.encoding.solver.CONFLICT_BUDGET", 1)
-    (finding,) = CHECKS["assumptions"].run(cones)
+    (finding,) = CHECKS["assumptions"].run(index)
     assert finding.note is not None
     assert "fewer of these assumptions may be enough" in finding.note
 

@@ -25,7 +25,7 @@ from sleec_verify.checks import CHECKS, Check, run_checks
 from sleec_verify.checks.dead import DEAD_RULE
 from sleec_verify.cli import run
 from sleec_verify.conformance.rulesets import rulesets
-from sleec_verify.query.cone import Cones
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
 from tests.support.theory_cases import random_cases
 from tests.thorough.proofs.test_tied import checked, program
@@ -72,9 +72,9 @@ def candidates(ruleset: Ruleset, check: str) -> Iterator[Finding]:
                 yield CHECKS[check].finding("", NOWHERE, rules=(rule.label,), clauses=refs)
 
 
-def proves(theory: Theory, cones: Cones, finding: Finding) -> bool:
+def proves(theory: Theory, index: RulesetIndex, finding: Finding) -> bool:
     try:
-        for question in questions(finding.check, [finding], "", cones, theory.numbered):
+        for question in questions(finding.check, [finding], "", index, theory.numbered):
             theory.prove(question)
     except NotRefuted:
         return False
@@ -86,7 +86,7 @@ def test_what_is_found_is_proved_and_nothing_else(oracle: Path, seed: int) -> No
     """Rule by rule and hedge by hedge: two roads to what is dead, redundant, or always in conflict."""
     proved, refused = Counter[str](), Counter[str]()
     for ruleset, _ in random_cases(100 + seed, 80, each=1):
-        cones = Cones(ruleset)
+        index = RulesetIndex(ruleset)
         found = {result.name: result.findings for result in run_checks(ruleset, list(FOUND), chains=False)}
         dead = {finding.rules[0] for finding in found["dead-rule"]}
         with Theory(oracle, ruleset) as theory:
@@ -96,7 +96,7 @@ def test_what_is_found_is_proved_and_nothing_else(oracle: Path, seed: int) -> No
                     expected = (finding.rules[0], finding.clauses) in known
                     # Of a rule that nothing triggers, it is true that it conflicts wherever it is triggered.
                     expected |= check == "vacuous-conflict" and finding.rules[0] in dead
-                    assert proves(theory, cones, finding) == expected, (finding, ruleset)
+                    assert proves(theory, index, finding) == expected, (finding, ruleset)
                     (proved if expected else refused)[check] += 1
     for check in (*BY_RULE, *BY_HEDGE):
         assert proved[check], check
@@ -194,9 +194,9 @@ def test_clauses_are_numbered_as_in_the_text(oracle: Path, number: int) -> None:
     (result,) = run_checks(ruleset, ["dead-hedge"])
     dead = {finding.clauses[0].clause for finding in result.findings}
     assert dead == ({2, 3} if number == 2 else {number})
-    cones = Cones(ruleset)
+    index = RulesetIndex(ruleset)
     with Theory(oracle, ruleset) as theory:
-        proved = [f.clauses[0].clause for f in candidates(ruleset, "dead-hedge") if proves(theory, cones, f)]
+        proved = [f.clauses[0].clause for f in candidates(ruleset, "dead-hedge") if proves(theory, index, f)]
     assert set(proved) == dead
 
 
@@ -204,8 +204,8 @@ LIE = DEAD_RULE.finding("shout is active in no situation", NOWHERE, rules=("shou
 
 
 def test_a_finding_that_is_false_is_refused(oracle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def lying(cones: Cones) -> Iterator[Finding]:
-        yield from DEAD_RULE.run(cones)
+    def lying(index: RulesetIndex) -> Iterator[Finding]:
+        yield from DEAD_RULE.run(index)
         yield LIE
 
     monkeypatch.setitem(cast("dict[str, Check]", CHECKS), "dead-rule", replace(DEAD_RULE, run=lying))
@@ -230,13 +230,13 @@ def test_of_what_there_is_not_nothing_is_proved(oracle: Path) -> None:
 
 def test_what_suffices_is_a_hint_and_no_more(oracle: Path) -> None:
     ruleset = parse(RULES)
-    cones = Cones(ruleset)
+    index = RulesetIndex(ruleset)
     (found,) = (one for one in run_checks(ruleset, ["redundant-rule"])[0].findings if one.rules[0] == "help_too")
     with Theory(oracle, ruleset) as theory:
-        assert proves(theory, cones, found)
+        assert proves(theory, index, found)
         # Nor does a rule make up for itself.
         for others in ((), ("shout",), ("help_too",)):
-            assert not proves(theory, cones, replace(found, rules=("help_too", *others)))
+            assert not proves(theory, index, replace(found, rules=("help_too", *others)))
 
 
 @pytest.mark.parametrize(

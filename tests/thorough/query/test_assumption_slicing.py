@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from sleec_runtime.language import parse
 from sleec_runtime.model import And, Atom, Comparison, Context, MeasureRef, Not, Number, Or, Truth
 from sleec_verify.changes.compare import compare
-from sleec_verify.query.assumption_slicing import Cutting, conjuncts, without
+from sleec_verify.query.assumption_slicing import AssumptionSlicing, conjuncts, without
 from tests.support import brute_force as brute
 
 A, B, C, D = (Atom("trigger", name) for name in "ABCD")
@@ -40,7 +40,7 @@ def implied(one, other):
     ],
 )
 def test_triggers_that_may_have_to_occur(assumed, kept, anywhere, with_a) -> None:
-    cutting = Cutting(assumed, kept)
+    cutting = AssumptionSlicing(assumed, kept)
     assert cutting.anywhere == set(anywhere)
     assert cutting.occurring_with("A") == set(with_a)
 
@@ -72,11 +72,11 @@ def test_where_nothing_but_a_occurs(formula, cut) -> None:
 def test_conjunctions_are_taken_apart() -> None:
     parts = conjuncts([And((A, Not(Or((B, Not(C)))))), Not(Not(And((X, Y)))), Or((A, X))])
     assert list(parts) == [A, Not(B), C, X, Y, Or((A, X))]
-    assert Cutting([And((X, Y)), And((Y, X))], ()).formulas == [X, Y]
+    assert AssumptionSlicing([And((X, Y)), And((Y, X))], ()).formulas == [X, Y]
 
 
 def test_what_shares_names_only_through_triggers_that_do_not_occur_is_left_out() -> None:
-    cutting = Cutting([Not(And((A, B, X))), implied(A, X), implied(X, Y), Or((D, WARM))], ())
+    cutting = AssumptionSlicing([Not(And((A, B, X))), implied(A, X), implied(X, Y), Or((D, WARM))], ())
     names = [("trigger", "A")]
     assert cutting.about(names, {"A"}) == [implied(A, X), implied(X, Y)]
     # The last one does not hold of nothing, so that a situation that is shown must name something for it.
@@ -100,7 +100,7 @@ _formulas = st.recursive(
 @given(st.lists(_formulas, max_size=4), st.sets(st.sampled_from("ABCD"), max_size=2))
 def test_all_other_triggers_can_be_taken_out_of_a_possible_situation(assumed, triggers) -> None:
     """The promise: whoever takes them out of a situation that the assumptions allow has one that they allow."""
-    cutting = Cutting(assumed, ())
+    cutting = AssumptionSlicing(assumed, ())
     kept = cutting.occurring_with(triggers)
     assert triggers | cutting.anywhere <= kept
     cut = cutting.about([("trigger", name) for name in "ABCD"] + [("condition", name) for name in "XY"], kept)

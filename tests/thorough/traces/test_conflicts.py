@@ -13,7 +13,7 @@ from sleec_verify.encoding.budget import for_file, share
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.traces.components import components
 from sleec_verify.traces.conflicts import Conflict, ConflictSearch
-from sleec_verify.traces.index import Index
+from sleec_verify.traces.index import TraceIndex
 from tests.support.explicit.conflicts import Explicit
 from tests.support.paths import ROOT
 from tests.support.realistic_rules import LONG, peoples_rules
@@ -27,7 +27,7 @@ def conflicts_of(text: str) -> tuple[list[Conflict], str | None]:
     """The conflicts that the engine finds, and why there may be more."""
     found: list[Conflict] = []
     reason = None
-    for component in components(Index(parse(text))):
+    for component in components(TraceIndex(parse(text))):
         try:
             found.extend(ConflictSearch(component).find())
         except Undecided as error:
@@ -327,5 +327,5 @@ def test_scaling_all_windows_changes_no_rules(seed: int) -> None:
 @pytest.mark.skipif(not SHARED.exists(), reason=NEEDS_SHARED)
 def test_published_rulesets_are_decided() -> None:
     for path in sorted((SHARED / "case-studies").glob("*/*.sleec")):
-        for component in components(Index(load(path))):
+        for component in components(TraceIndex(load(path))):
             list(ConflictSearch(component).find())

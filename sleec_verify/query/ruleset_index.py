@@ -1,0 +1,158 @@
+"""The indices of a ruleset that queries over all contexts need, each made once, in time linear in the ruleset."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from typing import NamedTuple
+
+from sleec_runtime.model import (
+    Assume,
+    Atom,
+    Clause,
+    Context,
+    Exclusive,
+    Never,
+    Obligation,
+    Ruleset,
+    formulas_of,
+    leaves,
+)
+from sleec_verify.encoding.solver import Recorder
+from sleec_verify.encoding.three_valued import is_true_in_empty_context
+from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.query.memo import Memo
+from sleec_verify.query.names import Name, names_in, names_of_constraint, obligations_in
+
+
+class ClausePosition(NamedTuple):
+    """Clause `number` of the rule at `rule` in `Ruleset.rules`."""
+
+    rule: int
+    number: int
+
+
+class RulesetIndex(Memo):
+    """The indices of one ruleset, and the answers of queries about it as a whole."""
+
+    def __init__(
+        self, ruleset: Ruleset, recorder: Recorder | None = None, untimed: Untimed = "at", chains: bool = True
+    ) -> None:
+        """`recorder` is told of every question about the ruleset. `untimed` is what a response without a window means
+        in rules with time; with `chains`, doing an obligation triggers the rules of that name."""
+        super().__init__()
+        self.ruleset = ruleset
+        self.rules = ruleset.rules
+        self.recorder = recorder
+        self.untimed = untimed
+        self.chains = chains
+
+    @cached_property
+    def clauses(self) -> list[tuple[Clause, ...]]:
+        """The clauses of each rule, by the rule's position."""
+        return [tuple(rule.clauses()) for rule in self.rules]
+
+    def labelled(self) -> Iterator[tuple[str, int]]:
+        """The label of each rule, with its position."""
+        return ((rule.label, position) for position, rule in enumerate(self.rules))
+
+    @cached_property
+    def by_trigger(self) -> dict[str, list[int]]:
+        """The positions of the rules of each trigger."""
+        index: dict[str, list[int]] = {}
+        for position, rule in enumerate(self.rules):
+            index.setdefault(rule.trigger, []).append(position)
+        return index
+
+    @cached_property
+    def by_obligation(self) -> dict[Obligation, list[ClausePosition]]:
+        """The clauses that oblige each literal."""
+        index: dict[Obligation, list[ClausePosition]] = {}
+        for position, clauses in enumerate(self.clauses):
+            for number, clause in enumerate(clauses):
+                for obligation in clause.obligations:
+                    index.setdefault(obligation, []).append(ClausePosition(position, number))
+        return index
+
+    @cached_property
+    def assumptions(self) -> list[Assume]:
+        return [c for c in self.ruleset.constraints if isinstance(c, Assume)]
+
+    @cached_property
+    def constraints(self) -> list[Exclusive | Never]:
+        return [c for c in self.ruleset.constraints if not isinstance(c, Assume)]
+
+    @cached_property
+    def _constraints_by_obligation(self) -> dict[str, list[int]]:
+        index: dict[str, list[int]] = {}
+        for position, constraint in enumerate(self.constraints):
+            for name in set(obligations_in(constraint)):
+                index.setdefault(name, []).append(position)
+        return index
+
+    def constraints_about(self, obligations: Iterable[str]) -> list[Exclusive | Never]:
+        """The constraints that share obligations with these names, directly or through one another, in the order of
+        the text."""
+        found: set[int] = set()
+        seen = set(obligations)
+        open_names = list(seen)
+        while open_names:
+            for position in self._constraints_by_obligation.get(open_names.pop(), ()):
+                if position not in found:
+                    found.add(position)
+                    fresh = set(obligations_in(self.constraints[position])) - seen
+                    seen |= fresh
+                    open_names += fresh
+        return [self.constraints[position] for position in sorted(found)]
+
+    @cached_property
+    def _assumptions_by_name(self) -> dict[Name, list[int]]:
+        index: dict[Name, list[int]] = {}
+        for position, assumption in enumerate(self.assumptions):
+            for name in set(names_in(assumption.formula)):
+                index.setdefault(name, []).append(position)
+        return index
+
+    def assumptions_about(self, names: Iterable[Name]) -> list[Assume]:
+        """The assumptions that share names with `names`, directly or through one another, in the order of the text."""
+        if not self.assumptions:
+            return []
+        found: set[int] = set()
+        open_names = set(names)
+        seen = set(open_names)
+        while open_names:
+            for position in self._assumptions_by_name.get(open_names.pop(), ()):
+                if position not in found:
+                    found.add(position)
+                    for name in names_in(self.assumptions[position].formula):
+                        if name not in seen:
+                            seen.add(name)
+                            open_names.add(name)
+        return [self.assumptions[position] for position in sorted(found)]
+
+    @cached_property
+    def demanding(self) -> list[Assume]:
+        """The assumptions that are false in the empty context."""
+        return [a for a in self.assumptions if not is_true_in_empty_context(a.formula)]
+
+    def assumptions_that_may_break(self, context: Context) -> list[Assume]:
+        """All assumptions that `context` can break: one that speaks of none of its names has the value that it has of
+        nothing."""
+        names = [
+            *(("trigger", name) for name in context.triggers),
+            *(("condition", name) for name in context.conditions),
+        ]
+        positions = {position for name in names for position in self._assumptions_by_name.get(name, ())}
+        return [*self.demanding, *(self.assumptions[position] for position in sorted(positions))]
+
+    @cached_property
+    def names_triggers(self) -> bool:
+        """Whether an assumption, a guard or a hedge speaks of a trigger."""
+        conditions = (formula for rule in self.rules for formula in formulas_of(rule))
+        return any(kind == "trigger" for kind, _ in self._assumptions_by_name) or any(
+            isinstance(leaf, Atom) and leaf.kind == "trigger" for formula in conditions for leaf in leaves(formula)
+        )
+
+    @cached_property
+    def constrains_triggers(self) -> bool:
+        return any(kind == "trigger" for constraint in self.constraints for kind, _ in names_of_constraint(constraint))
