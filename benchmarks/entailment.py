@@ -13,7 +13,7 @@ from collections.abc import Callable
 from benchmarks.random_rules import random_rules
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context, Obligation
-from sleec_verify.entailment.entailment import Definition1
+from sleec_verify.entailment.definition1 import Definition1
 
 BOUND = 3
 TURNS = 200

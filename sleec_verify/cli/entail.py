@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import click
@@ -15,7 +14,7 @@ from sleec_verify.cli.output import write
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Reading, Ruleset
     from sleec_verify.encoding.trace_scope import Untimed
-    from sleec_verify.entailment.entailment import Entailment
+    from sleec_verify.entailment.answer import Entailment
 
 
 @click.command(
@@ -62,9 +61,7 @@ def ask(
     untimed: Untimed,
 ) -> tuple[Ruleset, Context, Entailment]:
     """The ruleset (its rules in `domain`), the situation that the options describe, and what is due in it."""
-    from sleec_verify.entailment.consequence_tree import chain
-    from sleec_verify.entailment.entailment import entail
-    from sleec_verify.entailment.schedule import schedule
+    from sleec_verify.entailment.explanation import explain
     from sleec_verify.entailment.situation_text import parse_situation
 
     ruleset = one_ruleset(path, reading, domain)
@@ -73,7 +70,4 @@ def ask(
         note_mixed_domains(ruleset)
     else:
         ruleset = ruleset.in_domain(domain)
-    answer = entail(ruleset, context)
-    steps, at_odds = chain(ruleset, context, answer, untimed)
-    answer = replace(answer, chain=steps, at_odds=at_odds)
-    return ruleset, context, replace(answer, schedule=schedule(ruleset, context, answer, untimed))
+    return ruleset, context, explain(ruleset, context, untimed)

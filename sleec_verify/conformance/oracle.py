@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from sleec_runtime.model import Assume, Context, Exclusive, Never, Obligation, Rule, Ruleset, require_untimed
-from sleec_verify.entailment.entailment import Definition1
+from sleec_verify.entailment.definition1 import Definition1
 from sleec_verify.query.inconsistent_sets import InconsistentSet, inconsistent_sets
 
 _KEPT = 512

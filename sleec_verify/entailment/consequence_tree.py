@@ -7,7 +7,6 @@ its own that their causing each other is.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import takewhile
 from typing import NamedTuple
@@ -15,36 +14,18 @@ from typing import NamedTuple
 from sleec_runtime.model import Context, Ruleset
 from sleec_verify.encoding.response_windows import Windowed, Windows
 from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
-from sleec_verify.entailment.entailment import Because, Entailment, entail
+from sleec_verify.entailment.answer import ActiveClause, ConsequenceStep, Entailment
+from sleec_verify.entailment.entailment import entail
 
 DEEPEST = 100
 """Steps one below the other that are shown."""
-
-
-@dataclass(frozen=True)
-class Step:
-    """Something that is done, and what that makes due: the active clauses of the rules that it triggers, each with the
-    steps that its obligations are. `cycle`: it is being done already, further up; `seen`: its tree stands elsewhere;
-    `more`: it goes on, too deep to be shown. `forbidden` are clauses of the situation and the tree that forbid it at
-    whatever time it may be done."""
-
-    name: str
-    clauses: tuple[tuple[Because, tuple[Step, ...]], ...] = ()
-    cycle: bool = False
-    seen: bool = False
-    more: bool = False
-    forbidden: tuple[str, ...] = ()
-
-    @property
-    def leads_on(self) -> bool:
-        return bool(self.clauses) or self.cycle or self.seen or self.more
 
 
 class Chain(NamedTuple):
     """The steps that lead on or are forbidden, and the events of the situation that the rules forbid there, each with
     the clauses that do."""
 
-    steps: tuple[Step, ...] = ()
+    steps: tuple[ConsequenceStep, ...] = ()
     at_odds: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
 
@@ -105,7 +86,7 @@ class _Forbids(NamedTuple):
 @dataclass
 class _Node:
     done: _Done
-    clauses: list[tuple[Because, list[_Node]]] = field(default_factory=list)
+    clauses: list[tuple[ActiveClause, list[_Node]]] = field(default_factory=list)
     cycle: bool = False
     seen: bool = False
     more: bool = False
@@ -120,11 +101,11 @@ class _Tree:
         self._shown: dict[tuple[str, bool], bool] = {}
         self._prohibitions: dict[str, list[_Forbids]] = {}
 
-    def grow(self, because: tuple[Because, ...]) -> list[_Node]:
+    def grow(self, because: tuple[ActiveClause, ...]) -> list[_Node]:
         """The tree below the clauses that decide in the situation."""
         return self._below(because, ())
 
-    def _below(self, because: tuple[Because, ...], way: _Way) -> list[_Node]:
+    def _below(self, because: tuple[ActiveClause, ...], way: _Way) -> list[_Node]:
         done: dict[str, list[tuple[int, int | None] | None]] = {}
         for one in because:
             clause = list(self._ruleset.by_label[one.rule].clauses())[one.clause]
@@ -162,11 +143,11 @@ class _Tree:
         way = (*done.way, _Link(name, min((start for start, _ in done.windows), default=0), latest))
         return _Node(done, [(one, self._below((one,), way)) for one in because])
 
-    def step(self, node: _Node) -> Step:
+    def step(self, node: _Node) -> ConsequenceStep:
         """What a node is, with what forbids it anywhere in the tree."""
         clauses = tuple((because, tuple(map(self.step, done))) for because, done in node.clauses)
         forbidden = self.forbidding(node.done)
-        return Step(node.done.name, clauses, node.cycle, node.seen, node.more, forbidden)
+        return ConsequenceStep(node.done.name, clauses, node.cycle, node.seen, node.more, forbidden)
 
     def forbidding(self, done: _Done) -> tuple[str, ...]:
         """The clauses that forbid what is done at any time that it may be done at. What is due for longer may be done
@@ -203,25 +184,3 @@ def _after(way: _Way, window: tuple[int, int | None]) -> tuple[int, int | None]:
         start += link.start
         end = None if end is None or link.end is None else end + link.end
     return start, end
-
-
-def lines(steps: tuple[Step, ...], indent: str = "  ") -> Iterator[str]:
-    """The tree as lines of text."""
-    for step in steps:
-        yield indent + step.name + _said(step)
-        for because, done in step.clauses:
-            yield f"{indent}  {because.layer or because.rule}: {' AND '.join(because.in_words()) or 'nothing'}"
-            yield from lines(tuple(one for one in done if one.leads_on or one.forbidden), indent + "    ")
-
-
-def _said(step: Step) -> str:
-    words = []
-    if step.cycle:
-        words.append("which happens already: a cycle")
-    elif step.seen:
-        words.append("as above")
-    elif step.more:
-        words.append("and so on")
-    if step.forbidden:
-        words.append(f"which {' and '.join(step.forbidden)} {'forbids' if len(step.forbidden) == 1 else 'forbid'}")
-    return f" ({'; '.join(words)})" if words else ""

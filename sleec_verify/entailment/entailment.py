@@ -7,147 +7,20 @@ letter entails everything, is reported as a conflict with its rules.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING
 
-from sleec_runtime.model import Assume, Clause, Context, Exclusive, Formula, Never, Obligation, Rule, Ruleset, Span
+from sleec_runtime.model import Clause, Context, Exclusive, Formula, Obligation, Relation, Rule, Ruleset, Span
 from sleec_verify.checks.conflict import conflict_in
 from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.solver import MiniSat
+from sleec_verify.entailment.answer import ActiveClause, ConditionValue, Consequence, Entailment
+from sleec_verify.entailment.definition1 import Definition1
 from sleec_verify.entailment.situation_feasibility import Law, settled
 from sleec_verify.query.inconsistent_sets import inconsistent_sets
 from sleec_verify.query.names import names_in, names_of_rule, obligations_in
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
-from sleec_verify.results.finding import Finding, Witness
-
-if TYPE_CHECKING:
-    from sleec_runtime.model import Relation, Value
-    from sleec_verify.entailment.consequence_tree import Step
-    from sleec_verify.entailment.schedule import Entry
-
-
-@dataclass(frozen=True)
-class Decided:
-    """A condition that was looked at, and its truth. `clause` is its hedge's number, None for the rule's guard."""
-
-    formula: Formula
-    truth: bool
-    clause: int | None
-    span: Span
-
-
-@dataclass(frozen=True)
-class Because:
-    """A clause that is active: what it obliges, when (in words, empty for at once), and the conditions that made it the
-    one.
-
-    In a cascade these are the true prefix and the first false condition; by priority, the last true condition and
-    the false ones after it.
-    """
-
-    rule: str
-    clause: int
-    layer: str | None
-    obligations: tuple[str, ...]
-    decisions: tuple[Decided, ...]
-    span: Span
-    times: tuple[str, ...] = ()
-
-    def in_words(self) -> tuple[str, ...]:
-        """The obligations, each with when it is due if that is said."""
-        return tuple(f"{what} {when}".rstrip() for what, when in zip(self.obligations, self.times))
-
-
-@dataclass(frozen=True)
-class Consequence:
-    """What the constraints `origins` make of what is due: it must be so, but no rule says so, and nothing executes
-    it."""
-
-    literal: Obligation
-    origins: tuple[Exclusive | Never, ...]
-
-
-@dataclass(frozen=True)
-class Entailment:
-    """The answer to "what is due here?".
-
-    Where it is not `consistent`, nothing is listed as due and `conflicts` says why. `timed` are the literals due at
-    some later time; whether they can be kept with all else is not decided, and `consistent` says nothing of them.
-    `chain` is what becomes due once that is done, `at_odds` the events that occur and are forbidden, each with the
-    clauses that do, and `schedule` what is due until when, where they were asked for (`entailment.consequence_tree`,
-    `sleec_verify.entailment.schedule`).
-    `missing` are measures that were asked about and not given: comparisons with them count as false.
-    `broken_assumptions` are the assumptions by which the situation cannot be, and the relations, whatever else occurs;
-    `unsettled` those that do not hold if all comparisons with what is not given are false. `possible` are values of
-    what is not given with which the situation can be, where it cannot without.
-    """
-
-    consistent: bool
-    obligations: tuple[str, ...]
-    prohibitions: tuple[str, ...]
-    because: tuple[Because, ...]
-    consequences: tuple[Consequence, ...]
-    conflicts: tuple[Finding, ...]
-    broken_assumptions: tuple[Assume | Relation, ...]
-    missing: tuple[str, ...]
-    timed: tuple[Obligation, ...] = ()
-    chain: tuple[Step, ...] = ()
-    at_odds: tuple[tuple[str, tuple[str, ...]], ...] = ()
-    unsettled: tuple[Assume | Relation, ...] = ()
-    possible: tuple[tuple[str, Value], ...] = ()
-    schedule: tuple[Entry, ...] = ()
-
-
-class Definition1:
-    """Equation 1 of some rules, compiled once for any number of contexts.
-
-    `formulas` get a literal each, so that their truth can be read off as well. `missing` are measures without a
-    value: comparisons with them are false.
-    """
-
-    def __init__(
-        self,
-        ruleset: Ruleset,
-        rules: Sequence[Rule] | None = None,
-        formulas: Sequence[Formula] = (),
-        missing: frozenset[str] = frozenset(),
-    ) -> None:
-        encoder = self._encoder = Encoder(ruleset.measures, missing)
-        self._in_force = encoder.fresh()
-        self.guards = [(rule, encoder.guards(rule, ruleset.reading)) for rule in rules or ruleset.rules]
-        for rule, guards in self.guards:
-            for clause, guard in zip(rule.clauses(), guards):
-                for obligation in clause.obligations:
-                    encoder.clauses.append([-self._in_force, -guard, encoder.obligation(obligation)])
-        self.formulas = [encoder.literal(formula) for formula in formulas]
-        encoder.close()
-        self._solver = MiniSat(encoder.clauses)
-        self._obligations = {v: key[1] for key, v in encoder.variables.items() if key[0] == "obligation"}
-
-    def entailed(self, context: Context) -> frozenset[Obligation] | None:
-        """Every literal over O that Definition 1 entails in `context`, or None where the rules contradict themselves
-        there. One propagation."""
-        consistent, literals = self._solver.propagate([self._in_force, *self._encoder.assumptions(context)])
-        if not consistent:
-            return None
-        named = self._obligations
-        return frozenset(Obligation(named[abs(v)], v < 0) for v in literals if abs(v) in named)
-
-    def entails(self, context: Context, obligation: Obligation) -> bool | None:
-        """Whether Definition 1 entails one literal in `context`: no model of the rules and the context makes it
-        false. To the letter, so true of everything where the rules contradict themselves. None if undecided."""
-        variable = self._encoder.variables.get(("obligation", obligation.name))
-        refuted = [] if variable is None else [variable if obligation.negated else -variable]
-        answer = self._solver.solve([self._in_force, *self._encoder.assumptions(context), *refuted])
-        return None if answer is None else not answer
-
-    def facts(self, context: Context) -> Callable[[int], bool]:
-        """The truth, in `context`, of the literals in `guards` and `formulas`, until the next question."""
-        found = self._solver.solve([-self._in_force, *self._encoder.assumptions(context)])
-        assert found, "without the rules in force, every context is a model"
-        return self._solver.holds
+from sleec_verify.results.finding import Witness
 
 
 def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Entailment:
@@ -230,17 +103,17 @@ def _clause(rule: Rule, number: int) -> tuple[Obligation, ...]:
     return list(rule.clauses())[number].obligations
 
 
-def _because(rule: Rule, number: int, reading: str, truth: dict[int, bool]) -> Because:
+def _because(rule: Rule, number: int, reading: str, truth: dict[int, bool]) -> ActiveClause:
     clause = list(rule.clauses())[number]
     decided = []
     if rule.guard is not None:
-        decided.append(Decided(rule.guard, True, None, rule.guard.span))
+        decided.append(ConditionValue(rule.guard, True, None, rule.guard.span))
     for hedge, at in _looked_at(rule, reading, truth):
         assert hedge.condition is not None, "only hedges are looked at"
-        decided.append(Decided(hedge.condition, truth[id(hedge.condition)], at, hedge.condition.span))
+        decided.append(ConditionValue(hedge.condition, truth[id(hedge.condition)], at, hedge.condition.span))
     obligations = tuple(str(o) for o in clause.obligations)
     times = tuple(str(o.timing) if o.timing is not None else "" for o in clause.obligations)
-    return Because(rule.label, number, rule.layer(number), obligations, tuple(decided), clause.span, times)
+    return ActiveClause(rule.label, number, rule.layer(number), obligations, tuple(decided), clause.span, times)
 
 
 def _looked_at(rule: Rule, reading: str, truth: dict[int, bool]) -> list[tuple[Clause, int]]:

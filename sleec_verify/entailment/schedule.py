@@ -4,41 +4,16 @@ becomes due once something is done."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Context, Ruleset
 from sleec_verify.encoding.response_windows import Windows
 from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
-
-if TYPE_CHECKING:
-    from sleec_verify.entailment.consequence_tree import Step
-    from sleec_verify.entailment.entailment import Because, Entailment
+from sleec_verify.entailment.answer import ActiveClause, ConsequenceStep, Entailment, ScheduledResponse
 
 
-@dataclass(frozen=True)
-class Entry:
-    """One response with its window, in seconds from the situation, or from when `after` is done. No `end`: at some
-    time. `unknown` is a length that a measure says which is not given; then there are no times.
-
-    `instead_of` is what it is due in place of, an event or ``NOT`` and an event: once that was not kept in time
-    (`overdue`), or at any time.
-    """
-
-    event: str
-    negated: bool
-    start: int | None
-    end: int | None
-    rule: str
-    clause: int
-    layer: str | None
-    after: str | None = None
-    instead_of: str | None = None
-    overdue: bool = False
-    unknown: str | None = None
-
-
-def schedule(ruleset: Ruleset, context: Context, answer: Entailment, untimed: Untimed = "at") -> tuple[Entry, ...]:
+def schedule(
+    ruleset: Ruleset, context: Context, answer: Entailment, untimed: Untimed = "at"
+) -> tuple[ScheduledResponse, ...]:
     """The schedule of what is due in `context`, and after it of what that leads to, each event of a chain once.
 
     Empty for rules that say nothing of time, and where they contradict one another. Linear in the clauses reached.
@@ -51,7 +26,7 @@ def schedule(ruleset: Ruleset, context: Context, answer: Entailment, untimed: Un
     return tuple(dict.fromkeys(entries))
 
 
-def _of_steps(writer: _Writer, steps: Sequence[Step]) -> Iterator[Entry]:
+def _of_steps(writer: _Writer, steps: Sequence[ConsequenceStep]) -> Iterator[ScheduledResponse]:
     for step in steps:
         for because, done in step.clauses:
             yield from writer.of(because, step.name)
@@ -63,10 +38,10 @@ class _Writer:
         self._ruleset = ruleset
         self._windows = Windows(ruleset, context, untimed)
 
-    def of(self, because: Because, after: str | None) -> Iterator[Entry]:
+    def of(self, because: ActiveClause, after: str | None) -> Iterator[ScheduledResponse]:
         clause = list(self._ruleset.by_label[because.rule].clauses())[because.clause]
         for one in self._windows.of(clause):
-            yield Entry(
+            yield ScheduledResponse(
                 one.obligation.name,
                 one.obligation.negated,
                 one.start,

@@ -6,15 +6,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume
-from sleec_verify.entailment.consequence_tree import lines
+from sleec_verify.report.consequence_tree import lines
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.full import finding_lines
 from sleec_verify.results.phrases import listed, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Relation, Ruleset
-    from sleec_verify.entailment.consequence_tree import Step
-    from sleec_verify.entailment.entailment import Entailment
+    from sleec_verify.entailment.answer import ConsequenceStep, Entailment
     from sleec_verify.report.json import Json
     from sleec_verify.report.palette import Palette
 
@@ -112,7 +111,7 @@ def _has_times(answer: Entailment) -> bool:
     return any(not entry.start == entry.end == 0 for entry in answer.schedule)
 
 
-def _chain_json(steps: tuple[Step, ...]) -> Json:
+def _chain_json(steps: tuple[ConsequenceStep, ...]) -> Json:
     return [
         {
             "obligation": step.name,

@@ -13,7 +13,7 @@ from sleec_verify.results.phrases import context_text, listed, quoted, value_tex
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Formula, Rule, Ruleset, Span
-    from sleec_verify.entailment.entailment import Because, Consequence, Decided, Entailment
+    from sleec_verify.entailment.answer import ActiveClause, ConditionValue, Consequence, Entailment
     from sleec_verify.report.palette import Palette
 
 
@@ -47,7 +47,7 @@ def render(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pale
     yield _in_all(answer, palette)
 
 
-def _decided(ruleset: Ruleset, context: Context, because: Because, palette: Palette) -> Iterator[str]:
+def _decided(ruleset: Ruleset, context: Context, because: ActiveClause, palette: Palette) -> Iterator[str]:
     number = because.clause
     clause = f"its hedge {number} decides, the layer {because.layer}" if number else "its default decides"
     head = f"{palette('strong', because.rule)} is triggered by {_trigger(ruleset, because)}, and {clause}"
@@ -57,7 +57,7 @@ def _decided(ruleset: Ruleset, context: Context, because: Because, palette: Pale
     yield ""
 
 
-def _trigger(ruleset: Ruleset, because: Because) -> str:
+def _trigger(ruleset: Ruleset, because: ActiveClause) -> str:
     return quoted(ruleset.by_label[because.rule].trigger)
 
 
@@ -72,7 +72,7 @@ def _due(obligations: tuple[str, ...]) -> str:
     return " and ".join(parts) or "nothing is due"
 
 
-def _truth(ruleset: Ruleset, context: Context, decision: Decided) -> str:
+def _truth(ruleset: Ruleset, context: Context, decision: ConditionValue) -> str:
     which = "its guard " if decision.clause is None else ""
     value = "true" if decision.truth else "false"
     return (

@@ -10,13 +10,13 @@ from sleec_verify.results.phrases import quoted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context
-    from sleec_verify.entailment.schedule import Entry
+    from sleec_verify.entailment.answer import ScheduledResponse
     from sleec_verify.report.json import Json
 
 
-def in_words(entries: Sequence[Entry]) -> Iterator[str]:
+def in_words(entries: Sequence[ScheduledResponse]) -> Iterator[str]:
     """A line for each entry, those after an event below it, in columns."""
-    groups: dict[str | None, list[Entry]] = {}
+    groups: dict[str | None, list[ScheduledResponse]] = {}
     for entry in entries:
         groups.setdefault(entry.after, []).append(entry)
     name = max(len(_what(entry)) for entry in entries)
@@ -29,12 +29,12 @@ def in_words(entries: Sequence[Entry]) -> Iterator[str]:
             yield f"{indent}{_what(entry).ljust(name)}  {_when(entry).ljust(time)}  {_by(entry)}"
 
 
-def _what(entry: Entry) -> str:
+def _what(entry: ScheduledResponse) -> str:
     name = f"not {quoted(entry.event)}" if entry.negated else quoted(entry.event)
     return name if entry.instead_of is None else f"or {name}"
 
 
-def _when(entry: Entry) -> str:
+def _when(entry: ScheduledResponse) -> str:
     if entry.unknown is not None:
         return f"within {entry.unknown}, of which the length is not given"
     assert entry.start is not None, "what is known has a beginning"
@@ -47,7 +47,7 @@ def _when(entry: Entry) -> str:
     return f"{begins}until {duration(entry.end)}"
 
 
-def _by(entry: Entry) -> str:
+def _by(entry: ScheduledResponse) -> str:
     why = f"by {entry.layer or entry.rule}"
     if entry.instead_of is None:
         return why
@@ -58,7 +58,7 @@ def _by(entry: Entry) -> str:
     return f"{why}, in place of {quoted(entry.instead_of)}"
 
 
-def chart(entries: Sequence[Entry], context: Context) -> list[str]:
+def chart(entries: Sequence[ScheduledResponse], context: Context) -> list[str]:
     """The windows that count from the situation, with a column for each time at which one opens or closes."""
     from sleec_verify.results.timeline import Due, Moment, Timeline
 
@@ -76,7 +76,7 @@ def chart(entries: Sequence[Entry], context: Context) -> list[str]:
     return chart_of(Timeline(tuple(moments), now=0))
 
 
-def as_json(entries: Sequence[Entry]) -> Json:
+def as_json(entries: Sequence[ScheduledResponse]) -> Json:
     """Times are seconds from the situation, or from when `after` is done; `until` null: at some time."""
     return [
         {

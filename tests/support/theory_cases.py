@@ -30,7 +30,7 @@ from sleec_runtime.model import (
 from sleec_verify.certificates.theory.boolean import Boolean
 from sleec_verify.certificates.theory.numbering import Numbered
 from sleec_verify.certificates.theory.oracle import answers
-from sleec_verify.entailment.entailment import Definition1
+from sleec_verify.entailment.definition1 import Definition1
 
 Case = tuple[Ruleset, Sequence[Context]]
 

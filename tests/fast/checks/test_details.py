@@ -10,7 +10,8 @@ from sleec_runtime.evaluation.evaluation import broken_assumptions, holds
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context, Obligation
 from sleec_verify.checks import run_checks
-from sleec_verify.entailment.entailment import Definition1, entail
+from sleec_verify.entailment.definition1 import Definition1
+from sleec_verify.entailment.entailment import entail
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef

@@ -7,8 +7,9 @@ import pytest
 from sleec_runtime.evaluation.evaluation import decide
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
-from sleec_verify.entailment.consequence_tree import DEEPEST, chain, lines
+from sleec_verify.entailment.consequence_tree import DEEPEST, chain
 from sleec_verify.entailment.entailment import entail
+from sleec_verify.report.consequence_tree import lines
 from tests.support.timed_strategies import timed_ruleset
 
 

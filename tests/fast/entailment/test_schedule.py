@@ -10,9 +10,10 @@ from sleec_runtime.evaluation.traces import Instant, Trace, broken, broken_so_fa
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
 from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.entailment.answer import ScheduledResponse
 from sleec_verify.entailment.consequence_tree import chain
 from sleec_verify.entailment.entailment import entail
-from sleec_verify.entailment.schedule import Entry, schedule
+from sleec_verify.entailment.schedule import schedule
 from sleec_verify.entailment.situation_text import parse_situation
 from sleec_verify.report.entailment import caveats
 from sleec_verify.report.palette import PLAIN
@@ -29,14 +30,14 @@ WHEN CallHelp THEN OpenDoor WITHIN 10 TO 30 seconds AND Report EVENTUALLY
 """
 
 
-def _entries(text: str, trigger: str, untimed: Untimed = "at", **conditions: object) -> tuple[Entry, ...]:
+def _entries(text: str, trigger: str, untimed: Untimed = "at", **conditions: object) -> tuple[ScheduledResponse, ...]:
     ruleset = parse(text)
     context = Context(frozenset({trigger}), conditions)  # type: ignore[arg-type]
     answer = entail(ruleset, context)
     return schedule(ruleset, context, replace(answer, chain=chain(ruleset, context, answer).steps), untimed)
 
 
-def _times(entries: tuple[Entry, ...]) -> list[tuple[str, int | None, int | None, str | None]]:
+def _times(entries: tuple[ScheduledResponse, ...]) -> list[tuple[str, int | None, int | None, str | None]]:
     return [(entry.event, entry.start, entry.end, entry.after) for entry in entries]
 
 

@@ -12,7 +12,8 @@ from sleec_runtime.evaluation import evaluation
 from sleec_runtime.model import Atom, Comparison, Obligation, Ruleset, leaves
 from sleec_verify.encoding.equation import implications
 from sleec_verify.encoding.solver import MiniSat
-from sleec_verify.entailment.entailment import Definition1, entail
+from sleec_verify.entailment.definition1 import Definition1
+from sleec_verify.entailment.entailment import entail
 from sleec_verify.exchange.compilation import symbol
 from sleec_verify.exchange.compilation.clauses import encoded
 from sleec_verify.exchange.compilation.formulas import Translator, lines
