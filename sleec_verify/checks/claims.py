@@ -19,20 +19,22 @@ if TYPE_CHECKING:
 def _concerns(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each concern that comes about in some trace that keeps all."""
     from sleec_runtime.model import claims
+    from sleec_verify.replay.timeline import timeline_of
     from sleec_verify.traces.questions import coming_about
 
     def of(claim: Claim) -> Iterator[Finding]:
         answer = coming_about(trace_index_of(index), claim)
         if answer.trace is None:
             return
-        moment = next(m for m in answer.trace.moments if claim.event in m.events)
+        timeline = timeline_of(trace_index_of(index), answer.trace)
+        moment = next(m for m in timeline.moments if claim.event in m.events)
         yield CONCERN.finding(
             f"the concern {claim.label} can come about while every rule is kept",
             claim.label_span,
-            rules=tuple(dict.fromkeys(due.rule for moment in answer.trace.moments for due in moment.due)),
+            rules=tuple(dict.fromkeys(due.rule for moment in timeline.moments for due in moment.due)),
             obligations=(claim.label,),
             witness=Witness(moment.events, moment.conditions),
-            timeline=answer.trace,
+            timeline=timeline,
             help="add a rule that prevents it, or a hedge to the one that leads to it",
         )
 
@@ -44,15 +46,17 @@ def _purposes(index: RulesetIndex) -> Iterator[Finding]:
     from sleec_runtime.model import claims
     from sleec_verify.traces.questions import coming_about
 
+    traces = trace_index_of(index)
+
     def of(claim: Claim) -> Iterator[Finding]:
-        answer = coming_about(trace_index_of(index), claim)
+        answer = coming_about(traces, claim)
         if answer.trace is not None:
             return
-        blocking = in_words(trace_index_of(index), answer.matter)
+        blocking = in_words(traces, answer.matter)
         yield PURPOSE.finding(
             f"the purpose {claim.label} cannot come about",
             claim.label_span,
-            rules=rules_in(trace_index_of(index), answer.matter),
+            rules=rules_in(traces, answer.matter),
             obligations=(claim.label,),
             note=f"{listed(blocking)} {'blocks' if len(blocking) == 1 else 'block'} it"
             if blocking

@@ -21,10 +21,10 @@ from sleec_verify.results.finding import ClauseRef, Finding, Witness
 from sleec_verify.traces.partition import partition_of, without
 
 if TYPE_CHECKING:
+    from sleec_verify.encoding.relations import Relation
     from sleec_verify.results.timeline import Timeline
     from sleec_verify.traces.conflicts import Conflict
     from sleec_verify.traces.index import TraceIndex
-    from sleec_verify.traces.relations import Relation
 
 
 def _conflicts(index: RulesetIndex) -> Iterator[Finding]:
@@ -112,8 +112,8 @@ def _finding(index: RulesetIndex, cause: Cause, shown: list[tuple[InconsistentSe
 
 
 def _of_trace(traces: TraceIndex, conflict: Conflict) -> Finding:
+    from sleec_verify.replay.timeline import timeline_of
     from sleec_verify.traces.conflicts import LATER
-    from sleec_verify.traces.timeline import timeline_of
 
     rules = traces.ruleset.by_label
     now = conflict.now
@@ -163,7 +163,7 @@ def _sides(traces: TraceIndex, conflict: Conflict) -> tuple[set[str], set[str]]:
 def _at_odds(
     relations: Sequence[Relation], required: set[str], forbidden: set[str], given: Collection[str]
 ) -> set[str]:
-    from sleec_verify.traces.relations import events_of
+    from sleec_verify.encoding.relations import events_of
 
     related = {event for relation in relations for event in events_of(relation)}
     at_odds = (required | forbidden) & related if relations else forbidden & (required | set(given))

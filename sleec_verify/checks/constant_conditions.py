@@ -126,7 +126,7 @@ def _places(ruleset: Ruleset) -> Iterator[_Place]:
 
 def _beside_rules(ruleset: Ruleset) -> Iterator[_Place]:
     from sleec_runtime.model import RELATIONS, Claim
-    from sleec_verify.traces.relations import formulas_of_relation
+    from sleec_verify.encoding.relations import formulas_of_relation
 
     for statement in ruleset.statements:
         if isinstance(statement, Claim):

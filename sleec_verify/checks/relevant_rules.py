@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from sleec_runtime.model import Assume, Exclusive, Never, Ruleset
 
 if TYPE_CHECKING:
+    from sleec_verify.encoding.relations import Relation
     from sleec_verify.traces.index import TraceIndex
-    from sleec_verify.traces.relations import Relation
 
 
 def in_words(index: TraceIndex, matter: Iterable[str]) -> list[str]:

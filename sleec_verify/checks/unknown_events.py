@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def _stray(index: RulesetIndex) -> Iterator[Finding]:
     from sleec_runtime.model import RELATIONS, Claim
     from sleec_runtime.support.suggestions import nearest
-    from sleec_verify.traces.relations import events_of
+    from sleec_verify.encoding.relations import events_of
 
     ruleset = index.ruleset
     known = events_of_rules(ruleset)

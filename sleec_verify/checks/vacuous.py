@@ -11,7 +11,7 @@ from sleec_runtime.model import Atom, Never, Rule
 from sleec_verify.checks.base import Check, FindingKind, listed, literals_of
 from sleec_verify.checks.each import each, in_both_parts
 from sleec_verify.checks.relevant_rules import in_words, rules_in
-from sleec_verify.encoding.budget import OutOfBudget, Undecided
+from sleec_verify.encoding.budget import as_far_as_decided
 from sleec_verify.encoding.equation import conjunction
 from sleec_verify.query.cone import rules_active_with
 from sleec_verify.query.inconsistent_sets import InconsistentSets, inconsistent_sets_of
@@ -78,12 +78,9 @@ def _alone(traces: TraceIndex, rule: Rule) -> str:
     from sleec_verify.traces.model import TraceModel
 
     model = TraceModel(traces.part([rule], ()))
-    try:
+    contradicts = False
+    with as_far_as_decided():
         contradicts = not model.ask(model.instants[model.instant(model.formula.true)].event(rule.trigger))
-    except OutOfBudget:
-        raise
-    except Undecided:
-        contradicts = False
     return "it contradicts itself" if contradicts else "what it calls for never comes to an end"
 
 

@@ -158,3 +158,14 @@ def _using(budget: Budget) -> Iterator[None]:
         yield
     finally:
         _current.reset(token)
+
+
+@contextmanager
+def as_far_as_decided() -> Iterator[None]:
+    """Go on after the block where a question in it is not decided, unless the budget is spent."""
+    try:
+        yield
+    except OutOfBudget:
+        raise
+    except Undecided:
+        pass

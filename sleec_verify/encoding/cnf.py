@@ -8,7 +8,7 @@ to everything (Definition 1 over a total context needs no search).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from sleec_runtime.model import (
     And,
@@ -123,16 +123,17 @@ class Encoder:
             so_far = self.any_of([so_far, literal])
         return self.any_of(repeated)
 
-    def literal(self, formula: Formula) -> int:
-        """A literal equal to the formula. O(size of the formula)."""
+    def literal(self, formula: Formula, atom: Callable[[Atom], int] | None = None) -> int:
+        """A literal equal to the formula. `atom` gives the literals of atoms: their variables, if it is None. O(size of
+        the formula)."""
         if isinstance(formula, Atom):
-            return self.variable((formula.kind, formula.name))
+            return self.variable((formula.kind, formula.name)) if atom is None else atom(formula)
         if isinstance(formula, Not):
-            return -self.literal(formula.operand)
+            return -self.literal(formula.operand, atom)
         if isinstance(formula, And):
-            return self.all_of([self.literal(operand) for operand in formula.operands])
+            return self.all_of([self.literal(operand, atom) for operand in formula.operands])
         if isinstance(formula, Or):
-            return self.any_of([self.literal(operand) for operand in formula.operands])
+            return self.any_of([self.literal(operand, atom) for operand in formula.operands])
         if isinstance(formula, Comparison):
             if self._missing and not self._missing.isdisjoint(measures_of(formula)):
                 return -self.true()

@@ -5,20 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sleec_runtime.model import (
+    RELATIONS,
     Claim,
     Clause,
-    Effect,
-    EventRelation,
     Formula,
     Lasting,
     Length,
-    MeasureRelation,
     Rule,
     Ruleset,
     conditions_in,
     in_text_order,
     literals,
 )
+from sleec_verify.encoding.relations import events_of, formulas_of_relation
 
 
 def beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Length]]:
@@ -32,18 +31,11 @@ def beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Length
                 lengths += _lengths(clause)
         elif isinstance(statement, Claim):
             add_claim(statement, events, formulas, lengths)
-        elif isinstance(statement, EventRelation):
-            events |= {statement.left, statement.right}
-        elif isinstance(statement, MeasureRelation):
-            formulas += [statement.left, *([statement.right] if statement.right is not None else [])]
-        elif isinstance(statement, Effect):
-            events.add(statement.event)
-            formulas.append(statement.formula)
-        elif isinstance(statement, Lasting):
-            events |= {event for event in (statement.event, statement.end) if event is not None}
-            own = (statement.condition, statement.formula, statement.end_condition)
-            formulas += [formula for formula in own if formula is not None]
-            lengths += [statement.duration] if statement.duration is not None else []
+        elif isinstance(statement, RELATIONS):
+            events.update(events_of(statement))
+            formulas += formulas_of_relation(statement)
+            if isinstance(statement, Lasting) and statement.duration is not None:
+                lengths.append(statement.duration)
     return events, formulas, lengths
 
 

@@ -34,10 +34,11 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     stated = {rule.label: rule for rule in ruleset.rules if rule.trigger in context.triggers}
     related: list[tuple[Relation, Formula]] = []
     if ruleset.is_timed:
-        from sleec_verify.encoding.one_instant import of_one_instant, untimed
+        from sleec_verify.encoding.relations import relations_on_situations
+        from sleec_verify.encoding.without_time import without_time
 
-        related = list(of_one_instant(ruleset))
-        ruleset = untimed(ruleset)
+        related = list(relations_on_situations(ruleset))
+        ruleset = without_time(ruleset)
     rules = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
     index = RulesetIndex(ruleset)
     ruled_out = inconsistent_sets(

@@ -10,11 +10,11 @@ from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from sleec_runtime.model import Atom, Formula, Rule, formulas_of, leaves, measures_of
+from sleec_verify.encoding.relations import Relation, events_of, formulas_of_relation
 from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.traces.demands import Occurs
 from sleec_verify.traces.event_conditions import named_atoms
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.relations import Relation, events_of, formulas_of_relation
 
 
 @dataclass(frozen=True)

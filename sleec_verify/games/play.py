@@ -14,16 +14,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from sleec_runtime.model import (
-    Assume,
-    Effect,
     EventRelation,
-    Exclusive,
     Lasting,
-    MeasureRelation,
     Rule,
     Value,
     formulas_of,
 )
+from sleec_verify.encoding.relations import Relation, at_one_instant, events_of, formulas_of_relation
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
 from sleec_verify.games.decomposition import Part
 from sleec_verify.games.players import is_environments
@@ -32,7 +29,6 @@ from sleec_verify.games.values import Scales, Values
 from sleec_verify.traces.demands import Demand, Every, Occurs, seconds
 from sleec_verify.traces.event_conditions import named_atoms
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.relations import Relation, events_of, exclusions, formulas_of_relation
 
 
 class Act(NamedTuple):
@@ -298,40 +294,13 @@ class Play:
         """That a law is kept where one instant is concerned."""
         circuit = self.circuit
         instant, there = course[number]
-
-        def event(name: str) -> int:
-            return instant.events.get(name, FALSE)
-
-        holds = instant.values.literal
         if isinstance(law, Lasting):
             return self._lasting(law, instant, there, course)
-        if isinstance(law, EventRelation):
-            left, right = event(law.left), event(law.right)
-            if law.relation == "happenBefore":
-                kept = circuit.implies(right, self._occurs(Occurs(law.left, None, -1), instant, course))
-            elif law.relation == "mutualExclusive":
-                kept = -circuit.both(left, right)
-            else:
-                kept = circuit.implies(left, right) if law.relation == "witness" else circuit.same(left, right)
-        elif isinstance(law, Effect):
-            occurs, fact = event(law.event), holds(law.formula)
-            if law.relation == "causation":
-                kept = circuit.implies(fact, occurs)
-            else:
-                kept = circuit.implies(occurs, fact if law.relation == "includes" else -fact)
-        elif isinstance(law, MeasureRelation):
-            left = holds(law.left)
-            if law.right is None:
-                kept = left
-            elif law.relation in ("imply", "iff"):
-                right = holds(law.right)
-                kept = circuit.implies(left, right) if law.relation == "imply" else circuit.same(left, right)
-            else:
-                kept = -circuit.both(left, holds(law.right))
-        elif isinstance(law, Exclusive):
-            kept = circuit.every(-circuit.both(event(one), event(other)) for one, other in exclusions(law))
+        if isinstance(law, EventRelation) and law.relation == "happenBefore":
+            occurred = self._occurs(Occurs(law.left, None, -1), instant, course)
+            kept = circuit.implies(instant.events.get(law.right, FALSE), occurred)
         else:
-            kept = holds(law.formula) if isinstance(law, Assume) else -holds(law.formula)
+            kept = circuit.every(circuit.some(map(instant.values.literal, part)) for part in at_one_instant(law))
         return circuit.implies(there, kept)
 
     def _lasting(self, law: Lasting, instant: _Instant, there: int, course: _Course, later: bool = False) -> int:

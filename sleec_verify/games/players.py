@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from sleec_runtime.model import Agent, EventRelation, Lasting
-from sleec_verify.traces.relations import Relation, events_of
+from sleec_verify.encoding.relations import Relation, events_of
 
 
 def is_environments(law: Relation, whose: Mapping[str, Agent]) -> bool:

@@ -12,6 +12,7 @@ from functools import cached_property, partial
 from itertools import islice
 
 from sleec_runtime.model import EventRelation, Lasting, Rule, Span, Value
+from sleec_verify.encoding.relations import Relation
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.games.decomposition import Part, parts
 from sleec_verify.games.play import Play
@@ -19,7 +20,6 @@ from sleec_verify.games.qbf import Move, winning
 from sleec_verify.traces.demands import Occurs
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.induction import impossible_events
-from sleec_verify.traces.relations import Relation
 
 MOST_PLANNED = 4
 """Instants of a plan that are tried."""

@@ -10,11 +10,12 @@ from dataclasses import replace
 from sleec_runtime.evaluation.evaluation import decide
 from sleec_runtime.evaluation.traces import Instant, Lawlike, Trace, broken, broken_so_far, claim_holds
 from sleec_runtime.model import Context, Rule, Ruleset, claims
+from sleec_verify.encoding.relations import events_of
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.timeline import Timeline
 from sleec_verify.traces.index import trace_index_of
-from sleec_verify.traces.relations import events_of, names_of_relation
+from sleec_verify.traces.relations import names_of_relation
 
 
 def replays(index: RulesetIndex, finding: Finding) -> bool:

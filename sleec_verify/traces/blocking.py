@@ -13,10 +13,10 @@ from collections.abc import Collection, Iterator, Sequence
 from itertools import combinations
 from typing import NamedTuple
 
+from sleec_verify.encoding.relations import events_of
 from sleec_verify.traces.demands import Demand, Every, Occurs, conjuncts
 from sleec_verify.traces.pending_demands import Slot
 from sleec_verify.traces.relation_violations import BrokenRelations, Point, within
-from sleec_verify.traces.relations import events_of
 from sleec_verify.traces.situations import Situations
 from sleec_verify.traces.templates import Later, Template
 from sleec_verify.traces.trivial_responses import contested

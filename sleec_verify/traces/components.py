@@ -11,11 +11,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from sleec_runtime.model import RELATIONS, MeasureRelation, Obligation, Rule, formulas_of, literals, names_of
+from sleec_verify.encoding.relations import Relation, events_of, formulas_of_relation
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.traces.event_conditions import is_of_state
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.relations import Relation, events_of, formulas_of_relation
 from sleec_verify.traces.trivial_responses import contested
 
 

@@ -10,9 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from sleec_runtime.model import Formula, Rule, formulas_of
+from sleec_verify.encoding.relations import Relation
 from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.relations import Name, Relation, holds_of_nothing, may_require, names_in, names_of_relation
+from sleec_verify.traces.relations import Name, holds_in_empty_context, may_require, names_in, names_of_relation
 
 
 def cone(index: TraceIndex, events: Iterable[str], formulas: Iterable[Formula]) -> TraceIndex:
@@ -29,7 +30,7 @@ def cone(index: TraceIndex, events: Iterable[str], formulas: Iterable[Formula]) 
             ahead.extend(names_of_relation(relation))
 
     for key, relation in index.relation_by_key.items():
-        if may_require(relation) or not holds_of_nothing(relation):
+        if may_require(relation) or not holds_in_empty_context(relation):
             include(key, relation)
     seen: set[Name] = set()
     while ahead:

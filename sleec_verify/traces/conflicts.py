@@ -8,11 +8,11 @@ there is none, the facts that no history gives are excluded.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import cached_property
 from typing import NamedTuple
 
-from sleec_runtime.model import Rule, Value
+from sleec_runtime.model import Rule
 from sleec_verify.encoding.budget import OutOfBudget, Undecided
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import minimal_rules, weakest, without_slots
@@ -21,7 +21,7 @@ from sleec_verify.traces.histories import Histories
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.refinement import Refinement
 from sleec_verify.traces.situations import Fact, Situations
-from sleec_verify.traces.timeline import Moment
+from sleec_verify.traces.trace import TraceInstant
 from sleec_verify.traces.witness import needed_relations, needed_values
 
 MOST_UNDECIDED = 4
@@ -31,7 +31,7 @@ LATER = -1
 """The clause of a rule that the response triggers at an instant to come."""
 
 
-def _without_states(moment: Moment) -> Moment:
+def _without_states(moment: TraceInstant) -> TraceInstant:
     """A moment without the states that stand for events."""
     return moment._replace(conditions={n: v for n, v in moment.conditions.items() if event_of(n) is None})
 
@@ -48,9 +48,8 @@ class Conflict(NamedTuple):
     and measures that matter; and the keys of the relations that matter."""
 
     pairs: tuple[Pair, ...]
-    history: tuple[Moment, ...]
-    now: Moment
-    facts: tuple[Fact, ...]
+    history: tuple[TraceInstant, ...]
+    now: TraceInstant
     relations: tuple[str, ...]
 
     @property
@@ -223,7 +222,8 @@ class ConflictSearch:
                 s.add([*(-s.literal(fact) for fact in needed), *(slot.active for slot in others), s.more])
                 return None
         moments, time = histories.history()
-        left_out = [fact for fact in continuations.facts if fact not in core and fact[0] != "state"]
+        counting = set(core)
+        left_out = [fact for fact in continuations.facts if fact not in counting and fact[0] != "state"]
         relations = needed_relations(continuations, rules, left_out)
         pending = {Pair(s.slots[n].rule.label, s.slots[n].pending.number) for n in slots}
         deciding = [
@@ -232,31 +232,22 @@ class ConflictSearch:
             if self._index.ruleset.by_label[pair.rule].trigger in given or pair not in pending
             if pair.clause != LATER and s.holds(s.guards[pair.rule][pair.clause])
         ]
-        values = needed_values(s, continuations, rules, left_out, deciding, self._values())
-        now = Moment(time, frozenset(given), values)
+        values = needed_values(s, continuations, rules, left_out, deciding, s.instant.values(s.holds))
+        now = TraceInstant(time, frozenset(given), values)
         stated = tuple(key for key in relations if not is_of_state(self._index.relation_by_key[key]))
-        return Conflict(pairs, tuple(map(_without_states, moments)), _without_states(now), tuple(core), stated)
+        return Conflict(pairs, tuple(map(_without_states, moments)), _without_states(now), stated)
 
     def _about_past(self, core: list[Fact], slots: set[int]) -> list[Fact]:
         """The facts of a core about the past, with all that is known of some slots."""
         s = self._situations
         nodes = {s.slots[number].node for number in slots}
         nodes |= {s.lasting[str(f[1])][2] for f in core if f[0] == "lasts" and f[-1]}
+        known = set(core)
         return [
             f
             for f in s.facts()
-            if f in core or (f[0] in ("slot", "came") and f[1] in slots) or (f[0] == "gap" and nodes & {*f[1:3]})
+            if f in known or (f[0] in ("slot", "came") and f[1] in slots) or (f[0] == "gap" and nodes & {*f[1:3]})
         ]
-
-    def _values(self) -> Mapping[str, Value]:
-        instant, holds = self._situations.instant, self._situations.holds
-        found: dict[str, Value] = {
-            key[1]: holds(variable) for key, variable in instant.variables.items() if key[0] == "condition"
-        }
-        decoded = instant.measures.decode(holds)
-        assert not isinstance(decoded, list), "find accepts a model only once its order has room"
-        found.update(decoded)
-        return dict(sorted(found.items()))
 
     def _pairs(
         self, continuations: Continuations, rules: list[str], given: set[str], slots: set[int]

@@ -42,10 +42,10 @@ class Continuations:
             if law.duration is not None:
                 self.nodes[node] = model.node()
         occurred = {event: model.formula.fresh() for event in situations.occurred}
-        model.occurred = lambda event: occurred.get(event, -model.formula.true)
+        model.past.occurred = lambda event: occurred.get(event, -model.formula.true)
         for key in self._active:
             law, _, node = situations.lasting[key]
-            model.began[key] = lambda at, key=key, law=law, node=node: self._lasts(key, law, node, at)  # type: ignore[misc]
+            model.past.began[key] = lambda at, key=key, law=law, node=node: self._lasts(key, law, node, at)  # type: ignore[misc]
         model.instant(model.formula.true, at=self.now)
         model.after = self.now
         instant = model.instants[self.now]

@@ -6,11 +6,10 @@ Rules and facts are left out one by one (deletion-based extraction of a minimal 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-from contextlib import contextmanager
+from collections.abc import Collection
 from typing import Protocol
 
-from sleec_verify.encoding.budget import OutOfBudget, Undecided
+from sleec_verify.encoding.budget import as_far_as_decided
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.situations import Fact, Situations
 
@@ -80,17 +79,6 @@ def weakest(question: Question, core: Collection[Fact], situations: Situations) 
             less = [fact for fact in facts if fact != bound]
             facts = less if question.refutes(less) else [*less, _weakened(question, less, bound)]
     return facts
-
-
-@contextmanager
-def as_far_as_decided() -> Iterator[None]:
-    """Leave what is inside where a question is not decided, unless the budget is spent."""
-    try:
-        yield
-    except OutOfBudget:
-        raise
-    except Undecided:
-        pass
 
 
 def _weakened(question: Question, others: Collection[Fact], bound: Fact) -> Fact:

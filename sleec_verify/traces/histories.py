@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 
 from sleec_runtime.model import Lasting, Rule
-from sleec_verify.encoding.budget import OutOfBudget, Undecided
+from sleec_verify.encoding.budget import as_far_as_decided
 from sleec_verify.traces.cone import surroundings
 from sleec_verify.traces.demands import Demand, Every, Occurs
 from sleec_verify.traces.model import TraceModel
 from sleec_verify.traces.pending_demands import Slot
 from sleec_verify.traces.situations import Fact, Situations
-from sleec_verify.traces.timeline import Moment
+from sleec_verify.traces.trace import TraceInstant
 from sleec_verify.traces.trivial_responses import contested
 
 
@@ -168,12 +168,9 @@ class Histories(TraceModel):
         return [literal for literal in events if self.true(literal)]
 
     def _exists_without(self, absent: Sequence[int]) -> bool:
-        try:
+        with as_far_as_decided():
             return self.ask(*self.facts.values(), *self._mode, *absent)
-        except OutOfBudget:
-            raise
-        except Undecided:
-            return False
+        return False
 
     def refuted(self) -> list[Fact]:
         """The facts that the last answer, which was no, rests on."""
@@ -190,7 +187,7 @@ class Histories(TraceModel):
         times, _ = self.schedule()
         return times[self._nodes[b]] - times[self._nodes[a]]
 
-    def history(self) -> tuple[list[Moment], int]:
+    def history(self) -> tuple[list[TraceInstant], int]:
         """A history without events that can be left out, after the answer yes: its instants and the time of now; the
         first is at 0."""
         absent: list[int] = []
@@ -205,5 +202,5 @@ class Histories(TraceModel):
         times, _ = self.schedule()
         nodes = sorted((n for n in self.used() if n in self.instants and self.events(n)), key=lambda n: times[n])
         begin = min((times[node] for node in nodes), default=times[self.now])
-        moments = [Moment(times[n] - begin, self.events(n), dict(sorted(self.values(n).items()))) for n in nodes]
+        moments = [self.at(node, times[node] - begin) for node in nodes]
         return moments, times[self.now] - begin

@@ -21,13 +21,14 @@ from sleec_runtime.model import (
     Ruleset,
     in_text_order,
 )
+from sleec_verify.encoding.relations import Relation, events_of
 from sleec_verify.encoding.solver import Recorder
 from sleec_verify.encoding.trace_scope import Untimed, responses_of
 from sleec_verify.query.memo import Memo
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.traces.demands import Occurs, Responses, occurrences
 from sleec_verify.traces.event_conditions import named_events, with_states
-from sleec_verify.traces.relations import Name, Relation, events_of, names_of_relation, relation_key, required_events
+from sleec_verify.traces.relations import Name, names_of_relation, relation_key, required_events
 
 _Indexed = TypeVar("_Indexed", Rule, Relation)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from sleec_verify.encoding.budget import OutOfBudget, Undecided
+from sleec_verify.encoding.budget import as_far_as_decided
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.model import TraceModel
 
@@ -70,9 +70,6 @@ def _can_be_last(index: TraceIndex, counting: Collection[str], event: str, group
     last = model.instant(model.formula.true)
     for other in group:
         model.exclude(model.formula.true, other, after=last)
-    try:
+    with as_far_as_decided():
         return model.ask(model.instants[last].event(event), counting=counting)
-    except OutOfBudget:
-        raise
-    except Undecided:
-        return True
+    return True

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
-from sleec_runtime.model import Measure
+from sleec_runtime.model import Measure, Value
 from sleec_verify.encoding.cnf import Encoder, Key
 
 
@@ -87,6 +87,14 @@ class Instant(Encoder):
     def state(self) -> dict[Key, int]:
         """The variables of conditions and measures, by what they stand for."""
         return {key: variable for key, variable in self.variables.items() if key[0] != "event"}
+
+    def values(self, true: Callable[[int], bool]) -> dict[str, Value]:
+        """The conditions and measures that the formula mentions, in a model, in the order of their names."""
+        found: dict[str, Value] = {key[1]: true(v) for key, v in self.variables.items() if key[0] == "condition"}
+        decoded = self.measures.decode(true)
+        assert not isinstance(decoded, list), "a model is accepted only once its order has room"
+        found.update(decoded)
+        return dict(sorted(found.items()))
 
     def settle(self) -> None:
         """Order the regions of the measures that the formula has mentioned since the last call."""

@@ -11,11 +11,11 @@ from typing import NamedTuple
 from sleec_runtime.model import Clause, Obligation, Rule
 from sleec_verify.traces.demands import Demand, Every, Occurs
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.temporal import relation_at
+from sleec_verify.traces.relation_encoding import Past, relation_at
 from sleec_verify.traces.unrolling import Unrolling
 
 
-class Decided(NamedTuple):
+class DecidedClause(NamedTuple):
     """Where `guard` is true, clause `number` of a rule decides at an instant and demands `due`."""
 
     at: int
@@ -32,16 +32,12 @@ class TraceModel(Unrolling):
     def __init__(self, index: TraceIndex, rules: Mapping[str, Sequence[Rule]] | None = None) -> None:
         """`rules` replace those of the ruleset, by their triggers."""
         super().__init__(index)
-        self.decided: list[Decided] = []
-        self.occurred: Callable[[str], int] = lambda event: -self.formula.true
-        """For an event, the literal that it occurred before the first instant."""
-        self.began: dict[str, Callable[[int], list[int]]] = {}
-        """For the key of a `when … until`, or `when … for`, literals that say together that it binds at an instant
-        because it began before the first one."""
+        self.decided: list[DecidedClause] = []
+        self.past = Past(lambda event: -self.formula.true)
         self.reading = index.ruleset.reading
         self._rules = index.by_trigger if rules is None else rules
         for relation in index.relations:
-            self._everywhere.append(relation_at(self, relation))
+            self._everywhere.append(relation_at(self, self.past, relation))
 
     # Demands --------------------------------------------------------------------------------------------------
 
@@ -104,7 +100,7 @@ class TraceModel(Unrolling):
             obligations = self.obligations(clause)
             if obligations:
                 due = self.due(at, obligations)
-                self.decided.append(Decided(at, rule, number, clause, guard, due))
+                self.decided.append(DecidedClause(at, rule, number, clause, guard, due))
                 self.add([-self.in_force(rule.label), -guard, self.demand(at, due)])
 
     def _expand(self) -> bool:

@@ -12,13 +12,12 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from sleec_runtime.model import RELATIONS, Assume, Exclusive, MeasureRelation, Never, Rule, Statement
-from sleec_verify.encoding.one_instant import at_every_instant
+from sleec_verify.encoding.relations import Relation, events_of, formula_at_one_instant
 from sleec_verify.encoding.trace_scope import Untimed, has_chains, responses_of, speaks_of_traces
 from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.traces.event_conditions import named_atoms
 from sleec_verify.traces.index import TraceIndex, trace_index_of
-from sleec_verify.traces.relations import Relation, events_of
 
 
 class Partition(NamedTuple):
@@ -73,7 +72,7 @@ def without(index: RulesetIndex, rules: Iterable[Rule], relations: Iterable[Rela
     kept: list[Statement] = []
     for statement in index.ruleset.statements:
         if isinstance(statement, MeasureRelation):
-            kept.append(Assume(at_every_instant(statement), span=statement.span))
+            kept.append(Assume(formula_at_one_instant(statement), span=statement.span))
         elif isinstance(statement, Rule):
             kept += () if statement.label in labels else (statement,)
         elif isinstance(statement, (Exclusive, Never, Assume)) and id(statement) not in left_out:

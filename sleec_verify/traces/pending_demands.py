@@ -76,13 +76,15 @@ class Slot:
 
 def pending_of(index: TraceIndex) -> Iterator[Pending]:
     """All that a history can leave pending. Raises Undecided for a window whose length a measure gives."""
+    return (one for one in _demands(index) if one.can_last)
+
+
+def _demands(index: TraceIndex) -> Iterator[Pending]:
     for rule in index.ruleset.rules:
         for number, clause in enumerate(rule.clauses()):
             for obligation in contested(index, clause):
                 for demand, choices in index.responses.variants(obligation):
-                    pending = Pending(rule, number, obligation, demand, tuple(choices))
-                    if pending.can_last:
-                        yield pending
+                    yield Pending(rule, number, obligation, demand, tuple(choices))
 
 
 def alternatives(demand: Demand) -> Iterator[Occurs]:
@@ -96,13 +98,4 @@ def alternatives(demand: Demand) -> Iterator[Occurs]:
 
 def most_prohibitions(index: TraceIndex) -> int:
     """How many prohibitions one response has at most."""
-    return max(
-        (
-            sum(atom.negated for atom in occurrences(demand))
-            for rule in index.ruleset.rules
-            for clause in rule.clauses()
-            for obligation in contested(index, clause)
-            for demand, _ in index.responses.variants(obligation)
-        ),
-        default=0,
-    )
+    return max((sum(atom.negated for atom in occurrences(one.demand)) for one in _demands(index)), default=0)

@@ -11,12 +11,11 @@ from sleec_verify.encoding.budget import begin
 from sleec_verify.encoding.mentioned_names import add_claim
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.trace_scope import responses_of
-from sleec_verify.results.timeline import Timeline
 from sleec_verify.traces.cone import cone
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.induction import InductiveModel
 from sleec_verify.traces.model import TraceModel
-from sleec_verify.traces.timeline import Moment, timeline_of
+from sleec_verify.traces.trace import TraceInstant
 
 What = Callable[[TraceModel, int], Sequence[int]]
 """From a model and an instant of it to literals that say what is asked of the instant."""
@@ -26,17 +25,13 @@ class Answer(NamedTuple):
     """`trace` is one that does it, or None if none does. Then `matter` is a minimal set of rules and relations that
     prevent it, by labels and keys."""
 
-    trace: Timeline | None
+    trace: tuple[TraceInstant, ...] | None
     matter: tuple[str, ...] = ()
 
 
 def breaking(index: TraceIndex, rule: Rule) -> Answer:
     """A trace that satisfies all else and breaks `rule`. Without one, the rule is redundant."""
-    part = _about(index, [rule])
-    others: dict[str, Sequence[Rule]] = {
-        rule.trigger: [r for r in part.by_trigger[rule.trigger] if r.label != rule.label]
-    }
-    return _ask(part, lambda model, at: [_broken(model, at, rule)], rules={**part.by_trigger, **others})
+    return _ask(_about(index, [rule]), lambda model, at: [_broken(model, at, rule)], but=rule)
 
 
 def exchanging(index: TraceIndex, rule: Rule, other: Rule) -> Answer:
@@ -121,7 +116,7 @@ def _ask(
     required = list(what(model, model.instant(model.formula.true)))
     counting = [rule.label for rule in index.rules if rule is not but] + list(index.relation_by_key)
     if model.ask(*required, counting=counting):
-        return Answer(_timeline(model))
+        return Answer(_trace(model))
     return Answer(None, tuple(_minimal(model, required)))
 
 
@@ -136,9 +131,8 @@ def _minimal(model: TraceModel, required: Sequence[int]) -> list[str]:
     return kept
 
 
-def _timeline(model: TraceModel) -> Timeline:
+def _trace(model: TraceModel) -> tuple[TraceInstant, ...]:
     times, _ = model.schedule()
     instants = sorted((node for node in model.used() if node in model.instants), key=lambda node: times[node])
     begin = times[instants[0]]
-    moments = [Moment(times[n] - begin, model.events(n), dict(sorted(model.values(n).items()))) for n in instants]
-    return timeline_of(model.index, moments)
+    return tuple(model.at(node, times[node] - begin) for node in instants)

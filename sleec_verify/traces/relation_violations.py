@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from sleec_runtime.model import EventRelation, Lasting
+from sleec_runtime.model import Atom, EventRelation, Lasting
+from sleec_verify.encoding.relations import Relation, at_one_instant
 from sleec_verify.traces.demands import last_second
-from sleec_verify.traces.relations import invariant, relation_key
+from sleec_verify.traces.relations import relation_key
 from sleec_verify.traces.situations import Situations
 from sleec_verify.traces.templates import Later
 
@@ -48,12 +49,20 @@ class BrokenRelations:
             else:
                 yield self._invariant_broken(relation, points[0])
 
-    def _invariant_broken(self, relation: object, now: Point) -> int:
+    def _invariant_broken(self, relation: Relation, now: Point) -> int:
         """A literal that implies that a relation about single instants is broken now; later it is kept by what the
         template fixes."""
-        shadow = _Shadow(self._s, now.events)
-        clauses = list(invariant(shadow, relation))  # type: ignore[arg-type]
-        return self._formula.any_of([self._formula.every([-literal for literal in clause]) for clause in clauses])
+        instant = self._s.instant
+
+        def atom(one: Atom) -> int:
+            return (
+                instant.variable((one.kind, one.name))
+                if one.kind == "condition"
+                else now.events.get(one.name, -self._true)
+            )
+
+        parts = ([-instant.literal(formula, atom) for formula in part] for part in at_one_instant(relation))
+        return self._formula.any_of([self._formula.every(part) for part in parts])
 
     def _precedence(self, relation: EventRelation, points: Sequence[Point], others: Sequence[Point]) -> Iterator[int]:
         before = [self._s.occurred[relation.left]]
@@ -102,29 +111,3 @@ class BrokenRelations:
 
     def _condition(self, formula: object) -> int:
         return self._true if formula is None else self._s.instant.literal(formula)  # type: ignore[arg-type]
-
-
-class _Shadow:
-    """The instant of now as relations see it, with the events of a template."""
-
-    def __init__(self, situations: Situations, events: dict[str, int]) -> None:
-        self._situations = situations
-        self._events = events
-        self.used = situations.true
-
-    def event(self, name: str) -> int:
-        return self._events.get(name, -self._situations.true)
-
-    def literal(self, formula: object) -> int:
-        from sleec_runtime.model import And, Atom, Not, Or
-
-        instant = self._situations.instant
-        if isinstance(formula, Atom) and formula.kind != "condition":
-            return self.event(formula.name)
-        if isinstance(formula, Not):
-            return -self.literal(formula.operand)
-        if isinstance(formula, And):
-            return instant.all_of([self.literal(operand) for operand in formula.operands])
-        if isinstance(formula, Or):
-            return instant.any_of([self.literal(operand) for operand in formula.operands])
-        return instant.literal(formula)  # type: ignore[arg-type]

@@ -1,72 +1,29 @@
-"""Relations and constraints: the events and measures that they mention, and what they demand of one instant.
-
-Here a relation is any statement of a ruleset that binds every trace besides the rules: `Relation`, `Exclusive`,
-`Never` and `Assume`.
-"""
+"""Relations in traces: their keys, the names that they mention, and the events that they can require."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import combinations
-from typing import Union
 
 from sleec_runtime.model import (
-    And,
     Assume,
     Atom,
+    Comparison,
     Effect,
     EventRelation,
-    Exclusive,
     Formula,
     Lasting,
     MeasureRelation,
     Never,
-    Not,
-    Or,
-    Truth,
     leaves,
     measures_of,
 )
-from sleec_runtime.model import Relation as TimedRelation
-from sleec_verify.encoding.one_instant import at_every_instant
-from sleec_verify.traces.instant import Instant
-
-Relation = Union[TimedRelation, Exclusive, Never, Assume]
+from sleec_verify.encoding.relations import Relation, at_one_instant, events_of, formulas_of_relation
+from sleec_verify.encoding.three_valued import is_true_in_empty_context, value_of
 
 
 def relation_key(relation: Relation) -> str:
     """A key for a relation that is not the label of a rule: the place of its text."""
     return f"relation at {relation.span.start}"
-
-
-def events_of(relation: Relation) -> Iterator[str]:
-    """The events that a relation mentions."""
-    if isinstance(relation, EventRelation):
-        yield relation.left
-        yield relation.right
-    elif isinstance(relation, Effect):
-        yield relation.event
-    elif isinstance(relation, Lasting):
-        yield relation.event
-        if relation.end is not None:
-            yield relation.end
-    elif isinstance(relation, Exclusive):
-        yield from relation.names
-    elif isinstance(relation, (Never, Assume)):
-        yield from (a.name for a in leaves(relation.formula) if isinstance(a, Atom) and a.kind != "condition")
-
-
-def formulas_of_relation(relation: Relation) -> Iterator[Formula]:
-    """The formulas of a relation over conditions and measures."""
-    if isinstance(relation, MeasureRelation):
-        candidates: tuple[Formula | None, ...] = (relation.left, relation.right)
-    elif isinstance(relation, Lasting):
-        candidates = (relation.condition, relation.formula, relation.end_condition)
-    elif isinstance(relation, (Effect, Never, Assume)):
-        candidates = (relation.formula,)
-    else:
-        candidates = ()
-    yield from (formula for formula in candidates if formula is not None)
 
 
 Name = tuple[str, str]
@@ -95,40 +52,21 @@ def may_require(relation: Relation) -> bool:
         return relation.relation == "causation"
     if not isinstance(relation, (Assume, Never)):
         return False
-    return _value(relation.formula, None) is not isinstance(relation, Assume) and any(events_of(relation))
+    value = value_of(relation.formula, _without_events)
+    return value is not isinstance(relation, Assume) and any(events_of(relation))
 
 
-def holds_of_nothing(relation: Relation) -> bool:
+def holds_in_empty_context(relation: Relation) -> bool:
     """Whether a relation holds at an instant without events, at which all conditions are false and no measure has a
     value."""
-    if isinstance(relation, MeasureRelation):
-        return _value(at_every_instant(relation), False) is True
-    if isinstance(relation, (Assume, Never)):
-        return _value(relation.formula, False) is isinstance(relation, Assume)
-    return True
+    if not isinstance(relation, (MeasureRelation, Assume, Never)):
+        return True
+    return all(any(map(is_true_in_empty_context, part)) for part in at_one_instant(relation))
 
 
-def _value(formula: Formula, state: bool | None) -> bool | None:
-    """The value of a formula in Kleene's logic where no event occurs and conditions and comparisons have the value
-    `state`; None is unknown."""
-    if isinstance(formula, Truth):
-        return formula.value
-    if isinstance(formula, Not):
-        value = _value(formula.operand, state)
-        return None if value is None else not value
-    if isinstance(formula, (And, Or)):
-        values = [_value(operand, state) for operand in formula.operands]
-        absorbing = isinstance(formula, Or)
-        return absorbing if absorbing in values else None if None in values else not absorbing
-    return False if isinstance(formula, Atom) and formula.kind != "condition" else state
-
-
-def exclusions(relation: Relation) -> Iterator[tuple[str, str]]:
-    """The pairs of events that a relation excludes from one instant, whatever else holds there."""
-    if isinstance(relation, EventRelation) and relation.relation == "mutualExclusive":
-        yield relation.left, relation.right
-    elif isinstance(relation, Exclusive):
-        yield from combinations(dict.fromkeys(relation.names), 2)
+def _without_events(leaf: Atom | Comparison) -> bool | None:
+    """No event occurs; conditions and comparisons are unknown."""
+    return False if isinstance(leaf, Atom) and leaf.kind != "condition" else None
 
 
 def required_events(relation: Relation) -> Iterator[str]:
@@ -143,40 +81,3 @@ def required_events(relation: Relation) -> Iterator[str]:
             yield relation.end
     elif isinstance(relation, (Assume, Never)) or (isinstance(relation, Effect) and relation.relation == "causation"):
         yield from events_of(relation)
-
-
-def invariant(instant: Instant, relation: Relation) -> Iterator[list[int]]:
-    """The clauses of a relation about one instant by itself; none for `happenBefore` and `when … until`."""
-    unused = -instant.used
-    if isinstance(relation, EventRelation):
-        left, right = instant.event(relation.left), instant.event(relation.right)
-        if relation.relation == "mutualExclusive":
-            yield [-left, -right]
-        elif relation.relation != "happenBefore":
-            yield [-left, right]
-            if relation.relation == "equal":
-                yield [-right, left]
-    elif isinstance(relation, MeasureRelation):
-        left = instant.literal(relation.left)
-        if relation.right is None:
-            yield [unused, left]
-            return
-        right = instant.literal(relation.right)
-        if relation.relation in ("imply", "iff"):
-            yield [unused, -left, right]
-            if relation.relation == "iff":
-                yield [unused, left, -right]
-        else:
-            yield [unused, -left, -right]
-    elif isinstance(relation, Effect):
-        occurs, holds = instant.event(relation.event), instant.literal(relation.formula)
-        if relation.relation == "causation":
-            yield [unused, -holds, occurs]
-        else:
-            yield [-occurs, holds if relation.relation == "includes" else -holds]
-    elif isinstance(relation, Exclusive):
-        for one, other in exclusions(relation):
-            yield [-instant.event(one), -instant.event(other)]
-    elif isinstance(relation, (Assume, Never)):
-        holds = instant.literal(relation.formula)
-        yield [unused, holds if isinstance(relation, Assume) else -holds]

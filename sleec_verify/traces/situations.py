@@ -13,13 +13,14 @@ from collections.abc import Iterable, Iterator
 
 from sleec_runtime.model import Atom, EventRelation, Lasting, formulas_of, leaves
 from sleec_runtime.model import Formula as Condition
+from sleec_verify.encoding.relations import formulas_of_relation
 from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
 from sleec_verify.traces.difference import Differences
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.instant import Formula, Instant
 from sleec_verify.traces.pending_demands import Pending, Slot, alternatives, pending_of
-from sleec_verify.traces.relations import formulas_of_relation, relation_key
+from sleec_verify.traces.relations import relation_key
 
 Fact = tuple[object, ...]
 """A literal of a situation by its meaning, and True or False: ``("rule", label)``, ``("input", event)``,

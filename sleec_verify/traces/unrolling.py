@@ -22,6 +22,7 @@ from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.traces.difference import Differences
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.instant import Formula, Instant
+from sleec_verify.traces.trace import TraceInstant
 
 MOST = 30
 """Instants that are added before the search gives up. Published rulesets need three."""
@@ -267,18 +268,15 @@ class Unrolling(ABC):
 
     def values(self, at: int) -> dict[str, Value]:
         """The conditions and measures that the formula mentions, at an instant of the trace of the last `ask`."""
-        instant = self.instants[at]
-        found: dict[str, Value] = {
-            key[1]: self.true(variable) for key, variable in instant.variables.items() if key[0] == "condition"
-        }
-        decoded = instant.measures.decode(self.true)
-        assert not isinstance(decoded, list), "ask accepts a model only once its order has room"
-        found.update(decoded)
-        return found
+        return self.instants[at].values(self.true)
 
     def events(self, at: int) -> frozenset[str]:
         """The events of an instant of the trace of the last `ask`."""
         return frozenset(name for name, literal in self.instants[at].events().items() if self.true(literal))
+
+    def at(self, node: int, time: int) -> TraceInstant:
+        """An instant of the trace of the last `ask`, at a time in seconds."""
+        return TraceInstant(time, self.events(node), self.values(node))
 
     def schedule(self, fixed: int | None = None) -> tuple[dict[int, int], dict[int, tuple[int, int]]]:
         """The earliest times of the trace of the last `ask`, and what each node waits for. With a node `fixed`, the

@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from sleec_runtime import model
-from sleec_runtime.evaluation.evaluation import holds
 from sleec_runtime.model import Assume, Context, MeasureRelation, Value, names_of
+from sleec_verify.encoding.budget import as_far_as_decided
 from sleec_verify.encoding.cnf import Key
-from sleec_verify.encoding.one_instant import at_every_instant
+from sleec_verify.encoding.formula_truth import truth_in
+from sleec_verify.encoding.relations import events_of, formula_at_one_instant
 from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.traces.continuations import Continuations
-from sleec_verify.traces.cores import as_far_as_decided
 from sleec_verify.traces.instant import Formula, Instant
-from sleec_verify.traces.relations import events_of
 from sleec_verify.traces.situations import Fact, Situations
 
 
@@ -75,7 +74,8 @@ def needed_values(
             with as_far_as_decided():
                 less = refuted(kept - {name}) if name in kept else None
                 kept = kept if less is None else less
-    return {name: value for name, value in values.items() if name in _closed(situations, kept, values)}
+    closed = _closed(situations, kept, values)
+    return {name: value for name, value in values.items() if name in closed}
 
 
 def names_of_key(instant: Instant, key: Key) -> frozenset[str]:
@@ -95,12 +95,9 @@ def _closed(situations: Situations, names: set[str], values: Mapping[str, Value]
     grew = True
     while grew:
         context = Context(frozenset(), {name: value for name, value in values.items() if name in found})
-        tied = {
-            name
-            for formula in formulas
-            if not found.isdisjoint(names_of(formula)) and not holds(formula, context, measures)
-            for name in names_of(formula)
-        }
+        related = [formula for formula in formulas if not found.isdisjoint(names_of(formula))]
+        truths = truth_in(context, related, measures)
+        tied = {name for formula, truth in zip(related, truths) if not truth for name in names_of(formula)}
         grew = not tied <= found
         found |= tied
     return found
@@ -110,7 +107,7 @@ def _required(situations: Situations) -> Iterator[model.Formula]:
     """The formulas that relations require of the conditions and measures of now, whatever occurs."""
     for relation in situations.index.relations:
         if isinstance(relation, MeasureRelation):
-            yield at_every_instant(relation)
+            yield formula_at_one_instant(relation)
         elif isinstance(relation, Assume) and not any(events_of(relation)):
             yield relation.formula
     for law, active, _ in situations.lasting.values():

@@ -9,7 +9,7 @@ import pytest
 from sleec_runtime.evaluation.evaluation import broken_assumptions, holds
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
-from sleec_verify.encoding.one_instant import of_one_instant
+from sleec_verify.encoding.relations import relations_on_situations
 from sleec_verify.entailment.entailment import entail
 from sleec_verify.entailment.situation_text import parse_situation
 from sleec_verify.report.entailment import caveats
@@ -35,7 +35,7 @@ LEVELS, NUMBERS = ("low", "middle", "high"), range(-1, 11)
 def cannot_be(triggers, conditions):
     """Whether the evaluator finds a situation of which all is given ruled out."""
     context = Context(frozenset(triggers), conditions)
-    related = (holds(formula, context, RULESET.measures) for _, formula in of_one_instant(RULESET))
+    related = (holds(formula, context, RULESET.measures) for _, formula in relations_on_situations(RULESET))
     return bool(broken_assumptions(RULESET, context)) or not all(related)
 
 

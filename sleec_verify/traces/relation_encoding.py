@@ -3,17 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
 
 from sleec_runtime.model import EventRelation, Lasting
+from sleec_verify.encoding.relations import Relation, at_one_instant
 from sleec_verify.traces.demands import last_second
-from sleec_verify.traces.relations import Relation, invariant, relation_key
-
-if TYPE_CHECKING:
-    from sleec_verify.traces.model import TraceModel
+from sleec_verify.traces.relations import relation_key
+from sleec_verify.traces.unrolling import Unrolling
 
 
-def relation_at(model: TraceModel, relation: Relation) -> Callable[[int], None]:
+@dataclass
+class Past:
+    """What occurred before the first instant of a trace model."""
+
+    occurred: Callable[[str], int]
+    """For an event, the literal that it occurred."""
+    began: dict[str, Callable[[int], list[int]]] = field(default_factory=dict)
+    """For the key of a `when ... until` or `when ... for`, literals that say together that it binds at an instant
+    because it began."""
+
+
+def relation_at(model: Unrolling, past: Past, relation: Relation) -> Callable[[int], None]:
     """A function that encodes the relation for an instant, where it is in force."""
     in_force = model.in_force(relation_key(relation))
 
@@ -35,13 +45,13 @@ def relation_at(model: TraceModel, relation: Relation) -> Callable[[int], None]:
     def precedence(at: int, precedes: EventRelation) -> None:
         right = model.instants[at].event(precedes.right)
         came = model.formula.every([occurs, model.times.before(first, at)])
-        model.add([-in_force, -right, came, model.occurred(precedes.left)])
+        model.add([-in_force, -right, came, past.occurred(precedes.left)])
 
     def lasting(at: int, law: Lasting) -> None:
         model.everywhere(lambda other: _binds(model, law, at, other, in_force))
-        if law_key in model.began:
+        if law_key in past.began:
             require = model.condition(at, law.formula)
-            away = [-literal for literal in model.began[law_key](at)]
+            away = [-literal for literal in past.began[law_key](at)]
             model.add([-in_force, -model.instants[at].used, *away, *_stopped(model, law, None, at), require])
 
     law_key = relation_key(relation)
@@ -52,13 +62,14 @@ def relation_at(model: TraceModel, relation: Relation) -> Callable[[int], None]:
         elif isinstance(relation, EventRelation) and relation.relation == "happenBefore":
             precedence(at, relation)
         else:
-            for clause in invariant(model.instants[at], relation):
-                model.add([-in_force, *clause])
+            instant = model.instants[at]
+            for part in at_one_instant(relation):
+                model.add([-in_force, -instant.used, *map(instant.literal, part)])
 
     return make
 
 
-def _binds(model: TraceModel, law: Lasting, at: int, other: int, in_force: int) -> None:
+def _binds(model: Unrolling, law: Lasting, at: int, other: int, in_force: int) -> None:
     """If the relation begins at instant `at`, its formula holds at instant `other`, unless it is over then."""
     begins = [model.instants[at].event(law.event), model.condition(at, law.condition)]
     last = None if law.duration is None else last_second(law.duration)
@@ -69,7 +80,7 @@ def _binds(model: TraceModel, law: Lasting, at: int, other: int, in_force: int) 
         model.add([-in_force, *away, *_stopped(model, law, at, other), holds])
 
 
-def _stopped(model: TraceModel, law: Lasting, since: int | None, until: int) -> list[int]:
+def _stopped(model: Unrolling, law: Lasting, since: int | None, until: int) -> list[int]:
     """A literal that implies that an event ended the relation between two instants, if an event can end it."""
     if law.end is None:
         return []

@@ -5,27 +5,19 @@ Which clause decides is computed by the evaluator of the runtime, which shares n
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Collection, Iterator, Sequence
 
 from sleec_runtime.evaluation.evaluation import decide
-from sleec_runtime.model import Context, Rule, Value, formulas_of, names_of, obligation_text
+from sleec_runtime.model import Context, Rule, formulas_of, names_of, obligation_text
 from sleec_verify.encoding.response_windows import Windowed, Windows
 from sleec_verify.results import timeline
 from sleec_verify.results.timeline import Due, Timeline
 from sleec_verify.traces.index import TraceIndex
-
-
-class Moment(NamedTuple):
-    """One instant of a trace: its time in seconds, its events, and the conditions and measures that count."""
-
-    time: int
-    events: frozenset[str]
-    conditions: Mapping[str, Value]
+from sleec_verify.traces.trace import TraceInstant
 
 
 def timeline_of(
-    index: TraceIndex, moments: Sequence[Moment], now: int | None = None, labels: Collection[str] | None = None
+    index: TraceIndex, moments: Sequence[TraceInstant], now: int | None = None, labels: Collection[str] | None = None
 ) -> Timeline:
     """The timeline of a trace, or of a history up to the moment `now`. With `labels`, of these rules only.
 
@@ -46,7 +38,7 @@ def timeline_of(
 
 
 def _due(
-    index: TraceIndex, rules: Sequence[Rule], moment: Moment, course: Sequence[Moment], over: bool
+    index: TraceIndex, rules: Sequence[Rule], moment: TraceInstant, course: Sequence[TraceInstant], over: bool
 ) -> Iterator[Due]:
     """What the rules that speak at a moment require. If all is `over`, nothing happens after the last moment."""
     context = Context(moment.events, moment.conditions)
@@ -80,7 +72,7 @@ def _replaced(one: Windowed) -> Iterator[Windowed]:
         yield one
 
 
-def _is_met(one: Windowed, triggered: int, course: Sequence[Moment], over: bool) -> bool:
+def _is_met(one: Windowed, triggered: int, course: Sequence[TraceInstant], over: bool) -> bool:
     """Whether a response is met for certain, so that nothing is due in its place any more."""
     assert one.start is not None, "the engine refuses windows whose length a measure gives"
     start, end = triggered + one.start, None if one.end is None else triggered + one.end
