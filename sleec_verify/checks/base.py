@@ -12,7 +12,7 @@ from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding, Severity, Witness
 
 if TYPE_CHECKING:
-    from sleec_verify.games.realizability import Strategy
+    from sleec_verify.results.strategy import Strategy
     from sleec_verify.results.timeline import Timeline
 
 Scope = Literal["some domain", "every domain", "text"]

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import click
 
 from sleec_verify.checks import CHECKS
-from sleec_verify.checks.catalogue import Entry, by_code
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.output import write
 from sleec_verify.conformance import structure
+from sleec_verify.report.catalogue import Entry, by_code
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.palette import Palette
 

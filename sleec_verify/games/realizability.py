@@ -6,17 +6,18 @@ robot that wins with short ones wins, and as many instants as the rules can call
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import islice
 
-from sleec_runtime.model import EventRelation, Lasting, Rule, Span, Value
+from sleec_runtime.model import EventRelation, Lasting, Rule, Span
 from sleec_verify.encoding.relations import Relation
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.games.decomposition import Part, parts
 from sleec_verify.games.play import Play
 from sleec_verify.games.qbf import Move, winning
+from sleec_verify.results.strategy import Act, Branch, Strategy
 from sleec_verify.traces.demands import Occurs
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.induction import impossible_events
@@ -26,36 +27,6 @@ MOST_PLANNED = 4
 
 MOST_REPLIES = 6
 """Things that the robot may do at once, of which the answer of the environment is shown."""
-
-
-@dataclass(frozen=True)
-class Act:
-    """What happens at one instant: when, in seconds from the first act, the events, and the values of all that the
-    rules at odds look at."""
-
-    time: int
-    events: tuple[str, ...]
-    conditions: Mapping[str, Value]
-
-
-@dataclass(frozen=True)
-class Branch:
-    """What the robot does at once (None: whatever it does) and means to do later, and what the environment does
-    then."""
-
-    done: tuple[str, ...] | None
-    planned: tuple[Act, ...]
-    then: Strategy
-
-
-@dataclass(frozen=True)
-class Strategy:
-    """What the environment does, and how it goes on. Without branches, the robot has no way left to keep all. `more`:
-    the robot may do other things at once, that are not shown."""
-
-    act: Act
-    branches: tuple[Branch, ...] = ()
-    more: bool = False
 
 
 @dataclass(frozen=True)

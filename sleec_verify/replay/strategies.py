@@ -9,8 +9,8 @@ from dataclasses import replace
 from sleec_runtime.evaluation.traces import Instant, Trace, Untimed, broken
 from sleec_runtime.model import Ruleset
 from sleec_verify.games.players import is_environments
-from sleec_verify.games.realizability import Act, Strategy
 from sleec_verify.results.finding import Finding
+from sleec_verify.results.strategy import Act, Strategy
 from sleec_verify.traces.index import TraceIndex
 
 

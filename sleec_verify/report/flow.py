@@ -10,8 +10,8 @@ from sleec_verify.results.phrases import listed, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Formula, Ruleset, Source, Span, Value
-    from sleec_verify.games.realizability import Strategy
     from sleec_verify.results.finding import Finding
+    from sleec_verify.results.strategy import Strategy
     from sleec_verify.results.timeline import Moment
 
 

@@ -14,9 +14,9 @@ from sleec_verify.results.finding import Proved, Refuted, Unknown
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Source, Span, Value
-    from sleec_verify.games.realizability import Strategy
     from sleec_verify.report.palette import Palette
     from sleec_verify.results.finding import CheckResult, Finding, Witness
+    from sleec_verify.results.strategy import Strategy
     from sleec_verify.results.timeline import Timeline
 
 Json = Union[None, bool, int, float, str, "list[Json]", "dict[str, Json]"]

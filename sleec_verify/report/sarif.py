@@ -61,7 +61,7 @@ def _descriptors(codes: set[str], undecided: set[str]) -> list[_Object]:
     """What the results are about: the kinds of finding, and the checks without a verdict."""
     if not codes and not undecided:
         return []
-    from sleec_verify.checks.catalogue import by_code, questions
+    from sleec_verify.report.catalogue import by_code, questions
 
     descriptors: list[_Object] = [
         {

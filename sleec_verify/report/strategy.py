@@ -9,7 +9,7 @@ from sleec_verify.report.timeline import duration
 from sleec_verify.results.phrases import listed, quoted, value_text
 
 if TYPE_CHECKING:
-    from sleec_verify.games.realizability import Act, Branch, Strategy
+    from sleec_verify.results.strategy import Act, Branch, Strategy
 
 
 def in_words(strategy: Strategy) -> Iterator[str]:

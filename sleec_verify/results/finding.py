@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, Union
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Source, Span, Value
-    from sleec_verify.games.realizability import Strategy
+    from sleec_verify.results.strategy import Strategy
     from sleec_verify.results.timeline import Timeline
 
 Severity = Literal["error", "warning", "note"]

@@ -47,7 +47,7 @@ def with_states(ruleset: Ruleset, events: Collection[str]) -> Ruleset:
     named = sorted({event for rule in ruleset.rules for event in named_atoms(rule)}.intersection(events))
     if not named:
         return ruleset
-    from sleec_verify.exchange.conversion.parts import with_formulas
+    from sleec_verify.encoding.statement_parts import with_formulas
 
     def read(formula: Formula) -> Formula:
         if isinstance(formula, Atom) and formula.kind == "trigger" and formula.name in named:

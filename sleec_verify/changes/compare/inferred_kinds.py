@@ -28,7 +28,7 @@ from sleec_runtime.model import (
     literals,
 )
 from sleec_verify.encoding.name_uses import formulas_beside_rules
-from sleec_verify.exchange.conversion.parts import with_formulas
+from sleec_verify.encoding.statement_parts import with_formulas
 
 _ASSUMED: tuple[Kind, ...] = ("trigger", "condition")
 _FORBIDDEN: tuple[Kind, ...] = ("obligation", "condition", "trigger")

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from sleec_runtime.model import And, Clause, Formula, Or, Reading, Ruleset
-from sleec_verify.exchange.conversion.parts import with_chains
+from sleec_verify.encoding.statement_parts import with_chains
 
 
 def reread(ruleset: Ruleset, reading: Reading) -> Ruleset:

@@ -34,7 +34,7 @@ from sleec_runtime.model import (
     leaves,
 )
 from sleec_verify.encoding.mentioned_names import beside_rules
-from sleec_verify.exchange.conversion.parts import with_formulas
+from sleec_verify.encoding.statement_parts import with_formulas
 from sleec_verify.exchange.conversion.rules import narrow, split
 from sleec_verify.results.phrases import listed
 

@@ -25,7 +25,7 @@ from sleec_runtime.model import (
 )
 from sleec_verify.encoding.calculations import refuse_unsayable_calculations
 from sleec_verify.encoding.measures import MIRRORED
-from sleec_verify.exchange.conversion.parts import with_formulas
+from sleec_verify.encoding.statement_parts import with_formulas
 
 _HINT = "compare one measure with a number, or two measures with each other"
 

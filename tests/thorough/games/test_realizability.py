@@ -14,6 +14,7 @@ from sleec_verify.games import time_grid as grid
 from sleec_verify.games.time_grid import Grid
 from sleec_verify.report.strategy import in_words
 from sleec_verify.results.finding import Proved, Refuted, Unknown
+from sleec_verify.results.strategy import Act
 from tests.support.game_brute_force import Game
 from tests.support.paths import ROOT
 from tests.support.random_games import drawn
@@ -152,7 +153,7 @@ def test_only_some_replies_are_shown(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_strategy_that_does_not_replay_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
     told = realizability._Telling._act
 
-    def unlawful(self: realizability._Telling, step: int, settled: dict[int, int]) -> realizability.Act:
+    def unlawful(self: realizability._Telling, step: int, settled: dict[int, int]) -> Act:
         return replace(told(self, step, settled), events=("A", "B"))
 
     monkeypatch.setattr(realizability._Telling, "_act", unlawful)
