@@ -68,6 +68,7 @@ test: lint types check-tests
 lint: $(INSTALLED)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/python tools/prose.py
 
 types: $(INSTALLED)
 	$(BIN)/mypy
