@@ -1,12 +1,13 @@
-"""A robot for rulesets/household.sleec, in the form of the paper's Listing 2: a method a rule, a variant a hedge.
+"""A robot for rulesets/household.sleec, in the form of the paper's Listing 2.
 
-What implements an obligation only prints its name here. From the top folder of the project:
+Each rule has a method, and each hedge clause a variant. The implementation of an obligation only prints its name. Run
+from the top folder of the project:
 
     python -m examples.household_robot
     sleec-verify conform examples/household_robot.py --ruleset rulesets/household.sleec
 """
 
-# ruff: noqa: F811, T201 - the variants of a method share its name; this robot can do nothing but print
+# ruff: noqa: F811, T201 - the variants of a method share its name; this robot only prints
 # mypy: disable-error-code="no-redef"
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ sleec = sleec_runtime.load(Path(__file__).parent.parent / "rulesets" / "househol
 
 
 class Robot:
-    """The methods of the rules, and below them what they call."""
+    """The methods of the rules, followed by the obligations that they call."""
 
     @sleec.rule("human_on_floor")
     @cop.base

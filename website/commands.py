@@ -31,7 +31,7 @@ def _index(known: dict[str, click.Command]) -> str:
     rows = "".join(
         f"| [`{name}`]({name}.md) | {command.get_short_help_str(200)} |\n" for name, command in known.items()
     )
-    table = f"| command | for what |\n| --- | --- |\n{rows}"
+    table = f"| command | what it does |\n| --- | --- |\n{rows}"
     return f"# Commands\n\n{_text(sleec_verify)}\n\n{table}\n{_options(sleec_verify)}"
 
 
@@ -55,7 +55,7 @@ def _context(command: click.Command) -> click.Context:
 
 
 def _text(command: click.Command) -> str:
-    """The help's paragraphs. What looks like an option, a file or a pattern stays as it is written."""
+    """The paragraphs of the help text. Options, files and patterns become code."""
     paragraphs = re.split(r"\n\s*\n", (command.help or "").strip())
     return "\n\n".join(_code(" ".join(paragraph.split())) for paragraph in paragraphs)
 

@@ -1,4 +1,4 @@
-"""A page for each finding code, from what `sleec-verify rules` knows of it, and one that lists them all."""
+"""A page for each finding code, from `sleec-verify rules`, and an index of them."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from website.running import folder_with, printed
 FOLDER = "findings"
 
 _ASKED_FOR = {"realizability": ("--realizable", "2")}
-"""The options that have checks made which are made only if asked for."""
+"""The options that enable checks which are off by default."""
 
 _INTRODUCTION = """\
 # Findings
 
-Every finding has a code. Its page says what is wrong, why it matters and how to mend it, with an example that has it
-and one that has not. `sleec-verify rules CODE` says the same offline.
+Every finding has a code. Its page says what is wrong, why it matters and how to fix it. It has an example with the
+problem, and one without. `sleec-verify rules CODE` prints the same text offline.
 
-Errors make `check` and `conform` fail; warnings and notes do so if `--fail-level` asks for it.
+Errors make `check` and `conform` fail. Warnings and notes do so with a lower `--fail-level`.
 """
 
 
@@ -59,7 +59,9 @@ def _index(known: list[Entry]) -> str:
         by_command.setdefault(command_for(entry)[0], []).append(entry)
     parts = [_INTRODUCTION]
     for command, kinds in by_command.items():
-        parts.append(f"\n## What `{command}` finds\n\n| code | | | check |\n| --- | --- | --- | --- |\n")
+        parts.append(
+            f"\n## Findings of `{command}`\n\n| code | severity | problem | check |\n| --- | --- | --- | --- |\n"
+        )
         parts += (
             f"| [{k['code']}]({k['code']}.md) | {k['severity']} | {_words(k['title'])} | `{k['check']}` |\n"
             for k in kinds
@@ -70,19 +72,19 @@ def _index(known: list[Entry]) -> str:
 def _page(entry: Entry) -> str:
     return "".join(
         (
-            # Titles begin with the code, which is what people search for.
+            # Titles start with the code, because people search for it.
             f"---\ntitle: {entry['code']}\n---\n\n# {entry['code']}: {entry['title']}\n\n",
             f"**{entry['severity'].capitalize()}** of the check `{entry['check']}`: {entry['question']}\n\n",
-            f"## What it says\n\n{_words(entry['explanation'])}\n\n",
-            f"## How to mend it\n\n{_words(entry['mend'])}\n\n",
-            f"## An example that has it\n\n{''.join(_example(entry, entry['bad']))}",
-            f"## Without it\n\n{''.join(_example(entry, entry['good']))}",
+            f"## What it means\n\n{_words(entry['explanation'])}\n\n",
+            f"## How to fix it\n\n{_words(entry['mend'])}\n\n",
+            f"## With the problem\n\n{''.join(_example(entry, entry['bad']))}",
+            f"## Fixed\n\n{''.join(_example(entry, entry['good']))}",
         )
     )
 
 
 def _example(entry: Entry, text: str) -> Iterator[str]:
-    """The files of an example, and what the command says of them."""
+    """The files of an example, and the output of the command."""
     files = example_files(entry, text)
     for name, content in files.items():
         yield f'```{_language(name, content)} title="{name}"\n{content.strip()}\n```\n\n'
@@ -111,5 +113,5 @@ def _language(name: str, text: str) -> str:
 
 
 def _words(text: str) -> str:
-    """A text of the terminal as Markdown: `<` and `*` mean themselves."""
+    """A terminal text as Markdown, with `<` and `*` escaped."""
     return text.replace("*", r"\*").replace("<", "&lt;")

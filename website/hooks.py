@@ -1,4 +1,4 @@
-"""What mkdocs calls while it builds the site (https://www.mkdocs.org/user-guide/configuration/#hooks)."""
+"""Hooks that mkdocs calls while it builds the site (https://www.mkdocs.org/user-guide/configuration/#hooks)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _FOREIGN = re.compile(r"<(?:script|img|iframe|source|link)\b[^>]*?\b(?:src|href)
 
 
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
-    """Put what is made into the navigation, and teach Pygments the languages of rules."""
+    """Add the generated pages to the navigation, and register the lexers for rules."""
     lexers.register()
     made: dict[str, list[Any]] = {
         "Commands": [f"{commands.FOLDER}/index.md", *({n: f"{commands.FOLDER}/{n}.md"} for n in commands.commands())],
@@ -31,20 +31,24 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
-    """Add the pages that are made."""
+    """Add the generated pages."""
     for path, text in (commands.pages() | findings.pages() | copied.pages()).items():
         files.append(File.generated(config, path, content=text))
     return files
 
 
 def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
-    """Below each text that is refused, show what is said of it; and let links lead to where the site has it."""
+    """Show the errors below each rejected example, and change links to addresses of the site."""
     return links.within_the_site(refused.with_answers(markdown), page.file.src_uri)
 
 
 def on_post_build(config: MkDocsConfig) -> None:
-    """The site is read where there is no network, too: nothing in it may be fetched from elsewhere."""
+    """The site must work without a network, so no page may load anything from elsewhere.
+
+    Raises:
+        PluginError: a page does so.
+    """
     for page in Path(config.site_dir).rglob("*.html"):
         foreign = [tag for tag in _FOREIGN.findall(page.read_text(encoding="utf-8")) if 'rel="canonical"' not in tag]
         if foreign:
-            raise PluginError(f"{page} fetches from elsewhere: {foreign[0]}")
+            raise PluginError(f"{page} loads from another server: {foreign[0]}")

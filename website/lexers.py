@@ -1,4 +1,4 @@
-"""Colours for rules: both languages as Pygments knows languages."""
+"""Syntax highlighting for rules: Pygments lexers for both languages."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _COMMON = [
 
 
 class SleecLexer(RegexLexer):  # type: ignore[misc, unused-ignore]
-    """Structured English. A block of the language `sleec-bad` is one that is refused."""
+    """Structured English. A block of the language `sleec-bad` is rejected by the parser."""
 
     name = "SLEEC"
     aliases: ClassVar = ["sleec", "sleec-bad"]
@@ -53,7 +53,7 @@ class DslLexer(RegexLexer):  # type: ignore[misc, unused-ignore]
 
 
 class SessionLexer(RegexLexer):  # type: ignore[misc, unused-ignore]
-    """Commands behind "$ ", and what they print. Pygments' own takes an output that begins with # for a command."""
+    """Commands after "$ ", and their output. The lexer of Pygments reads output that starts with # as a command."""
 
     name = "Session"
     aliases: ClassVar = ["console"]
@@ -66,7 +66,7 @@ class SessionLexer(RegexLexer):  # type: ignore[misc, unused-ignore]
 
 
 def register() -> None:
-    """Let Pygments find them by their names."""
+    """Register the lexers with Pygments."""
     pygments.lexers.LEXERS.pop("BashSessionLexer", None)
     for lexer in (SleecLexer, DslLexer, SessionLexer):
         pygments.lexers.LEXERS[lexer.__name__] = (__name__, lexer.name, tuple(lexer.aliases), (), ())

@@ -1,4 +1,4 @@
-"""Links that lead out of docs/: they work where the project is read as files, and the site has other addresses."""
+"""Links from docs/ to other files of the project: the site has other addresses for these."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ _SOURCES = {page: file for file, page in copied.PAGES.items()}
 
 
 def within_the_site(markdown: str, page: str) -> str:
-    """The text of `page`, an address in the site, where such a link leads to the page that has the same, or is plain
-    text if there is none. A link to a page by the name of its file says the title instead."""
+    """The text of `page` (its address in the site) with links to pages of the site. A link to a file without a page
+    becomes plain text. A link whose text is a file name gets the title of the page as its text."""
 
     folder = dirname(_SOURCES.get(page, f"docs/{page}"))
 
@@ -34,6 +34,6 @@ def within_the_site(markdown: str, page: str) -> str:
 
 
 def _title(page: str) -> str:
-    """What a page calls itself: on the site, the name of its file means nothing to anybody."""
+    """The title of a page. Readers of the site do not see file names."""
     first, _, _ = (copied.ROOT / page).read_text(encoding="utf-8").partition("\n")
     return first.removeprefix("# ")

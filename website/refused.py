@@ -1,4 +1,4 @@
-"""Texts that the docs show because they are refused, with what is said of them."""
+"""Examples of rejected rules in the docs, with their errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Commands of sleec-verify, run as on a command line, with what they print."""
+"""Run commands of sleec-verify and capture their output."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from sleec_verify.cli import run
 
 
 class Ran(NamedTuple):
-    """What a command printed, both streams as a terminal shows them, and its exit code."""
+    """The output of a command (both streams in the order of a terminal) and its exit code."""
 
     out: str
     code: int
 
 
 def printed(*arguments: str) -> Ran:
-    """Run `sleec-verify` with these arguments, in the folder that the process is in."""
+    """Run `sleec-verify` with these arguments in the current folder."""
     # click writes bytes where a stream has a buffer.
     out = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", newline="", write_through=True)
     with redirect_stdout(out), redirect_stderr(out):
@@ -31,7 +31,7 @@ def printed(*arguments: str) -> Ran:
 
 @contextmanager
 def folder_with(files: Mapping[str, str]) -> Iterator[Path]:
-    """A new folder with these files, in which the process is meanwhile."""
+    """Change to a new folder with these files, for the time of the context."""
     before = Path.cwd()
     with TemporaryDirectory() as name:
         for path, text in files.items():

@@ -33,10 +33,10 @@ def test_every_code_has_a_page() -> None:
 def test_a_page_shows_the_finding_in_the_bad_example_and_not_in_the_good_one(entry: findings.Entry) -> None:
     page = pages()[f"findings/{entry['code']}.md"]
     assert re.findall("^## (.*)$", page, re.M) == [
-        "What it says",
-        "How to mend it",
-        "An example that has it",
-        "Without it",
+        "What it means",
+        "How to fix it",
+        "With the problem",
+        "Fixed",
     ]
     bad, good = (block.body for block in blocks(page) if block.language == "console")
     assert f"{entry['severity']}[{entry['code']}]" in bad
