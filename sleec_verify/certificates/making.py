@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
     from sleec_verify.encoding.trace_scope import Untimed
     from sleec_verify.query.ruleset_index import RulesetIndex
-    from sleec_verify.report.json import Json
     from sleec_verify.results.finding import CheckResult
+    from sleec_verify.results.json_values import Json
 
 
 NOTHING_REQUIRED = Required()

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.certificate.manifest import FORMAT, Required
 from sleec_verify import __version__
-from sleec_verify.report.json import VERDICTS, Json, finding_json
 from sleec_verify.results.finding import Refuted, Unknown
+from sleec_verify.results.json_values import VERDICTS, Json, finding_json
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset

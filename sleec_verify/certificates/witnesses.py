@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 from sleec_runtime.errors import SleecError
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay.situations import replays
-from sleec_verify.report.json import witness_json
 from sleec_verify.results.finding import Witness
+from sleec_verify.results.json_values import witness_json
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset, Value

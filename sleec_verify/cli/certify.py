@@ -120,8 +120,8 @@ def _write(
 ) -> int:
     from sleec_verify.certificates.directory import check_free
     from sleec_verify.certificates.making import certify
-    from sleec_verify.certificates.rendering import told
     from sleec_verify.cli.progress import Progress
+    from sleec_verify.report.certificate import told
 
     check_free(output, force)
     ruleset = one_ruleset(path, reading, domain)
@@ -172,10 +172,10 @@ def _check(
     from sleec_runtime.errors import CertificateRefused
     from sleec_verify.certificates.checker import checker as chosen
     from sleec_verify.certificates.checking import check_certificate
-    from sleec_verify.certificates.rendering import refused, told
     from sleec_verify.certificates.theory.oracle import built
     from sleec_verify.cli.output import complain
     from sleec_verify.cli.progress import Progress
+    from sleec_verify.report.certificate import refused, told
 
     judge = chosen(checker)
     try:

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset, Source
     from sleec_verify.changes.assertions import Asked
     from sleec_verify.changes.compare import Difference
-    from sleec_verify.changes.revisions.revisions import Place, Versions
+    from sleec_verify.changes.revisions.versions import Version, Versions
     from sleec_verify.encoding.trace_scope import Untimed
-    from sleec_verify.report.difference import Compared, Report
+    from sleec_verify.report.difference_report import Compared, Report
 
 FailOn = Literal["change", "loss", "conflict", "nothing"]
 _READINGS = click.Choice(("cascade", "priority"))
@@ -91,7 +91,8 @@ def command(
     For every obligation that some situation gains or loses, the smallest situation is shown, before and after, with the
     clauses that decide, and the number of situations that it concerns.
     """
-    from sleec_verify.report.difference import RENDERERS, Report
+    from sleec_verify.report.difference import RENDERERS
+    from sleec_verify.report.difference_report import Report
     from sleec_verify.report.palette import Palette
 
     asserting = bool(assertions or file)
@@ -126,7 +127,7 @@ def _versions(paths: Sequence[str], revision: str | None) -> tuple[list[Versions
     from sleec_verify.changes.revisions.commits import revision_range
     from sleec_verify.changes.revisions.renames import with_renames
     from sleec_verify.changes.revisions.repository import Repository
-    from sleec_verify.changes.revisions.revisions import of_paths
+    from sleec_verify.changes.revisions.versions import of_paths
 
     if revision is None:
         if len(paths) != 2:
@@ -155,7 +156,7 @@ def _compared(
     untimed: Untimed,
 ) -> Compared:
     from sleec_verify.changes.compare import compare
-    from sleec_verify.report.difference import Compared
+    from sleec_verify.report.difference_report import Compared
 
     errors: list[SleecError] = []
     one_sided = None if missing_as_empty else versions.one_sided(*names)
@@ -180,7 +181,7 @@ def _compared(
         return Compared(versions.path, None, (error,))
 
 
-def _read(place: Place | None, reading: Reading | None, errors: list[SleecError]) -> Ruleset | None:
+def _read(place: Version | None, reading: Reading | None, errors: list[SleecError]) -> Ruleset | None:
     from sleec_runtime.language import parse_source
 
     if place is None:

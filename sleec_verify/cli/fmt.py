@@ -12,8 +12,9 @@ from sleec_verify.cli.inputs import files
 from sleec_verify.cli.output import complain, note_link, tell, write_data, write_line
 from sleec_verify.files.placement import write_whole
 from sleec_verify.report.escape import as_line
-from sleec_verify.report.outcome import Unusable, counted
+from sleec_verify.report.outcome import Unusable
 from sleec_verify.results.internal_error import internal_errors_of
+from sleec_verify.results.phrases import counted
 
 
 @click.command(

@@ -17,7 +17,7 @@ from sleec_verify.report.escape import as_text
 from sleec_verify.report.palette import Palette
 
 if TYPE_CHECKING:
-    from sleec_verify.report.json import Json
+    from sleec_verify.results.json_values import Json
 
 
 def _completed(context: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
@@ -41,7 +41,7 @@ def command(code: str | None, form: str) -> int:
     chosen = kinds if code is None else _matching(kinds, code)
     palette = Palette.of(sys.stdout)
     if form == "json":
-        from sleec_verify.report.json import dump
+        from sleec_verify.results.json_values import dump
 
         write((dump([_json(entry) for entry in chosen.values()]),))
     elif code is None:

@@ -11,13 +11,11 @@ In a plan only the robot acts, and the measures are what it hopes. An environmen
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple
 
 from sleec_runtime.model import (
     EventRelation,
     Lasting,
     Rule,
-    Value,
     formulas_of,
 )
 from sleec_verify.encoding.relations import Relation, at_one_instant, events_of, formulas_of_relation
@@ -26,17 +24,10 @@ from sleec_verify.games.decomposition import Part
 from sleec_verify.games.players import is_environments
 from sleec_verify.games.time_grid import Grid
 from sleec_verify.games.values import Scales, Values
+from sleec_verify.results.strategy import Act
 from sleec_verify.traces.demands import Demand, Every, Occurs, seconds
 from sleec_verify.traces.event_conditions import named_atoms
 from sleec_verify.traces.index import TraceIndex
-
-
-class Act(NamedTuple):
-    """What a move says of one instant."""
-
-    time: int
-    events: frozenset[str]
-    values: Mapping[str, Value]
 
 
 class _Instant:
@@ -76,8 +67,9 @@ class _Instant:
 
     def act(self, move: Mapping[int, int]) -> Act:
         slot = next((i for i, variable in enumerate(self._raw) if move[variable] > 0), len(self._raw))
-        events = frozenset(name for name, event in self.events.items() if event == TRUE or move[event] > 0)
-        return Act(self._grid.times[slot], events, self.values.decoded(move))
+        events = (name for name, event in self.events.items() if event == TRUE or move[event] > 0)
+        values = dict(sorted(self.values.decoded(move).items()))
+        return Act(self._grid.times[slot], tuple(sorted(events)), values)
 
 
 _Course = Sequence[tuple[_Instant, int]]

@@ -275,12 +275,10 @@ class _Telling:
 
     def _act(self, step: int, settled: Move) -> Act:
         act = self._play.act(step, settled)
-        events = tuple(sorted(act.events - set(self._play.doing(step))))
-        return Act(act.time, events, dict(sorted(act.values.items())))
+        return replace(act, events=tuple(event for event in act.events if event not in self._play.doing(step)))
 
     def _done(self, step: int, reply: Move) -> tuple[str, ...]:
         return tuple(name for name, variable in self._play.doing(step).items() if reply[variable] > 0)
 
     def _planned(self, step: int, reply: Move) -> tuple[Act, ...]:
-        planned = [act for act in self._play.plan(step, reply) if act.events]
-        return tuple(Act(act.time, tuple(sorted(act.events)), dict(sorted(act.values.items()))) for act in planned)
+        return tuple(act for act in self._play.plan(step, reply) if act.events)

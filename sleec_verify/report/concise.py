@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify.report.escape import as_text
-from sleec_verify.report.outcome import Outcome, Unusable, checked, in_short, one_line
-from sleec_verify.results.phrases import in_domains, listed
+from sleec_verify.report.outcome import Outcome, Unusable, checked, in_short
+from sleec_verify.results.phrases import error_summary, in_domains, listed
 
 if TYPE_CHECKING:
     from sleec_verify.report.palette import Palette
@@ -18,7 +18,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """A line for each finding and each check without a verdict, in the order of the rulesets and their texts."""
     for outcome in outcomes:
         if isinstance(outcome, Unusable):
-            yield f"{outcome.path}: {palette('error', 'unusable')}: {one_line(outcome.error)}"
+            yield f"{outcome.path}: {palette('error', 'unusable')}: {error_summary(outcome.error)}"
             continue
         rules = outcome.ruleset.source
         for finding in outcome.told:

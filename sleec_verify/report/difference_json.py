@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from sleec_verify import __version__
 from sleec_verify.changes.assertions import Broken
 from sleec_verify.changes.compare.result import by_obligation
-from sleec_verify.report.json import dump, error_json, span_json, witness_json
+from sleec_verify.results.json_values import dump, error_json, span_json, witness_json
 from sleec_verify.results.phrases import in_short
 
 if TYPE_CHECKING:
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
         Extent,
         SituationChange,
     )
-    from sleec_verify.report.difference import Compared, Report
-    from sleec_verify.report.json import Json
+    from sleec_verify.report.difference_report import Compared, Report
     from sleec_verify.report.palette import Palette
+    from sleec_verify.results.json_values import Json
 
 
 def render(report: Report, palette: Palette) -> Iterator[str]:

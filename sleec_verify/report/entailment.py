@@ -14,8 +14,8 @@ from sleec_verify.results.phrases import listed, quoted, value_text
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Relation, Ruleset
     from sleec_verify.entailment.answer import ConsequenceStep, Entailment
-    from sleec_verify.report.json import Json
     from sleec_verify.report.palette import Palette
+    from sleec_verify.results.json_values import Json
 
 
 def _full(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
@@ -50,7 +50,7 @@ def _concise(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pa
 
 
 def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
-    from sleec_verify.report.json import dump, finding_json, span_json, values_json
+    from sleec_verify.results.json_values import dump, finding_json, span_json, values_json
 
     del context, palette  # a program reads this, and knows what it asked
     source = ruleset.source

@@ -6,24 +6,15 @@ written. Renderers for programs use the escapes of their formats.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from functools import wraps
 from typing import TypeVar
 
 from sleec_runtime.support.messages import escaped
 from sleec_verify.report.palette import painted
+from sleec_verify.results.ci_commands import without_commands
 
 _Arguments = TypeVar("_Arguments", bound=Callable[..., Iterator[str]])
-
-_COMMAND = re.compile(r"#(?=#[A-Za-z]*\[)|^(?P<indent>[^\S\n]*):(?=:)", re.MULTILINE)
-"""What services for CI obey in an output: ``##[command]`` (GitHub, Azure, TeamCity) anywhere, and ``::command::``
-(GitHub) where a line begins."""
-
-
-def without_commands(text: str, escape: str) -> str:
-    """`text` in which no service finds a command: its first character is escaped, by `escape` with its code point."""
-    return _COMMAND.sub(lambda found: f"{found['indent'] or ''}{escape.format(ord(found[0][-1]))}", text)
 
 
 def as_line(text: str) -> str:

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from sleec_verify.report.entailment import caveats, once_done, scheduled
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.full import finding_lines
-from sleec_verify.report.outcome import counted
-from sleec_verify.results.phrases import context_text, listed, quoted, value_text
+from sleec_verify.results.phrases import context_text, counted, listed, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Formula, Rule, Ruleset, Span

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.excerpt import Mark, excerpt
-from sleec_verify.report.outcome import Checked, Outcome, Unusable, counted, one_line, tally, told_of
+from sleec_verify.report.outcome import Checked, Outcome, Unusable, tally, told_of
 from sleec_verify.results.finding import SEVERITIES
-from sleec_verify.results.phrases import listed, witness_text
+from sleec_verify.results.phrases import counted, error_summary, listed, witness_text
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
@@ -24,7 +24,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """The findings of each ruleset and a line on it; at the end, if there are several, a line on all."""
     for outcome in outcomes:
         if isinstance(outcome, Unusable):
-            yield f"{outcome.path}: {palette('error', 'unusable')}: {one_line(outcome.error)}"
+            yield f"{outcome.path}: {palette('error', 'unusable')}: {error_summary(outcome.error)}"
             continue
         source = outcome.ruleset.source
         for finding in outcome.told:

@@ -6,11 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_runtime.support.messages import escaped
-from sleec_verify.report.difference import WORDS, change_in_words, conflict_in_words, extent_text, witness_text
+from sleec_verify.report.difference_phrases import WORDS, change_in_words, conflict_in_words, extent_text, witness_text
 from sleec_verify.report.escape import as_line, as_text
-from sleec_verify.report.outcome import counted, one_line
 from sleec_verify.results.deduplication import told_once
-from sleec_verify.results.phrases import in_domains, in_short, listed
+from sleec_verify.results.phrases import counted, error_summary, in_domains, in_short, listed
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
@@ -60,7 +59,7 @@ def verdict(found: Gated, palette: Palette) -> str:
 
 @as_text
 def _full(found: Gated, palette: Palette) -> Iterator[str]:
-    from sleec_verify.report.difference import on_assertions, on_difference
+    from sleec_verify.report.difference_full import on_assertions, on_difference
     from sleec_verify.report.full import finding_lines
 
     for one in found.examined:
@@ -80,7 +79,7 @@ def _full(found: Gated, palette: Palette) -> Iterator[str]:
                 yield from finding_lines(finding, source, palette)
                 yield ""
     yield from on_assertions(found.asked, palette)
-    yield from (f"{path}: {palette('error', 'unusable')}: {one_line(error)}" for path, error in _errors(found))
+    yield from (f"{path}: {palette('error', 'unusable')}: {error_summary(error)}" for path, error in _errors(found))
     yield from (f"{palette('error', 'blocks')}: {_line(block)}" for block in found.blocks)
     yield from (f"{palette('unknown', 'unknown')}: {_line(block)}" for block in found.unknown)
     yield from (f"{palette('note', 'changes')}: {_line(block)}" for block in found.tolerated)
@@ -112,7 +111,7 @@ def _set_aside(one: Examined, palette: Palette) -> Iterator[str]:
     if one.known:
         yield f"{one.path}: {palette('faint', 'baseline')}: {counted(len(one.known), 'finding')} that the baseline has"
     if one.certificate is not None and not isinstance(one.certificate, str):
-        from sleec_verify.certificates.rendering import covered
+        from sleec_verify.report.certificate import covered
 
         yield f"{one.path}: {palette('faint', 'certificate')}: it holds ({covered(one.certificate.whole)})"
     for unused in one.unused:

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.model import NOWHERE
 from sleec_verify import __version__
-from sleec_verify.report.json import VERDICTS, dump, error_json, finding_json, span_json, witness_json
+from sleec_verify.results.json_values import VERDICTS, dump, error_json, finding_json, span_json, witness_json
 
 if TYPE_CHECKING:
     from sleec_runtime.certificate.manifest import Manifest
     from sleec_runtime.model import Source
     from sleec_verify.changes.assertions import Asked
     from sleec_verify.changes.gate.result import Block, Conformed, Examined, Gated
-    from sleec_verify.report.json import Json
     from sleec_verify.report.palette import Palette
+    from sleec_verify.results.json_values import Json
 
 
 def render(found: Gated, palette: Palette) -> Iterator[str]:
@@ -88,7 +88,7 @@ def _examined(one: Examined) -> Json:
 def _certificate(found: Manifest | str | None) -> Json:
     if found is None or isinstance(found, str):
         return None
-    from sleec_verify.certificates.rendering import stated
+    from sleec_verify.report.certificate import stated
 
     return stated(found.whole)
 

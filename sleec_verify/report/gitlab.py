@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from hashlib import sha256
 from typing import TYPE_CHECKING
 
-from sleec_verify.report.json import Json, dump
 from sleec_verify.report.outcome import Checked, Outcome
 from sleec_verify.report.plain import described, in_project, located, troubles
+from sleec_verify.results.json_values import Json, dump
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Place

@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Union
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from sleec_verify import __version__
-from sleec_verify.report.escape import without_commands
-from sleec_verify.report.outcome import Outcome, Unusable, checked, one_line, tally
-from sleec_verify.results.finding import Proved, Refuted, Unknown
+from sleec_verify.report.outcome import Outcome, Unusable, checked, tally
+from sleec_verify.results.finding import Unknown
+from sleec_verify.results.json_values import VERDICTS, Json, dump, error_json, finding_json
 
 if TYPE_CHECKING:
-    from sleec_runtime.errors import SleecError
-    from sleec_runtime.model import Source, Span, Value
     from sleec_verify.report.palette import Palette
-    from sleec_verify.results.finding import CheckResult, Finding, Witness
-    from sleec_verify.results.strategy import Strategy
-    from sleec_verify.results.timeline import Timeline
-
-Json = Union[None, bool, int, float, str, "list[Json]", "dict[str, Json]"]
+    from sleec_verify.results.finding import CheckResult
 
 
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
@@ -33,13 +26,6 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             "summary": {f"{severity}s": number for severity, number in counts.items()},
         }
     )
-
-
-def dump(value: Json) -> str:
-    """`value` as text with a line break at its end; printable ASCII, which no stream can fail to write and nothing that
-    shows it obeys."""
-    text = json.dumps(value, indent=2).replace("\x7f", "\\u007f")
-    return without_commands(text, "\\u{:04x}") + "\n"
 
 
 def _ruleset(outcome: Outcome) -> Json:
@@ -59,10 +45,6 @@ def _ruleset(outcome: Outcome) -> Json:
     }
 
 
-VERDICTS: dict[type, str] = {Proved: "proved", Refuted: "refuted", Unknown: "unknown"}
-"""What a verdict is called where programs read it."""
-
-
 def _check(result: CheckResult) -> Json:
     verdict = result.verdict
     return {
@@ -71,113 +53,3 @@ def _check(result: CheckResult) -> Json:
         "seconds": round(result.seconds, 6),
         "reason": verdict.why if isinstance(verdict, Unknown) else result.reason,
     }
-
-
-def finding_json(finding: Finding, source: Source) -> dict[str, Json]:
-    """A finding with its places as lines and columns."""
-    return {
-        "code": finding.code,
-        "check": finding.check,
-        "severity": finding.severity,
-        "message": finding.message,
-        "rules": list(finding.rules),
-        "clauses": [{"rule": clause.rule, "clause": clause.clause} for clause in finding.clauses],
-        "obligations": list(finding.obligations),
-        "span": span_json(finding.span, source),
-        "witness": None if finding.witness is None else witness_json(finding.witness),
-        **({} if finding.timeline is None else {"timeline": _timeline(finding.timeline)}),
-        **({} if finding.strategy is None else {"strategy": _strategy(finding.strategy)}),
-        "domains": list(finding.domains),
-        "related": [{"span": span_json(span, source), "message": word} for span, word in finding.related],
-        "note": finding.note,
-        "help": finding.help,
-        **({} if finding.source is None else {"path": finding.source.path}),
-    }
-
-
-def error_json(error: SleecError) -> Json:
-    """An error of the input: what is wrong, what to try, and each place where."""
-    from sleec_runtime.errors import LanguageError
-
-    if not isinstance(error, LanguageError):
-        return {"message": error.message, "hint": error.hint, "problems": []}
-    problems: list[Json] = [
-        {"message": problem.message, "hint": problem.hint, "span": span_json(problem.span, error.source)}
-        for problem in error.problems
-    ]
-    return {"message": one_line(error), "hint": None, "problems": problems}
-
-
-def span_json(span: Span, source: Source) -> dict[str, Json]:
-    """Lines and columns, all from 1; the end column is one past the last character."""
-    return dict(source.place(span)._asdict())
-
-
-def witness_json(witness: Witness) -> Json:
-    """A situation: what occurs, what is the case, and, if it matters, what does not occur."""
-    absent: dict[str, Json] = {"absent": list(witness.absent)} if witness.absent else {}
-    return {"triggers": list(witness.triggers), "conditions": values_json(witness.conditions), **absent}
-
-
-def _timeline(timeline: Timeline) -> Json:
-    """Times are seconds from the first moment; `now` is the moment after which all is open, or null."""
-    moments: list[Json] = [
-        {
-            "time": moment.time,
-            "events": list(moment.events),
-            "conditions": values_json(moment.conditions),
-            "due": [
-                {
-                    "rule": due.rule,
-                    "clause": due.clause,
-                    # Kept for programs that read it: relations and constraints stand in `related` of the finding.
-                    "law": None,
-                    "response": due.words,
-                    "event": due.event,
-                    "negated": due.negated,
-                    "from": due.start,
-                    "until": due.end,
-                    "instead_of": due.instead_of,
-                    "overdue": due.overdue,
-                }
-                for due in moment.due
-            ],
-        }
-        for moment in timeline.moments
-    ]
-    return {"moments": moments, "now": timeline.now}
-
-
-def _strategy(strategy: Strategy) -> Json:
-    """An act of the environment, and then its next one by what the robot does (null: whatever it does). No branches:
-    the robot has no way left. Times are seconds from the first act."""
-    act = strategy.act
-    branches: list[Json] = [
-        {
-            "robot": None if branch.done is None else list(branch.done),
-            "planned": [{"time": plan.time, "events": list(plan.events)} for plan in branch.planned],
-            "then": _strategy(branch.then),
-        }
-        for branch in strategy.branches
-    ]
-    return {
-        "time": act.time,
-        "events": list(act.events),
-        "conditions": values_json(act.conditions),
-        "branches": branches,
-        "more": strategy.more,
-    }
-
-
-def values_json(values: Mapping[str, Value]) -> dict[str, Json]:
-    """Values of conditions and measures; a number that JSON has no exact spelling for is a string such as ``1/3``."""
-    return {name: _value(value) for name, value in values.items()}
-
-
-def _value(value: Value) -> Json:
-    if isinstance(value, (bool, int, str)):
-        return value
-    from fractions import Fraction
-
-    near = float(value)
-    return near if Fraction(repr(near)) == value else str(value)

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from sleec_runtime.support.messages import escaped
-from sleec_verify.report.escape import without_commands
 from sleec_verify.report.outcome import Checked, Outcome
 from sleec_verify.report.plain import described, in_project, troubles
+from sleec_verify.results.ci_commands import without_commands
 from sleec_verify.results.finding import SEVERITIES, Refuted, Unknown
 
 if TYPE_CHECKING:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple, Union
 
 from sleec_verify.results.deduplication import told_once
 from sleec_verify.results.finding import SEVERITIES, Unknown
+from sleec_verify.results.phrases import counted
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
@@ -66,15 +67,6 @@ class Unusable(NamedTuple):
 Outcome = Union[Checked, Unusable]
 
 
-def one_line(error: SleecError) -> str:
-    """What is wrong with an input; its problems are counted."""
-    from sleec_runtime.errors import LanguageError
-
-    if isinstance(error, LanguageError):
-        return f"this is not a ruleset: {counted(len(error.problems), 'problem')}"
-    return error.message
-
-
 def checked(outcomes: Sequence[Outcome]) -> Iterator[Checked]:
     """The outcomes that have results."""
     return (outcome for outcome in outcomes if isinstance(outcome, Checked))
@@ -101,8 +93,3 @@ def in_short(outcomes: Sequence[Outcome]) -> str:
     parts += [f"{number} {word}" for number, word in ((undecided, "unknown"), (unusable, "unusable")) if number]
     rulesets = sum(not (isinstance(outcome, Checked) and outcome.settings) for outcome in outcomes)
     return f"{counted(rulesets, 'ruleset')}: {', '.join(parts)}"
-
-
-def counted(number: int, noun: str) -> str:
-    """``1 rule``, ``2 rules``, ``no rules``."""
-    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"

@@ -13,9 +13,9 @@ from urllib.parse import quote
 
 from sleec_verify import __version__
 from sleec_verify.report.flow import steps
-from sleec_verify.report.json import Json, dump
 from sleec_verify.report.outcome import Outcome, Unusable, checked
 from sleec_verify.report.plain import Located, described, in_project, located, troubles
+from sleec_verify.results.json_values import Json, dump
 from sleec_verify.results.phrases import value_text
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from sleec_verify.results.phrases import quoted
 if TYPE_CHECKING:
     from sleec_runtime.model import Context
     from sleec_verify.entailment.answer import ScheduledResponse
-    from sleec_verify.report.json import Json
+    from sleec_verify.results.json_values import Json
 
 
 def in_words(entries: Sequence[ScheduledResponse]) -> Iterator[str]:

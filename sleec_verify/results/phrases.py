@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Context, Obligation, Value
     from sleec_verify.results.finding import Witness
 
@@ -14,6 +15,11 @@ def listed(names: Iterable[str]) -> str:
     """``a``, ``a and b``, ``a, b and c``."""
     *most, last = names
     return f"{', '.join(most)} and {last}" if most else last
+
+
+def counted(number: int, noun: str) -> str:
+    """``1 rule``, ``2 rules``, ``no rules``."""
+    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
 
 
 def in_domains(domains: Sequence[str]) -> str:
@@ -46,6 +52,15 @@ def shortened(text: str) -> str:
 def in_short(obligation: Obligation) -> str:
     """A literal with when it is due, if that is said: ``NOT Speak within 5 minutes``"""
     return f"{obligation}{'' if obligation.timing is None else f' {obligation.timing}'}"
+
+
+def error_summary(error: SleecError) -> str:
+    """What is wrong with an input; its problems are counted."""
+    from sleec_runtime.errors import LanguageError
+
+    if isinstance(error, LanguageError):
+        return f"this is not a ruleset: {counted(len(error.problems), 'problem')}"
+    return error.message
 
 
 def witness_text(witness: Witness) -> str:

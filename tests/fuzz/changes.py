@@ -7,7 +7,8 @@ from pathlib import Path
 
 from sleec_verify.changes.compare import Relation, compare
 from sleec_verify.encoding.trace_scope import speaks_of_traces
-from sleec_verify.report.difference import RENDERERS, Compared, Report
+from sleec_verify.report.difference import RENDERERS
+from sleec_verify.report.difference_report import Compared, Report
 from sleec_verify.report.palette import PLAIN
 from tests.fuzz.rules import little_budget, read
 

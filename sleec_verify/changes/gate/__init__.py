@@ -25,7 +25,7 @@ from sleec_verify.results.internal_error import internal_errors_of
 
 if TYPE_CHECKING:
     from sleec_verify.changes.gate.keys import Policy, Target
-    from sleec_verify.changes.revisions.revisions import Place, Versions
+    from sleec_verify.changes.revisions.versions import Version, Versions
 
 __all__ = ["Asserting", "Check", "evidence", "findings_now", "gate"]
 
@@ -89,7 +89,7 @@ def _read(one: Versions) -> Ruleset:
     return parse_source(one.new.read())
 
 
-def findings_now(places: Mapping[str, Place], targets: Sequence[Target], check: Check, locate: Locate) -> set[Key]:
+def findings_now(places: Mapping[str, Version], targets: Sequence[Target], check: Check, locate: Locate) -> set[Key]:
     """All findings of these rulesets, by what they are called, and of the targets that no suppression allows: what a
     baseline holds.
 

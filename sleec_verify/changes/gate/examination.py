@@ -21,7 +21,7 @@ from sleec_verify.results.internal_error import InternalError, internal_errors_o
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import Problem
-    from sleec_verify.changes.revisions.revisions import Versions
+    from sleec_verify.changes.revisions.versions import Versions
 
 Check = Callable[[Ruleset], tuple[CheckResult, ...]]
 """What checks a ruleset, or knows what came of it."""

@@ -12,9 +12,8 @@ from sleec_verify.changes.gate.keys import is_assertion
 from sleec_verify.changes.gate.result import POLICY_CHANGES, Block
 from sleec_verify.changes.gate.settings import Settings
 from sleec_verify.changes.revisions.single_file import Tree
-from sleec_verify.report.outcome import counted
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import listed
+from sleec_verify.results.phrases import counted, listed
 
 _MOST = 5
 """Entries of a file that are listed."""

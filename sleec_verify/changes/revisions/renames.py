@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
 from sleec_runtime.errors import SleecError
-from sleec_verify.changes.revisions.revisions import Place, Versions
+from sleec_verify.changes.revisions.versions import Version, Versions
 
 ALIKE = 0.5
 """The share of lines that a file has kept at least, if it has moved; git takes the same."""
@@ -66,7 +66,7 @@ def _alike(gone: Sequence[Versions], new: Sequence[Versions]) -> _Pairs:
             yield old, one
 
 
-def _lines(place: Place | None) -> Counter[str]:
+def _lines(place: Version | None) -> Counter[str]:
     """How often each line stands there; none of what cannot be read, which is told where it is read."""
     if place is None:
         return Counter()

@@ -13,7 +13,7 @@ from sleec_runtime.errors import UnreadableFile
 from sleec_runtime.support.files import check_size
 from sleec_verify.changes.revisions import git
 from sleec_verify.changes.revisions.git import GitError
-from sleec_verify.changes.revisions.revisions import Place, Versions
+from sleec_verify.changes.revisions.versions import Version, Versions
 from sleec_verify.files.folders import GIT, SUFFIX, files_at, leads_below
 
 
@@ -124,9 +124,9 @@ class Repository:
         """
         found: dict[str, Versions] = {}
 
-        def add(before: Mapping[str, str], after: Mapping[str, Place]) -> None:
+        def add(before: Mapping[str, str], after: Mapping[str, Version]) -> None:
             for name in sorted({*before, *after}):
-                place = Place(f"{old[0]}:{name}", before[name], self) if name in before else None
+                place = Version(f"{old[0]}:{name}", before[name], self.content) if name in before else None
                 found.setdefault(name, Versions(name, place, after.get(name)))
 
         for path in paths:
@@ -145,13 +145,13 @@ class Repository:
             add(self.files(old[1], inside), self._listed(inside))
         return list(found.values())
 
-    def now(self, paths: Sequence[str]) -> dict[str, Place]:
+    def now(self, paths: Sequence[str]) -> dict[str, Version]:
         """The rulesets at or below `paths` as they are now.
 
         Raises:
             GitError, UnreadableFile: a path without rulesets.
         """
-        found: dict[str, Place] = {}
+        found: dict[str, Version] = {}
         for path in paths:
             there = self._now(path, self._inside(path)[-1])
             if not there:
@@ -163,12 +163,14 @@ class Repository:
         """Those of `paths`, files or folders of the repository, at or below which something is not as in a commit."""
         before = self._tree(commit, ".")
         files = [file for path in paths for file in files_at(os.path.join(self.folder, path))]
-        now = {os.path.relpath(file, self.folder): Place(file).named(len(commit)) for file in files}
+        now = {os.path.relpath(file, self.folder): Version(file).named(len(commit)) for file in files}
         changed = [name for name in before.keys() | now.keys() if before.get(name) != now.get(name)]
         return {path for name in changed for path in _with_parents(name)} & {*paths}
 
-    def _in_commit(self, called: str, commit: str, path: str) -> dict[str, Place]:
-        return {name: Place(f"{called}:{name}", blob, self) for name, blob in self.files(commit, path).items()}
+    def _in_commit(self, called: str, commit: str, path: str) -> dict[str, Version]:
+        return {
+            name: Version(f"{called}:{name}", blob, self.content) for name, blob in self.files(commit, path).items()
+        }
 
     def _inside(self, path: str) -> list[str]:
         """The positions of a path, at least one. Raises `GitError` where there is none."""
@@ -177,17 +179,17 @@ class Repository:
             raise GitError(f"{path} is not in the working tree of {self.folder}", "name a path below it")
         return found
 
-    def _now(self, path: str, inside: str) -> dict[str, Place]:
+    def _now(self, path: str, inside: str) -> dict[str, Version]:
         """The rulesets at or below a path as they are now. A file that is named is taken as it is, unless it is a link
         that leads out of the working tree."""
         if not leads_below(path, self.folder, ""):
             self._skipped(path)
             return {}
         if os.path.lexists(path) and not os.path.isdir(path):
-            return {inside: Place(_as_file(path))}
+            return {inside: Version(_as_file(path))}
         return self._listed(inside)
 
-    def _listed(self, inside: str) -> dict[str, Place]:
+    def _listed(self, inside: str) -> dict[str, Version]:
         """The rulesets that git would commit at or below a path of the repository: nothing that it ignores, no link, no
         submodule, and nothing of another repository in it.
 
@@ -208,9 +210,9 @@ class Repository:
                 if not leads_below(shown, self.folder, SUFFIX):
                     self._skipped(shown)
                 elif _is_file(shown) and os.path.realpath(shown) == os.path.join(self.folder, name):
-                    found[name] = Place(shown)
+                    found[name] = Version(shown)
                 elif status == b"S":  # left out of a sparse checkout: it is as it is in the index
-                    found[name] = Place(shown, about.split()[1].decode(), self)
+                    found[name] = Version(shown, about.split()[1].decode(), self.content)
         return found
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset, Value
     from sleec_verify.conformance.cases.case import Case
     from sleec_verify.conformance.cases.selection import Cases
-    from sleec_verify.report.json import Json
+    from sleec_verify.results.json_values import Json
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
@@ -75,7 +75,7 @@ def _value(value: Value) -> str:
 
 def json_text(ruleset: Ruleset, criterion: str, found: Cases, path: str | None) -> str:
     """The same as one JSON object. A number that is no finite decimal is a text such as ``1/3``."""
-    from sleec_verify.report.json import dump
+    from sleec_verify.results.json_values import dump
 
     cases: list[Json] = [
         {

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from sleec_runtime.model import Kind, Ruleset
+from sleec_runtime.model import Ruleset
 from sleec_verify.encoding.calculations import refuse_calculations
 
 FORMS = ("sympy", "latex", "cnf", "dimacs", "smtlib", "json")
@@ -35,9 +35,3 @@ def _writers() -> Mapping[str, Callable[[Ruleset], str]]:
         "json": clauses.as_json,
         "smtlib": smtlib.as_smtlib,
     }
-
-
-def symbol(ruleset: Ruleset, kind: Kind, name: str) -> str:
-    """What to call a name where triggers and obligations share one space: an obligation that is a trigger too is
-    ``due(name)``, as that it happened and that it is to be done are two things."""
-    return f"due({name})" if kind == "obligation" and name in ruleset.triggers else name

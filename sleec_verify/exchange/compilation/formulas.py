@@ -25,7 +25,7 @@ from sleec_runtime.model import (
     Truth,
 )
 from sleec_verify.encoding.equation import implications
-from sleec_verify.exchange.compilation import symbol
+from sleec_verify.exchange.compilation.symbols import symbol
 
 if TYPE_CHECKING:
     import sympy

@@ -26,7 +26,7 @@ from sleec_runtime.model import (
     Truth,
 )
 from sleec_verify.encoding.equation import implications
-from sleec_verify.exchange.compilation import symbol
+from sleec_verify.exchange.compilation.symbols import symbol
 
 _OPERATORS = {"<": "<", "<=": "<=", "=": "=", "!=": "distinct", ">=": ">=", ">": ">"}
 _SORTS = {"number": "Real", "integer": "Int", "scale": "Int"}

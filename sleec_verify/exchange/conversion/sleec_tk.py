@@ -17,7 +17,7 @@ from sleec_runtime.model import (
 )
 from sleec_verify.encoding.calculations import refuse_unsayable_calculations
 from sleec_verify.encoding.trace_scope import responses_of
-from sleec_verify.exchange.conversion.to_dsl import defined_by, refuse
+from sleec_verify.exchange.conversion.refusals import defined_names, refuse
 
 
 def refuse_unsayable(ruleset: Ruleset, statements: Iterable[Statement]) -> None:
@@ -44,7 +44,7 @@ def has_untimed(statements: Iterable[Statement]) -> bool:
 
 def taken_names(statements: Iterable[Statement]) -> list[str]:
     """The names that SLEEC-TK's editor refuses, as the processes that it makes of rules have them."""
-    names = {name for statement in statements for name in defined_by(statement)}
+    names = {name for statement in statements for name in defined_names(statement)}
     return sorted(names & _TAKEN)
 
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from typing import NoReturn
 
-from sleec_runtime.errors import Unsayable
 from sleec_runtime.language.dsl.keywords import KEYWORDS, LEGOS_KEYWORDS
 from sleec_runtime.model import (
     NO_COMMENTS,
@@ -35,7 +33,9 @@ from sleec_runtime.model import (
 )
 from sleec_verify.encoding.mentioned_names import beside_rules
 from sleec_verify.encoding.statement_parts import with_formulas
+from sleec_verify.exchange.conversion.refusals import defined_names, refuse
 from sleec_verify.exchange.conversion.rules import narrow, split
+from sleec_verify.exchange.conversion.sleec_tk import has_untimed, refuse_unsayable, taken_names
 from sleec_verify.results.phrases import listed
 
 _RENAME = "rename it first, everywhere in the rules"
@@ -54,8 +54,6 @@ def in_dsl(ruleset: Ruleset, dialect: Dialect) -> tuple[Ruleset, list[str]]:
     if english:
         notes += _of_events_in_conditions(ruleset)
     if dialect == "sleec-tk":
-        from sleec_verify.exchange.conversion.sleec_tk import has_untimed, refuse_unsayable, taken_names
-
         refuse_unsayable(ruleset, statements)
         taken = taken_names(statements)
         if taken:
@@ -161,17 +159,10 @@ def _comments(rule: Rule) -> Comments:
 def _refuse_keywords_of_legos(ruleset: Ruleset, statements: Iterable[Statement]) -> None:
     for statement in statements:
         values = statement.values if isinstance(statement, Measure) else ()
-        for name in (*defined_by(statement), *values):
+        for name in (*defined_names(statement), *values):
             if name in LEGOS_KEYWORDS:
                 span = statement.span if statement.span != NOWHERE else None
                 refuse(ruleset, f"\u201c{name}\u201d is a keyword of LEGOS", span, _RENAME)
-
-
-def defined_by(statement: Statement) -> tuple[str, ...]:
-    """The names that a statement defines, without the values of a scale."""
-    if isinstance(statement, Declaration):
-        return statement.names
-    return (statement.name,) if isinstance(statement, (Measure, Constant)) else ()
 
 
 def _label(ruleset: Ruleset, label: str, span: Span) -> None:
@@ -187,13 +178,6 @@ def _name(ruleset: Ruleset, name: str, span: Span | None = None) -> str:
         what = "is a keyword of the DSL" if is_keyword else "is no name of the DSL: letters, digits and _ only"
         refuse(ruleset, f"\u201c{name}\u201d {what}", span, _RENAME)
     return name
-
-
-def refuse(ruleset: Ruleset, message: str, span: Span | None = None, hint: str | None = None) -> NoReturn:
-    if span:
-        place = ruleset.source.place(span)
-        message = f"{ruleset.source.path}:{place.line}:{place.column}: {message}"
-    raise Unsayable(message, hint)
 
 
 # Formulas as LEGOS writes them ----------------------------------------------------------------------------

@@ -13,10 +13,10 @@ from sleec_verify.cli.check import _exit_code
 from sleec_verify.report import FORMATS, renderer
 from sleec_verify.report.escape import as_line
 from sleec_verify.report.excerpt import Mark, excerpt
-from sleec_verify.report.json import values_json
 from sleec_verify.report.outcome import Checked
 from sleec_verify.report.palette import PLAIN, Palette
 from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Witness
+from sleec_verify.results.json_values import values_json
 from sleec_verify.results.phrases import context_text, listed, value_text, witness_text
 
 

@@ -7,7 +7,7 @@ from hypothesis import find
 from sleec_runtime.language import parse
 from sleec_runtime.model import Atom, Ruleset, formulas_of, leaves
 from sleec_verify.checks import run_checks
-from sleec_verify.report.json import witness_json
+from sleec_verify.results.json_values import witness_json
 from sleec_verify.results.phrases import witness_text
 from tests.support.small_rulesets import small_rulesets
 

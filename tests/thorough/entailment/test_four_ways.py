@@ -14,9 +14,9 @@ from sleec_verify.encoding.equation import implications
 from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.entailment.definition1 import Definition1
 from sleec_verify.entailment.entailment import entail
-from sleec_verify.exchange.compilation import symbol
 from sleec_verify.exchange.compilation.clauses import encoded
 from sleec_verify.exchange.compilation.formulas import Translator, lines
+from sleec_verify.exchange.compilation.symbols import symbol
 from tests.support import brute_force as brute
 from tests.support.small_rulesets import small_rulesets
 

@@ -11,8 +11,9 @@ import z3
 from hypothesis import given, settings
 
 from sleec_runtime.language import parse
-from sleec_verify.exchange.compilation import FORMS, compile_to, symbol
+from sleec_verify.exchange.compilation import FORMS, compile_to
 from sleec_verify.exchange.compilation.clauses import encoded, variable_names
+from sleec_verify.exchange.compilation.symbols import symbol
 from tests.fast.checks.test_semantics import EIGHT
 from tests.support import brute_force as brute
 from tests.support.small_rulesets import small_rulesets

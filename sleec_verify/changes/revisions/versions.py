@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from sleec_runtime.errors import SleecError, UnreadableFile
 from sleec_runtime.language.common.source import read_source, source_of
@@ -12,21 +12,18 @@ from sleec_runtime.model import Source
 from sleec_runtime.support.files import read_file
 from sleec_verify.files.folders import SUFFIX, rulesets_below
 
-if TYPE_CHECKING:
-    from sleec_verify.changes.revisions.repository import Repository
-
 
 class OneSided(SleecError):
     """A ruleset that only one side has."""
 
 
-class Place(NamedTuple):
-    """Where one version is: a file (`name` is its path), or an object of the repository. `key` is the same for equal
-    texts, where that is known without reading them."""
+class Version(NamedTuple):
+    """Where one version is: a file (`name` is its path), or an object (`blob`) of a repository, which
+    `content` reads."""
 
     name: str
     blob: str | None = None
-    repository: Repository | None = None
+    content: Callable[[str], bytes] | None = None
 
     def named(self, digits: int) -> str | None:
         """What git calls, or would call, the content in so many digits; None where it cannot be read."""
@@ -34,10 +31,10 @@ class Place(NamedTuple):
 
     def read(self) -> Source:
         """The text. Raises `UnreadableFile`."""
-        if self.repository is None or self.blob is None:
+        if self.content is None or self.blob is None:
             return read_source(self.name)
         try:
-            return source_of(self.name, self.repository.content(self.blob))
+            return source_of(self.name, self.content(self.blob))
         except OSError as error:
             raise UnreadableFile(f"{self.name} cannot be read: {error.strerror}") from None
 
@@ -46,8 +43,8 @@ class Versions(NamedTuple):
     """A ruleset on both sides; None on the side that has it not. `path` is what it is called."""
 
     path: str
-    old: Place | None
-    new: Place | None
+    old: Version | None
+    new: Version | None
 
     @property
     def unchanged(self) -> bool:
@@ -87,7 +84,7 @@ def of_paths(old: str, new: str, skipped: Callable[[str], None]) -> list[Version
     if not os.path.isdir(old):
         if old == new == "-":
             raise UnreadableFile("standard input cannot be both sides", "name a file for one of them")
-        return [Versions(new, Place(old), Place(new))]
+        return [Versions(new, Version(old), Version(new))]
     sides = [_below(old, skipped), _below(new, skipped)]
     paths = sorted({*sides[0], *sides[1]})
     if not paths:
@@ -95,8 +92,8 @@ def of_paths(old: str, new: str, skipped: Callable[[str], None]) -> list[Version
     return [
         Versions(
             path,
-            Place(os.path.join(old, path)) if path in sides[0] else None,
-            Place(os.path.join(new, path)) if path in sides[1] else None,
+            Version(os.path.join(old, path)) if path in sides[0] else None,
+            Version(os.path.join(new, path)) if path in sides[1] else None,
         )
         for path in paths
     ]

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.report.escape import as_text
-from sleec_verify.report.json import VERDICTS, Json, dump
-from sleec_verify.report.outcome import counted
 from sleec_verify.results.finding import Refuted
+from sleec_verify.results.json_values import VERDICTS, Json, dump
+from sleec_verify.results.phrases import counted
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import CertificateRefused

@@ -1,0 +1,47 @@
+"""All that `diff` shows: each ruleset on both sides, and the assertions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from sleec_verify.changes.compare.result import relation
+
+if TYPE_CHECKING:
+    from sleec_runtime.errors import SleecError
+    from sleec_verify.changes.assertions import Asked
+    from sleec_verify.changes.compare.result import (
+        Difference,
+        Relation,
+    )
+
+
+class Compared(NamedTuple):
+    """One ruleset on both sides: what differs, or what is wrong with a side."""
+
+    path: str
+    difference: Difference | None
+    errors: tuple[SleecError, ...] = ()
+
+
+class Report(NamedTuple):
+    """All that was asked: each ruleset, how many texts are the same on both sides, and the assertions."""
+
+    compared: tuple[Compared, ...]
+    unchanged: int = 0
+    asked: tuple[Asked, ...] = ()
+
+    @property
+    def differences(self) -> list[Difference]:
+        return [one.difference for one in self.compared if one.difference is not None]
+
+    @property
+    def relation(self) -> Relation:
+        """One word for all rulesets together."""
+        found = self.differences
+        unusable = any(one.errors for one in self.compared)
+        return relation(
+            any(one.more for one in found),
+            any(one.less for one in found),
+            any(one.conflicts for one in found),
+            unusable or any(one.undecided for one in found),
+        )
