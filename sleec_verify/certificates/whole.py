@@ -10,8 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Sequence
 
-from sleec_verify.query.inconsistent_sets import Exclusion, InconsistentSet, inconsistent_sets_of
+from sleec_verify.encoding.union_find import UnionFind
+from sleec_verify.query.inconsistent_sets import Exclusion, InconsistentSet
 from sleec_verify.query.names import Name, names_in, names_of_rule
+from sleec_verify.query.prime_implicates import inconsistent_sets_of
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 
@@ -48,20 +50,13 @@ def _rules(index: RulesetIndex, group: Iterable[InconsistentSet | Exclusion]) ->
 
 def _groups(index: RulesetIndex) -> list[list[InconsistentSet | Exclusion]]:
     """The clashes in groups that share neither rules nor names that the same assumptions speak of."""
-    parent: dict[Hashable, Hashable] = {}
-
-    def root(node: Hashable) -> Hashable:
-        while parent.setdefault(node, node) != node:
-            parent[node] = parent[parent[node]]
-            node = parent[node]
-        return node
-
+    union = UnionFind()
     assumed: set[Name] = set()
     for assumption in index.assumptions:
         names = list(names_in(assumption.formula))
         assumed.update(names)
         for other in names[1:]:
-            parent[root(other)] = root(names[0])
+            union.join(other, names[0])
     by_root: dict[Hashable, list[InconsistentSet | Exclusion]] = {}
     clashes: list[InconsistentSet | Exclusion] = [
         *inconsistent_sets_of(index).listed,
@@ -70,13 +65,13 @@ def _groups(index: RulesetIndex) -> list[list[InconsistentSet | Exclusion]]:
     tied: set[int] = set()
     for clash in clashes:
         for rule in _rules(index, [clash]):
-            parent[root(rule)] = root(clash)
+            union.join(rule, clash)
             if rule not in tied:
                 tied.add(rule)
                 for name in assumed.intersection(names_of_rule(index.rules[rule])):
-                    parent[root(name)] = root(rule)
+                    union.join(name, rule)
         for name in assumed.intersection(names_in(clash.situation) if isinstance(clash, InconsistentSet) else ()):
-            parent[root(name)] = root(clash)
+            union.join(name, clash)
     for clash in clashes:
-        by_root.setdefault(root(clash), []).append(clash)
+        by_root.setdefault(union.root(clash), []).append(clash)
     return list(by_root.values())

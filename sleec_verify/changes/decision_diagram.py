@@ -29,7 +29,8 @@ from sleec_runtime.model import (
     leaves,
     measures_of,
 )
-from sleec_verify.encoding.measures import MIRRORED, Cut, cut_at
+from sleec_verify.encoding.measures import MIRRORED
+from sleec_verify.encoding.regions import Cut, cut_at
 
 if TYPE_CHECKING:
     from sleec_verify.query.names import Name

@@ -11,7 +11,8 @@ from sleec_verify.checks.base import clause_at, guard_at, listed
 from sleec_verify.checks.each import each
 from sleec_verify.encoding.budget import spend
 from sleec_verify.encoding.equation import conjunction
-from sleec_verify.query.inconsistent_sets import Exclusion, InconsistentSet, inconsistent_sets_of
+from sleec_verify.query.inconsistent_sets import Exclusion, InconsistentSet
+from sleec_verify.query.prime_implicates import inconsistent_sets_of
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.query.witness import smallest_situation

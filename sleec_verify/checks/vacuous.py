@@ -14,8 +14,9 @@ from sleec_verify.checks.relevant_rules import in_words, rules_in
 from sleec_verify.encoding.budget import as_far_as_decided
 from sleec_verify.encoding.equation import conjunction
 from sleec_verify.query.cone import rules_active_with
-from sleec_verify.query.inconsistent_sets import InconsistentSets, inconsistent_sets_of
+from sleec_verify.query.inconsistent_sets import InconsistentSets
 from sleec_verify.query.names import names_in, names_of_rule
+from sleec_verify.query.prime_implicates import inconsistent_sets_of
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.query.witness import smallest_situation

@@ -8,7 +8,8 @@ from itertools import islice
 
 from sleec_runtime.model import Assume, Context, Exclusive, Never, Obligation, Rule, Ruleset, require_untimed
 from sleec_verify.entailment.definition1 import Definition1
-from sleec_verify.query.inconsistent_sets import InconsistentSet, inconsistent_sets
+from sleec_verify.query.inconsistent_sets import InconsistentSet
+from sleec_verify.query.prime_implicates import inconsistent_sets
 
 _KEPT = 512
 """Compiled sets of triggers that are kept. A suite asks of the same few again and again."""

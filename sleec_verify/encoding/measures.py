@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import pairwise, permutations
-from typing import TYPE_CHECKING, NamedTuple, Union
+from typing import NamedTuple, Union
 
 from sleec_runtime.model import (
     Calculation,
@@ -31,17 +31,8 @@ from sleec_runtime.model import (
     Term,
     measures_of,
 )
-
-if TYPE_CHECKING:
-    from fractions import Fraction
-
-
-class Cut(NamedTuple):
-    """The variable of "below this": ``measure < value``, or ``measure <= value`` where `inclusive`. For a scale the
-    value is a rank."""
-
-    value: Rational
-    inclusive: bool
+from sleec_verify.encoding.chordal import triangles
+from sleec_verify.encoding.regions import Cut, cut_at, cut_text, pick_between
 
 
 class _Constant(NamedTuple):
@@ -170,13 +161,13 @@ class Measures:
         cuts = self.cuts.setdefault(name, {})
         variable = cuts.get(cut)
         if variable is None:
-            variable = cuts[cut] = self._fresh(("below", name, _cut_text(self._measure(name), cut)))
+            variable = cuts[cut] = self._fresh(("below", name, cut_text(self._measure(name), cut)))
         return variable
 
     def close(self) -> None:
         """Add what orders the variables among themselves."""
         if self.orders:
-            for a, b, c in _triangles(self._graph()):
+            for a, b, c in triangles(self._graph()):
                 for x, y, z in permutations((a, b, c)):
                     self._add([-self._ordered(x, y), -self._ordered(y, z), self._ordered(x, z)])
         for cuts in self.cuts.values():
@@ -340,63 +331,3 @@ class Measures:
             return [-literal for literal in placed]
         values.update(placed)
         return values
-
-
-def pick_between(low: Cut | None, high: Cut | None) -> Rational:
-    """A number not below `low` and below `high`, whole and near a bound where there is one: 17 for "below 18"."""
-    from math import ceil, floor
-
-    if low is None and high is None:
-        return 0
-    if low is None:
-        assert high is not None
-        return floor(high.value) if high.inclusive or floor(high.value) < high.value else floor(high.value) - 1
-    # Not below `value < c` means at least c; not below `value <= c` means more than c.
-    whole = floor(low.value) + 1 if low.inclusive else ceil(low.value)
-    if high is None or whole < high.value or (high.inclusive and whole == high.value):
-        return whole
-    if low.value == high.value:
-        return low.value
-    from fractions import Fraction
-
-    return _shortest_decimal(Fraction(low.value), Fraction(high.value))
-
-
-def _shortest_decimal(low: Fraction, high: Fraction) -> Fraction:
-    from fractions import Fraction
-    from math import floor
-
-    scale = 10
-    while True:
-        candidate = Fraction(floor(low * scale) + 1, scale)
-        if candidate < high:
-            return candidate
-        scale *= 10
-
-
-def cut_at(measure: Measure, value: Rational, inclusive: bool) -> Cut:
-    """The cut of ``measure < value`` (``<=`` if inclusive); one that no whole number tells from another is the same."""
-    if measure.kind != "integer":
-        return Cut(value, inclusive)
-    from math import ceil, floor
-
-    return Cut(floor(value) if inclusive else ceil(value) - 1, True)
-
-
-def _cut_text(measure: Measure, cut: Cut) -> str:
-    limit = measure.values[int(cut.value)] if measure.kind == "scale" else str(cut.value)
-    return f"{'<=' if cut.inclusive else '<'} {limit}"
-
-
-def _triangles(graph: dict[_Node, set[_Node]]) -> Iterator[tuple[_Node, _Node, _Node]]:
-    """The triangles of a chordal completion, by taking out a node of least degree each time."""
-    left = {node: set(near) for node, near in graph.items()}
-    while left:
-        node = min(left, key=lambda n: (len(left[n]), str(n)))
-        near = sorted(left.pop(node), key=str)
-        for position, x in enumerate(near):
-            left[x].discard(node)
-            for y in near[position + 1 :]:
-                left[x].add(y)
-                left[y].add(x)
-                yield node, x, y

@@ -17,8 +17,8 @@ from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.entailment.answer import ActiveClause, ConditionValue, Consequence, Entailment
 from sleec_verify.entailment.definition1 import Definition1
 from sleec_verify.entailment.situation_feasibility import Law, settled
-from sleec_verify.query.inconsistent_sets import inconsistent_sets
 from sleec_verify.query.names import names_in, names_of_rule, obligations_in
+from sleec_verify.query.prime_implicates import inconsistent_sets
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.results.finding import Witness
 

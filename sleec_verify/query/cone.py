@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from sleec_verify.query.assumption_slicing import slicing_of
-from sleec_verify.query.inconsistent_sets import constraints_on_situations
 from sleec_verify.query.names import Name, names_of_constraint, names_of_rule
+from sleec_verify.query.prime_implicates import constraints_on_situations
 from sleec_verify.query.ruleset_index import RulesetIndex
 
 

@@ -4,41 +4,20 @@ What is due in a context is a set of literals, and the context conflicts when th
 have no common model over O (a "for all" over obligations inside an "exists" over contexts). The due literals are
 units, so it is enough to know every minimal set of literals that the constraints rule out, each with the situations
 in which they do: then "is there a conflicting context" is a plain question of satisfiability for each set.
-
-The sets are prime implicates of the constraints over the literals that are obliged at all, found by resolution with
-subsumption. The parts of a `NEVER` that speak of situations only are kept whole, as labels that a resolvent inherits.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 
-from sleec_runtime.model import And, Atom, Exclusive, Formula, Never, Not, Obligation, Or, Truth, leaves
-from sleec_verify.encoding.budget import Undecided, spend
+from sleec_runtime.model import Exclusive, Formula, Never, Obligation
+from sleec_verify.encoding.budget import spend
 from sleec_verify.encoding.equation import conjunction
-from sleec_verify.query.ruleset_index import RulesetIndex
 
 Constraint = Exclusive | Never
-
-LIMIT = 2_000
-"""How many cases a NEVER may have, and how many sets may come of resolving constraints that are tied to one another,
-before the question is given up."""
-
-MOST_LISTED = 20
-"""Names of an EXCLUSIVE of which all pairs are listed. Of larger ones, the pairs stay one `Exclusion`."""
-
-STEPS = 20_000
-"""How many resolvents may be formed for one group of constraints before the question is given up."""
-
-_PER_STEP = 5
-"""What one of them costs in the steps of a budget."""
-
-
-class TooEntangled(Undecided):
-    """The constraints have more minimal inconsistent sets than `LIMIT`."""
 
 
 @dataclass(frozen=True)
@@ -121,197 +100,3 @@ class InconsistentSets:
 
 def opposite(literal: Obligation) -> Obligation:
     return Obligation(literal.name, not literal.negated)
-
-
-def inconsistent_sets_of(index: RulesetIndex) -> InconsistentSets:
-    """Every minimal set of literals that the rules can oblige and that cannot all be obliged in one context."""
-    return index.once(_inconsistent_sets)
-
-
-def _inconsistent_sets(index: RulesetIndex) -> InconsistentSets:
-    obliged = index.by_obligation
-    direct = [
-        InconsistentSet(frozenset((literal, opposite(literal))))
-        for literal in obliged
-        if not literal.negated and opposite(literal) in obliged
-    ]
-    declared = inconsistent_sets(index.constraints, obliged)
-    return InconsistentSets([*direct, *declared.listed], declared.exclusions)
-
-
-def constraints_on_situations(index: RulesetIndex) -> list[Constraint]:
-    """The constraints that rule out a situation whatever is obliged, each alone or several together.
-
-    Raises `Undecided` where the constraints are too entangled.
-    """
-    return index.once(_constraints_on_situations)
-
-
-def _constraints_on_situations(index: RulesetIndex) -> list[Constraint]:
-    without_literals = (found for found in inconsistent_sets_of(index).listed if not found.literals)
-    return list(dict.fromkeys(origin for found in without_literals for origin in found.origins))
-
-
-def inconsistent_sets(constraints: Iterable[Constraint], obliged: Collection[Obligation]) -> InconsistentSets:
-    """The minimal inconsistent sets of literals of `obliged` that these constraints give, without the sets of a name
-    and its negation.
-
-    Raises `TooEntangled` past `LIMIT`; worst case exponential in the constraints that share obligations, linear in
-    the number of groups that share none.
-    """
-    constraints = list(constraints)
-    nevers = [constraint.formula for constraint in constraints if isinstance(constraint, Never)]
-    # What is resolved upon has to be listed.
-    resolved = {name for formula in nevers for name in _negated(formula, True)}
-    found: list[InconsistentSet] = []
-    for group in _groups([term for constraint in constraints for term in _terms(constraint, resolved)]):
-        found += _eliminated(group, obliged)
-    alone = {literal for clash in found if len(clash.literals) == 1 and not clash.labels for literal in clash.literals}
-    exclusions = []
-    for constraint in constraints:
-        if isinstance(constraint, Exclusive):
-            literals = (Obligation(name) for name in _not_listed(constraint, resolved))
-            within = tuple(literal for literal in literals if literal in obliged and literal not in alone)
-            if len(within) > 1:
-                exclusions.append(Exclusion(within, constraint))
-    for exclusion in exclusions:
-        excluded = frozenset(exclusion.literals)
-        found = [clash for clash in found if len(excluded & clash.literals) < 2]
-    return InconsistentSets(found, exclusions)
-
-
-def _negated(formula: Formula, value: bool) -> Iterator[str]:
-    """The obligations that are not done in some case in which the formula has this value."""
-    if isinstance(formula, Not):
-        yield from _negated(formula.operand, not value)
-    elif isinstance(formula, (And, Or)):
-        for operand in formula.operands:
-            yield from _negated(operand, value)
-    elif isinstance(formula, Atom) and formula.kind == "obligation" and not value:
-        yield formula.name
-
-
-def _not_listed(constraint: Exclusive, resolved: Collection[str]) -> list[str]:
-    """The names of which no pair is listed."""
-    names = sorted(set(constraint.names))
-    return [name for name in names if name not in resolved] if len(names) > MOST_LISTED else []
-
-
-def _groups(terms: list[InconsistentSet]) -> list[list[InconsistentSet]]:
-    """The terms that are tied to one another by the obligations they share."""
-    parent: dict[str, str] = {}
-
-    def root(name: str) -> str:
-        while parent.setdefault(name, name) != name:
-            parent[name] = parent[parent[name]]
-            name = parent[name]
-        return name
-
-    for term in terms:
-        first, *rest = sorted(literal.name for literal in term.literals) or [""]
-        for name in rest:
-            parent[root(name)] = root(first)
-    groups: dict[str, list[InconsistentSet]] = {}
-    for term in terms:
-        groups.setdefault(root(min((literal.name for literal in term.literals), default="")), []).append(term)
-    return list(groups.values())
-
-
-def _terms(constraint: Constraint, resolved: Collection[str]) -> list[InconsistentSet]:
-    if isinstance(constraint, Exclusive):
-        names, rest = sorted(set(constraint.names)), set(_not_listed(constraint, resolved))
-        listed = [name for name in names if name not in rest]
-        pairs = (
-            (one, other)
-            for at, one in enumerate(listed)
-            for other in (*listed[at + 1 :], *(name for name in names if name in rest))
-        )
-        found = []
-        for one, other in pairs:
-            spend(_PER_STEP)
-            found.append(InconsistentSet(frozenset((Obligation(one), Obligation(other))), origins=(constraint,)))
-        return found
-    found = []
-    for literals, labels in _disjuncts(constraint.formula, True):
-        if not any(opposite(literal) in literals for literal in literals):
-            found.append(InconsistentSet(literals, labels, (constraint,)))
-    return found
-
-
-_Term = tuple[frozenset[Obligation], frozenset[Formula]]
-
-
-def _disjuncts(formula: Formula, value: bool) -> list[_Term]:
-    """The disjunctive normal form of "formula has this value" over obligations, situations kept whole."""
-    if not any(isinstance(leaf, Atom) and leaf.kind == "obligation" for leaf in leaves(formula)):
-        if isinstance(formula, Truth):
-            return [(frozenset(), frozenset())] if formula.value == value else []
-        return [(frozenset(), frozenset((formula if value else Not(formula),)))]
-    if isinstance(formula, Not):
-        return _disjuncts(formula.operand, not value)
-    if isinstance(formula, Atom):
-        return [(frozenset((Obligation(formula.name, not value),)), frozenset())]
-    assert isinstance(formula, (And, Or))
-    parts = [_disjuncts(operand, value) for operand in formula.operands]
-    if isinstance(formula, Or) == value:
-        return [term for part in parts for term in part]
-    terms: list[_Term] = [(frozenset(), frozenset())]
-    for part in parts:
-        spend(len(terms) * len(part))
-        terms = list({(a | c, b | d): None for a, b in terms for c, d in part})
-        if len(terms) > LIMIT:
-            raise TooEntangled("a NEVER expands to more cases than can be listed")
-    return terms
-
-
-def _minimal(found: Iterable[InconsistentSet]) -> list[InconsistentSet]:
-    """Those that no other subsumes, smallest first."""
-    kept: list[InconsistentSet] = []
-    bits: dict[Obligation, int] = {}
-    by_literal: dict[Obligation | None, list[tuple[int, frozenset[Formula]]]] = {}
-    for clash in sorted(found, key=lambda c: (len(c.literals) + len(c.labels), len(c.origins))):
-        mask = sum(bits.setdefault(literal, 1 << len(bits)) for literal in clash.literals)
-        # Whatever subsumes this one is kept under one of this one's literals, or has none.
-        near = [by_literal.get(literal, ()) for literal in (None, *clash.literals)]
-        spend(_PER_STEP + sum(map(len, near)) / 10)
-        labels = clash.labels
-        if not any(mask & other == other and inner <= labels for each in near for other, inner in each):
-            by_literal.setdefault(min(clash.literals, default=None, key=str), []).append((mask, labels))
-            kept.append(clash)
-    return kept
-
-
-def _eliminated(terms: list[InconsistentSet], obliged: Collection[Obligation]) -> list[InconsistentSet]:
-    """The minimal sets over `obliged`: resolve on one obligation after the other, and after each drop the sets with a
-    literal of it that nothing obliges (Tison's method, kept to the literals that matter)."""
-    found = _minimal(terms)
-    counts: dict[Obligation, int] = {}
-    for term in found:
-        for literal in term.literals:
-            counts[literal] = counts.get(literal, 0) + 1
-    # Any other name has nothing to resolve or drop.
-    names = {literal.name for literal in counts if opposite(literal) in counts or literal not in obliged}
-    steps = 0
-    for name in sorted(
-        names, key=lambda name: (counts.get(Obligation(name), 0) + counts.get(Obligation(name, True), 0), name)
-    ):
-        done, undone = Obligation(name), Obligation(name, True)
-        fresh = []
-        spend(len(found) / 2)
-        for one in [clash for clash in found if done in clash.literals]:
-            for other in [clash for clash in found if undone in clash.literals]:
-                steps += 1
-                spend(_PER_STEP)
-                literals = (one.literals - {done}) | (other.literals - {undone})
-                if not any(opposite(literal) in literals for literal in literals):
-                    origins = sorted({*one.origins, *other.origins}, key=lambda origin: origin.span)
-                    fresh.append(InconsistentSet(literals, one.labels | other.labels, tuple(origins)))
-            if steps > STEPS:
-                raise TooEntangled("the constraints rule out more combinations than can be listed")
-        idle = {literal for literal in (done, undone) if literal not in obliged}
-        kept = [clash for clash in found if idle.isdisjoint(clash.literals)]
-        if fresh or len(kept) < len(found):
-            found = _minimal(kept + fresh)
-        if fresh and len(found) > LIMIT:
-            raise TooEntangled("the constraints rule out more combinations than can be listed")
-    return found

@@ -12,7 +12,7 @@ from sleec_runtime.model import Rule
 from sleec_verify.certificates.theory.numbering import Numbered
 from sleec_verify.checks.dead import DEAD_RULE
 from sleec_verify.query.cone import rules_of_same_obligation
-from sleec_verify.query.inconsistent_sets import constraints_on_situations
+from sleec_verify.query.prime_implicates import constraints_on_situations
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
 

@@ -31,8 +31,9 @@ from sleec_verify.changes.compare.timing_order import implies
 from sleec_verify.encoding.equation import Implication, conjunction, disjunction, implications
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.query.assumption_slicing import AssumptionSlicing
-from sleec_verify.query.inconsistent_sets import InconsistentSet, constraints_on_situations, inconsistent_sets, opposite
+from sleec_verify.query.inconsistent_sets import InconsistentSet, opposite
 from sleec_verify.query.names import Name, names_in, names_of_rule
+from sleec_verify.query.prime_implicates import constraints_on_situations, inconsistent_sets
 from sleec_verify.query.ruleset_index import RulesetIndex
 
 Which = Literal["old", "new"]

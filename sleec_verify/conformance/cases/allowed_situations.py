@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from sleec_runtime.model import Assume, Context, Formula, Never, formulas_of, names_of
-from sleec_verify.query.inconsistent_sets import inconsistent_sets, opposite
+from sleec_verify.query.inconsistent_sets import opposite
+from sleec_verify.query.prime_implicates import inconsistent_sets
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 

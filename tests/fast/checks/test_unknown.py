@@ -10,7 +10,7 @@ from sleec_verify.checks import causes, run_checks
 from sleec_verify.encoding import solver
 from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.entailment.entailment import entail
-from sleec_verify.query.inconsistent_sets import inconsistent_sets
+from sleec_verify.query.prime_implicates import inconsistent_sets
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay import situations as replay
 from sleec_verify.results.finding import Proved, Refuted, Unknown

@@ -25,7 +25,7 @@ def test_exit_codes_are_those_of_check(cli: Cli, monkeypatch: pytest.MonkeyPatch
     assert cli("certify", "conflict.sleec", "-o", "b").code == 1
     assert cli("certify", "--check", "b", "conflict.sleec").code == 1
     never = "NEVER A AND NOT B\nNEVER B AND C\nRULE a WHEN T THEN A AND C\n"
-    monkeypatch.setattr("sleec_verify.query.inconsistent_sets.STEPS", 0)
+    monkeypatch.setattr("sleec_verify.query.prime_implicates.STEPS", 0)
     ran = cli("certify", "unknown.sleec", "-o", "c", files={"unknown.sleec": never})
     assert (ran.code, "unknown   no proof, as there is no verdict" in ran.out) == (3, True)
     assert cli("certify", "--check", "c", "unknown.sleec").code == 3

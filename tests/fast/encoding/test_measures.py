@@ -8,8 +8,8 @@ from itertools import product
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sleec_verify.encoding.measures import Cut, pick_between
 from sleec_verify.encoding.order import place
+from sleec_verify.encoding.regions import Cut, pick_between
 
 NAMES = ("x", "y", "z")
 

@@ -141,7 +141,7 @@ def test_assumptions_that_rule_out_everything_are_shown_by_a_proof(tmp_path: Pat
 
 
 def test_an_unknown_verdict_is_listed_as_such(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sleec_verify.query.inconsistent_sets.STEPS", 0)
+    monkeypatch.setattr("sleec_verify.query.prime_implicates.STEPS", 0)
     ruleset = source("NEVER A AND NOT B\nNEVER B AND C\nRULE a WHEN T THEN A AND C\n", tmp_path)
     manifest = written(ruleset, tmp_path / "c")
     conflict = manifest["checks"][0]

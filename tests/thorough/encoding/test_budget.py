@@ -15,7 +15,7 @@ from sleec_verify.encoding import budget
 from sleec_verify.encoding.arithmetic import values_for
 from sleec_verify.encoding.budget import OutOfBudget, limited
 from sleec_verify.encoding.solver import MiniSat
-from sleec_verify.query.inconsistent_sets import inconsistent_sets_of
+from sleec_verify.query.prime_implicates import inconsistent_sets_of
 from sleec_verify.query.question import is_possible
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Proved, Refuted, Unknown
@@ -108,7 +108,7 @@ def test_an_exclusive_beside_constraints_that_share_its_names_gives_what_its_pai
     indices = [RulesetIndex(parse(f"EXCLUSIVE {names}\n{more}{rules}WHEN T THEN P AND NOT Q\n")) for _ in range(2)]
     few = {(clash.literals, clash.labels) for clash in inconsistent_sets_of(indices[0])}
     assert inconsistent_sets_of(indices[0]).exclusions
-    monkeypatch.setattr("sleec_verify.query.inconsistent_sets.MOST_LISTED", 100)
+    monkeypatch.setattr("sleec_verify.query.prime_implicates.MOST_LISTED", 100)
     assert not inconsistent_sets_of(indices[1]).exclusions
     assert {(clash.literals, clash.labels) for clash in inconsistent_sets_of(indices[1])} == few
 
