@@ -17,34 +17,34 @@ if TYPE_CHECKING:
 
     from sleec_runtime import errors as errors
     from sleec_runtime.dispatch.implementations import obligation as obligation
-    from sleec_runtime.dispatch.implementations import recording as recording
-    from sleec_runtime.dispatch.monitor import Monitor as Monitor
-    from sleec_runtime.dispatch.runtime import Sleec as Sleec
+    from sleec_runtime.dispatch.recording import recording as recording
     from sleec_runtime.errors import SleecError as SleecError
+    from sleec_runtime.facade.sleec import Sleec as Sleec
     from sleec_runtime.model import Reading
+    from sleec_runtime.monitor.monitor import Monitor as Monitor
     from sleec_runtime.predicates import Sensors as Sensors
+    from sleec_runtime.timed.clock import Clock as Clock
     from sleec_runtime.timed.clocks import AsyncioClock as AsyncioClock
-    from sleec_runtime.timed.clocks import Clock as Clock
-    from sleec_runtime.timed.clocks import MonotonicClock as MonotonicClock
     from sleec_runtime.timed.clocks import PolledClock as PolledClock
     from sleec_runtime.timed.clocks import VirtualClock as VirtualClock
     from sleec_runtime.timed.failures import Failure as Failure
+    from sleec_runtime.timed.monotonic_clock import MonotonicClock as MonotonicClock
     from sleec_runtime.timed.pending import Pending as Pending
 
 _HOMES = {
     "AsyncioClock": "timed.clocks",
-    "Clock": "timed.clocks",
+    "Clock": "timed.clock",
     "Failure": "timed.failures",
-    "Monitor": "dispatch.monitor",
-    "MonotonicClock": "timed.clocks",
+    "Monitor": "monitor.monitor",
+    "MonotonicClock": "timed.monotonic_clock",
     "Pending": "timed.pending",
     "PolledClock": "timed.clocks",
     "Sensors": "predicates",
-    "Sleec": "dispatch.runtime",
+    "Sleec": "facade.sleec",
     "SleecError": "errors",
     "VirtualClock": "timed.clocks",
     "obligation": "dispatch.implementations",
-    "recording": "dispatch.implementations",
+    "recording": "dispatch.recording",
 }
 __all__ = [
     "AsyncioClock",
@@ -94,7 +94,7 @@ def load(
     with `certificate`.
     """
     from sleec_runtime import language
-    from sleec_runtime.dispatch.runtime import Sleec
+    from sleec_runtime.facade.sleec import Sleec
 
     return Sleec(
         language.load(path),

@@ -16,7 +16,7 @@ from sleec_runtime.errors import SleecError, UnknownCondition, UnknownName, Wron
 from sleec_runtime.model import NUMBER, exact
 
 if TYPE_CHECKING:
-    from sleec_runtime.dispatch.runtime import Sleec
+    from sleec_runtime.facade.sleec import Sleec
     from sleec_runtime.model import Measure, Rational, Value
 
 Membership = Callable[["Rational"], object]

@@ -1,4 +1,4 @@
-"""Changes that exclude one another, also within one thread."""
+"""Critical sections: changes that exclude each other, also within one thread."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ P = ParamSpec("P")
 
 
 class CriticalSection:
-    """Makes one change at a time. Another thread waits; the same thread is refused.
+    """Makes one change at a time. Other threads wait; the same thread is refused.
 
-    The same thread comes a second time if a signal handler or a finalizer, which Python runs between any two steps of
-    a thread, calls what is being changed. It cannot wait, and must not see half of a change.
+    The same thread enters again if a signal handler or a finalizer, which Python runs between any two steps of a
+    thread, uses the object that is being changed. It cannot wait, and must not see a part of a change.
     """
 
     def __init__(self, undo: Callable[[], object] | None = None) -> None:
-        """`undo` undoes a change of another thread, which a forked process finds half made."""
-        # Reentrant, because a handler may also come just before or after a change, while the thread has the lock.
+        """`undo` undoes the unfinished change of another thread, in a forked process."""
+        # Reentrant, because a handler may also run just before or after a change, while the thread holds the lock.
         self._lock = threading.RLock()
         self._changing = False
         self._undo = undo
         renew_after_fork(self)
 
     def run(self, change: Callable[[], T]) -> T:
-        """Makes the change. Raises Reentrant within another one of this thread."""
+        """Makes a change. Raises Reentrant within another change of this thread."""
         with self._lock:
             self.refuse_reentry()
             try:
@@ -47,7 +47,7 @@ class CriticalSection:
 
     def after_fork(self) -> None:
         if self._lock.acquire(blocking=False):
-            # Nobody has it, or the thread that forked.
+            # Free, or held by the thread that forked.
             self._lock.release()
             return
         self._lock = threading.RLock()

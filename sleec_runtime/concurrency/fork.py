@@ -1,4 +1,4 @@
-"""What a process made by `os.fork` has to renew: it has one thread, and locks that other threads held stay locked."""
+"""Renewal of locks and threads after `os.fork`: the new process has one thread, and locks of others stay locked."""
 
 from __future__ import annotations
 
@@ -8,24 +8,25 @@ from weakref import WeakSet
 
 
 class Renewable(Protocol):
-    """Something with locks or threads."""
+    """An object with locks or threads."""
 
     def after_fork(self) -> None:
-        """Makes it usable in the new process."""
+        """Makes the object usable in the new process."""
 
 
 _renewables: WeakSet[Renewable] = WeakSet()
 
 
 def renew_after_fork(renewable: Renewable) -> None:
-    """Has `renewable.after_fork` called in each process that is forked from this one."""
+    """Calls `renewable.after_fork` in each process that is forked from this one."""
     _renewables.add(renewable)
 
 
-def _renew() -> None:
+def renew() -> None:
+    """Renews all registered objects that still exist."""
     for renewable in tuple(_renewables):
         renewable.after_fork()
 
 
 if hasattr(os, "register_at_fork"):  # not on Windows
-    os.register_at_fork(after_in_child=_renew)
+    os.register_at_fork(after_in_child=renew)

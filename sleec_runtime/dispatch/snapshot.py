@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING
 
+from sleec_runtime.dispatch.plan import Plan
+from sleec_runtime.dispatch.program import Program
 from sleec_runtime.evaluation.evaluation import Outcome, Situation, walk
 from sleec_runtime.model import Context, Rule, Value
 from sleec_runtime.support.chunked_sequence import Chunks
-
-if TYPE_CHECKING:
-    from sleec_runtime.dispatch.dispatch import Plan
-    from sleec_runtime.dispatch.program import Program
 
 
 class Conditions(Mapping[str, Value]):

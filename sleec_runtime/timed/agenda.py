@@ -1,59 +1,62 @@
-"""What is to be done, what is forbidden, and what comes when. Not safe by itself: `Ledger` changes it."""
+"""The agenda: open obligations and prohibitions, and timer events. Only `Ledger` changes it, under its lock."""
 
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from itertools import islice
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.tasks import Task
+from sleec_runtime.timed.clock import Time
+from sleec_runtime.timed.task import Task
+from sleec_runtime.timed.unit import Unit
 
-OPENS, CLOSES = 0, 1
-"""At one time, what opens comes first: it may do what closes undone otherwise."""
+OPENS, CLOSES, ENDS = 0, 1, 2
+"""The kinds of timer events. At one time, windows open before others close, because what opens may fulfil what would
+close unfulfilled. A prohibition ends after the last second of its window."""
 
-# Entries of what is done stay until they come up, or until they are too many.
+# Entries of tasks that are over stay until their time, or until there are too many.
 _FEW = 64
 
 
 class Entry(NamedTuple):
-    """Something that comes up at a time, if one of `tasks` is open then. No two have one `number`: it says in which
-    order those of one time and kind come up."""
+    """A timer event for `tasks`, which counts if one of them is open at its time. `unit` is the unit that opens.
+
+    Entries of one time and kind are ordered by `number`, which is unique.
+    """
 
     at: Time
     kind: int
     number: int
     tasks: tuple[Task, ...]
-    decide: Callable[[Time], object]
+    unit: Unit | None = None
 
     @property
     def counts(self) -> bool:
-        """Whether it still has to come up."""
+        """Whether it is still needed."""
         return any(task.is_open for task in self.tasks)
 
 
 class Agenda:
-    """The open obligations and prohibitions by name, and entries for what the clock starts and ends.
+    """The open obligations and prohibitions by name, and the entries of timer events.
 
-    Each method changes it at once or not at all, even if a signal handler or the comparison of two times raises.
+    Each method is atomic, even if a signal handler or the comparison of two times raises.
     """
 
     def __init__(self) -> None:
         self._open: dict[str, dict[Task, None]] = {}
         self._forbidden: dict[str, dict[Task, None]] = {}
         self._entries: list[Entry] = []
-        """In order. A heap would be left in disorder by a comparison that raises."""
+        """Sorted. A comparison that raises would destroy the order of a heap."""
         self._compact_at = _FEW
 
     def add(self, task: Task) -> None:
-        """It is open from now on."""
+        """Adds an open task."""
         by_name = self._forbidden if task.literal.negated else self._open
         by_name.setdefault(task.name, {})[task] = None
 
     def remove(self, task: Task) -> None:
-        """It is over; nothing happens if it was not there."""
+        """Removes a task. Ignores one that is not there."""
         by_name = self._forbidden if task.literal.negated else self._open
         tasks = by_name.get(task.name)
         if tasks is not None:
@@ -61,28 +64,32 @@ class Agenda:
             if not tasks:
                 by_name.pop(task.name, None)
 
+    def __len__(self) -> int:
+        """The number of entries."""
+        return len(self._entries)
+
     def __contains__(self, task: Task) -> bool:
         by_name = self._forbidden if task.literal.negated else self._open
         return task in by_name.get(task.name, ())
 
     def insert(self, entry: Entry) -> None:
-        """It comes up at its time; nothing happens if it is there. O(entries), as the time to copy so many pointers."""
+        """Adds an entry. Ignores one that is there. O(entries) to copy the pointers."""
         place = bisect_left(self._entries, entry)
         if self._entries[place : place + 1] != [entry]:
             self._entries.insert(place, entry)
 
     def drop(self, entry: Entry) -> None:
-        """It does not come up; nothing happens if it was not there."""
+        """Removes an entry. Ignores one that is not there."""
         place = bisect_left(self._entries, entry)
         if self._entries[place : place + 1] == [entry]:
             del self._entries[place]
 
     def next_entry(self) -> Entry | None:
-        """What comes up next."""
+        """The next entry that counts."""
         return next((entry for entry in self._entries if entry.counts), None)
 
     def tidy(self) -> None:
-        """Forgets entries that no longer count: the first ones, and, if there are many, all. O(1) on average."""
+        """Removes entries that no longer count: the first ones, and all if there are many. O(1) on average."""
         while self._entries and not self._entries[0].counts:
             del self._entries[0]
         if len(self._entries) > self._compact_at:
@@ -90,7 +97,7 @@ class Agenda:
             self._compact_at = max(_FEW, 2 * len(self._entries))
 
     def to_do(self, name: str) -> tuple[Task, ...]:
-        """The open obligations to do `name`."""
+        """The open obligations of `name`."""
         return tuple(self._open.get(name, ()))
 
     def prohibitions(self, name: str, now: Time) -> tuple[Task, ...]:
@@ -98,13 +105,13 @@ class Agenda:
         return tuple(task for task in self._forbidden.get(name, ()) if task.covers(now))
 
     def forbidden(self, now: Time) -> Iterator[Task]:
-        """A prohibition that is in force at `now` of each name that has one. The newest are looked at first: however
-        many there are, one of these most often is."""
+        """For each name, one prohibition that is in force at `now`, if there is one. The newest are tried first,
+        because they are most likely to be in force."""
         for tasks in self._forbidden.values():
             yield from islice((task for task in reversed(tasks) if task.covers(now)), 1)
 
     def all_prohibitions(self, name: str) -> tuple[Task, ...]:
-        """Those of `name` that are in force, or come to be."""
+        """The prohibitions of `name` that are or will be in force."""
         return tuple(self._forbidden.get(name, ()))
 
     def __iter__(self) -> Iterator[Task]:

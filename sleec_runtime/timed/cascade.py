@@ -1,27 +1,27 @@
-"""What is called for at one moment, step by step: by the triggers, then by each event that a response is."""
+"""The cascade of one moment: the stage of the triggers, then a stage for each response that is an event."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from sleec_runtime.dispatch.dispatch import cell_of, outcomes_of
-from sleec_runtime.errors import UndeterminedDecision
-from sleec_runtime.evaluation.evaluation import Decision, Undetermined
-from sleec_runtime.timed.execution_plan import Unit, composed_units, units_of
-from sleec_runtime.timed.tasks import Origin, Task, tasks_of
-
-if TYPE_CHECKING:
-    from sleec_runtime.dispatch.instance import Instance
-    from sleec_runtime.dispatch.snapshot import Snapshot
-    from sleec_runtime.timed.clocks import Time
+from sleec_runtime.dispatch.decisions import decisions_of
+from sleec_runtime.dispatch.instance import Instance
+from sleec_runtime.dispatch.snapshot import Snapshot
+from sleec_runtime.evaluation.evaluation import Decision
+from sleec_runtime.timed.clock import Time
+from sleec_runtime.timed.response_tasks import tasks_of
+from sleec_runtime.timed.task import Origin, Task
+from sleec_runtime.timed.unit import Unit, composed_units, units_of
 
 
 @dataclass
 class Stage:
-    """What some rules ask for at one moment, in the context and rules of `snapshot`. It counts only if `event` happens,
-    where there is one. `watched`: its tasks are on the agenda already."""
+    """The tasks and units of some rules at one moment, in the context and rules of `snapshot`.
+
+    If there is an `event`, the stage counts only if the event happens. `watched`: its tasks are on the agenda already.
+    """
 
     event: str | None
     triggers: tuple[str, ...]
@@ -32,11 +32,15 @@ class Stage:
     watched: bool = False
 
     def starting(self, now: Time) -> list[Task]:
-        """What is started at `now`."""
+        """The tasks that start at `now`."""
         return [task for unit in self.units if unit.at <= now for task in unit.tasks if task.is_open]
 
+    def needs_loop(self, now: Time) -> bool:
+        """Whether a unit that starts by `now` contains a coroutine function."""
+        return any(unit.asynchronous for unit in self.units if unit.at <= now)
+
     def decided_for(self, now: Time, starting: Sequence[Task]) -> tuple[Decision, ...]:
-        """The decisions, with those literals alone that count at `now`: what is started, and what is forbidden."""
+        """The decisions, reduced to the literals that count at `now`: what starts, and what is forbidden."""
         literals: dict[int, list[Task]] = {}
         for task in self.tasks:
             if task in starting or (task.literal.negated and task.counts_at(now)):
@@ -49,7 +53,7 @@ class Stage:
 
 @dataclass(frozen=True)
 class Moment:
-    """When, in which context, by which code, and with which arguments triggers occur."""
+    """The time, context, code and arguments with which triggers occur."""
 
     now: Time
     snapshot: Snapshot
@@ -58,26 +62,19 @@ class Moment:
     kwargs: Mapping[str, Any]
 
 
-def called_by(
+def triggered_stage(
     triggers: tuple[str, ...],
     moment: Moment,
     event: str | None = None,
     code: bool = True,
     others: Iterable[str] = (),
 ) -> Stage:
-    """What the rules of `triggers` ask for where `others` occur as well. O(rules of the triggers).
+    """The stage of the rules of `triggers` if `others` occur too. O(rules of the triggers).
 
-    Without `code`, nothing is looked up that would do it. Raises UnknownTrigger, UndeterminedDecision, WrongType and
-    NotBound.
+    Without `code`, no code need be bound. Raises UnknownTrigger, UndeterminedDecision, WrongType and NotBound.
     """
     snapshot = moment.snapshot
-    for trigger in triggers:
-        cell_of(snapshot, trigger)
-    outcomes = [outcome for _, outcome in outcomes_of(snapshot, triggers, others)]
-    missing = [name for outcome in outcomes if isinstance(outcome, Undetermined) for name in outcome.missing]
-    if missing:
-        raise UndeterminedDecision(triggers, tuple(dict.fromkeys(missing)))
-    decisions = tuple(outcome for outcome in outcomes if isinstance(outcome, Decision))
+    decisions = decisions_of(snapshot, triggers, others)
     tasks: list[Task] = []
     units: list[Unit] = []
     occurring = frozenset(triggers).union(others)
@@ -94,27 +91,27 @@ def called_by(
     return Stage(event, triggers, snapshot, decisions, tuple(tasks), tuple(units))
 
 
-def in_place_of(task: Task, alternatives: tuple[Task, ...], snapshot: Snapshot) -> Stage:
-    """What is due in the place of `task`."""
+def alternative_stage(task: Task, alternatives: tuple[Task, ...], snapshot: Snapshot) -> Stage:
+    """The stage of the `alternatives` to `task`."""
     origin = task.origin
     units = composed_units(origin, alternatives)
     return Stage(None, (), _own(origin, snapshot), (), alternatives, units)
 
 
-def opened(unit: Unit, snapshot: Snapshot) -> Stage:
-    """What is started because its window has opened."""
+def opening_stage(unit: Unit, snapshot: Snapshot) -> Stage:
+    """The stage of a unit whose window opens."""
     return Stage(None, (), _own(unit.origin, snapshot), (), unit.tasks, (unit,), watched=True)
 
 
 def _own(origin: Origin, snapshot: Snapshot) -> Snapshot:
-    """The context of now, or, if other rules are in force now, the last that is known under the rule's own."""
+    """The current context; if other rules are in force now, that of the trigger."""
     return snapshot if snapshot.program is origin.snapshot.program else origin.snapshot
 
 
 def with_chains(first: Stage, moment: Moment) -> list[Stage]:
-    """`first`, and what the responses call for that are done at once, and what those call for: each event once.
+    """`first`, and the stages of its immediate responses that are events, and so on: each event once.
 
-    O(rules of all these events). Raises as `called_by`.
+    O(rules of all these events). Raises as `triggered_stage`.
     """
     stages = [first]
     triggers, begun_only = moment.snapshot.program.number_of, moment.instance.takes_time
@@ -125,5 +122,5 @@ def with_chains(first: Stage, moment: Moment) -> list[Stage]:
             if name in triggers and name not in seen and name not in begun_only:
                 seen.add(name)
                 with_its_arguments = replace(moment, args=task.origin.args, kwargs=task.origin.kwargs)
-                stages.append(called_by((name,), with_its_arguments, event=name, others=first.triggers))
+                stages.append(triggered_stage((name,), with_its_arguments, event=name, others=first.triggers))
     return stages

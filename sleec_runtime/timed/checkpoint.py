@@ -1,25 +1,23 @@
-"""Pending obligations as plain data, so that another process can go on with them: see `recovery`."""
+"""Snapshots of pending obligations as plain data, which another process can restore: see `recovery`."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from sleec_runtime.dispatch.program import Program
+from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import SnapshotRefused, WrongType
+from sleec_runtime.timed.clock import Time
 from sleec_runtime.timed.plain_data import PLAIN, copied, is_plain, number_to_plain
-
-if TYPE_CHECKING:
-    from sleec_runtime.dispatch.program import Program
-    from sleec_runtime.dispatch.snapshot import Snapshot
-    from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.tasks import Origin, Task
+from sleec_runtime.timed.task import Origin, Task
 
 FORMAT = 1
-"""The version of the data. Another one is refused."""
+"""The version of the format. Other versions are refused."""
 
 
 def identity(program: Program, chains: bool) -> dict[str, object]:
-    """Which rules are in force, and how they are read. Raises SnapshotRefused for rules without a text."""
+    """The rules in force, and how they are used. Raises SnapshotRefused for rules without a text."""
     source = program.whole.source
     if not source.text:
         raise SnapshotRefused("the rules were not read from a text, so no other process can tell them", "parse() them")
@@ -32,10 +30,9 @@ def identity(program: Program, chains: bool) -> dict[str, object]:
 
 
 def checkpoint(tasks: Iterable[Task], program: Program, chains: bool, now: Time, saved_at: Time) -> dict[str, Any]:
-    """All of `tasks` that is open, at the time `now` of the clock, which is `saved_at` for the world. O(pending).
+    """The open ones of `tasks`, at the time `now` of the clock and `saved_at` of the world, in seconds. O(pending).
 
-    Raises WrongType for an argument that a callable may still get, and that is not plain data; SnapshotRefused as
-    `identity`.
+    Raises WrongType for an argument that is not plain data and that code may still get; SnapshotRefused as `identity`.
     """
     whole = identity(program, chains)
     contexts: dict[int, tuple[int, Snapshot]] = {}
@@ -75,7 +72,7 @@ def checkpoint(tasks: Iterable[Task], program: Program, chains: bool, now: Time,
 
 
 def _is_of(own: Program, program: Program) -> bool:
-    """Whether they are of one ruleset, maybe in different domains."""
+    """Whether both programs are of one ruleset, perhaps in different domains."""
     one, other = own.whole, program.whole
     return one is other or (one.source.text, one.reading) == (other.source.text, other.reading)
 
@@ -101,7 +98,7 @@ def _decision(origin: Origin, context: int, now: Time) -> dict[str, Any]:
 
 
 def may_run_code(task: Task) -> bool:
-    """Whether code may still be started for it, or in its place."""
+    """Whether code may still start for the task or its alternatives."""
     return not task.literal.negated or not task.is_decided
 
 

@@ -1,4 +1,4 @@
-"""Runs code on threads of its own, so that code that does not return holds up no deadline."""
+"""Runs code on threads of its own, so that code that does not return delays no deadline."""
 
 from __future__ import annotations
 
@@ -7,27 +7,13 @@ from collections import deque
 from collections.abc import Callable
 from functools import partial
 from time import monotonic
-from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import SleecError, StillRunning
+from sleec_runtime.timed.clock import Cancel, Report
 from sleec_runtime.timed.failures import call_and_log
 
-if TYPE_CHECKING:
-    from sleec_runtime.timed.clocks import Cancel
-
 OVERLAP = 0.1
-"""Seconds for which a job that has not ended holds up the next one."""
-
-Report = Callable[[SleecError], object]
-"""Is given what is wrong with a job, in any thread: it is still running, or could not be started."""
-
-Execute = Callable[[Callable[[], object], Report], object]
-"""Runs code, and reports code that it cannot run, or that does not return."""
-
-
-def execute_here(call: Callable[[], object], report: Report) -> None:
-    """Runs the code at once, in this thread."""
-    call()
+"""The seconds after which a job that has not ended no longer delays the next one."""
 
 
 class _Job:
@@ -42,12 +28,11 @@ class _Job:
 
 
 class Executor:
-    """Runs jobs one after the other, in the order in which they come, on a thread that lives while there are jobs. When
-    a job has run for `OVERLAP` seconds, the next one begins beside it, on another thread. When it has run for `limit`
-    seconds, it is reported.
+    """Runs jobs in order, on a thread that lives while there are jobs.
 
-    `wake` sets an alarm in seconds of `time.monotonic`. Unlike the executors of the standard library, this one does not
-    keep the program from ending while a job runs.
+    When a job has run for `OVERLAP` seconds, the next one begins on another thread. When it has run for `limit`
+    seconds, it is reported. `wake` sets an alarm, in seconds of `time.monotonic`. Unlike the executors of the standard
+    library, this one lets the program end while a job runs.
     """
 
     def __init__(self, wake: Callable[[float, Callable[[], object]], Cancel], limit: float) -> None:
@@ -56,21 +41,21 @@ class Executor:
         self._lock = threading.RLock()
         self._waiting: deque[_Job] = deque()
         self._current: _Job | None = None
-        """The job that holds up those that wait."""
+        """The job that the waiting jobs wait for."""
         self._threads: set[threading.Thread] = set()
 
     def execute(self, call: Callable[[], object], report: Report) -> None:
-        """Has `call` called soon, and returns at once."""
+        """Arranges that `call` is called soon, and returns at once."""
         with self._lock:
             self._waiting.append(_Job(call, report))
         self._proceed()
 
     def runs_this_thread(self) -> bool:
-        """Whether it is called by a job."""
+        """Whether the current thread runs a job."""
         return threading.current_thread() in self._threads
 
     def _proceed(self) -> None:
-        """Begins the next job if nothing holds it up."""
+        """Begins the next job if no other job delays it."""
         while True:
             with self._lock:
                 job = self._take() if self._current is None else None

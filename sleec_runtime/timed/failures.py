@@ -1,4 +1,4 @@
-"""What went wrong while nobody was calling: reported, and kept."""
+"""Failures of what the clock started: they are reported and kept, because no caller gets them."""
 
 from __future__ import annotations
 
@@ -8,22 +8,20 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
 
 from sleec_runtime.support.messages import listed, represent, text_of
-
-if TYPE_CHECKING:
-    from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.executor import Execute
+from sleec_runtime.timed.clock import Execute, Time
 
 KEPT = 1_000
 
 
 @dataclass(frozen=True)
 class Failure:
-    """What `rule` asked for failed at `time`. `error` is what a callable raised that the clock had started, a
-    StillRunning if it does not return, why the clock could not start it, or a DeadlineMissed. `obligations` are those
-    concerned."""
+    """A failure of `obligations` of `rule`, at `time` in seconds on the clock of the instance.
+
+    `error` is the error of a callable that the clock started, a StillRunning if it does not return, the reason why it
+    could not be started, or a DeadlineMissed.
+    """
 
     time: Time
     rule: str
@@ -36,8 +34,8 @@ class Failure:
 
 
 class Failures:
-    """The last thousand failures. Each is given to `on_error`, by `execute`, or, without it, to the log
-    ``sleec_runtime``. The log also has what goes wrong with `on_error`."""
+    """The last thousand failures. `execute` runs `on_error` for each. Without `on_error`, they go to the log
+    ``sleec_runtime``, as do errors of `on_error`."""
 
     def __init__(self, on_error: Callable[[Failure], object] | None, execute: Execute) -> None:
         self._on_error = on_error
@@ -49,16 +47,16 @@ class Failures:
         self.tell(failure)
 
     def keep(self, failure: Failure) -> None:
-        """Keeps it."""
+        """Keeps the failure."""
         self._kept.append(failure)
 
     def forget(self, failure: Failure) -> None:
-        """Undoes `keep`; nothing happens if it is not kept."""
+        """Undoes `keep`. Ignores a failure that is not kept."""
         with suppress(ValueError):
             self._kept.remove(failure)
 
     def tell(self, failure: Failure) -> None:
-        """Gives it to `on_error`, or to the log."""
+        """Passes the failure to `on_error`, or to the log."""
         self._execute(partial(self._tell, failure), lambda error: log_error("on_error: %s", error))
 
     def _tell(self, failure: Failure) -> None:
@@ -67,31 +65,31 @@ class Failures:
             return
         try:
             self._on_error(failure)
-        except BaseException as error:  # noqa: BLE001 - the clock must go on
+        except BaseException as error:  # noqa: BLE001 - the clock must continue
             log_error("on_error failed at: %s", failure, error)
             raise_interrupt(error)
 
     def kept(self) -> tuple[Failure, ...]:
-        """The oldest first."""
+        """The failures, oldest first."""
         return tuple(self._kept)
 
 
 def raise_interrupt(error: BaseException) -> None:
-    """Raises `error` if it is what Ctrl-C raises, where Ctrl-C raises it: a program must be able to end."""
+    """Raises `error` if it is a KeyboardInterrupt in the main thread: Ctrl-C must end the program."""
     if isinstance(error, KeyboardInterrupt) and threading.current_thread() is threading.main_thread():
         raise error
 
 
 def call_and_log(call: Callable[[], object]) -> None:
-    """Calls `call`, for a thread that must go on: what it raises is logged."""
+    """Calls `call` and logs its errors, for a thread that must continue."""
     try:
         call()
-    except BaseException as error:  # noqa: BLE001 - the thread must go on
+    except BaseException as error:  # noqa: BLE001 - the thread must continue
         log_error("a call by the clock failed: %s", represent(error), error)
 
 
 def log_error(message: str, about: object, error: BaseException | None = None) -> None:
-    """Logs `message` about something, with the traceback of `error`."""
+    """Logs `message` with `about` as its argument, and the traceback of `error`."""
     from logging import getLogger
 
     getLogger("sleec_runtime").error(message, about, exc_info=error)

@@ -1,4 +1,4 @@
-"""What is open, and when the clock is to wake for it: changed as a whole or not at all."""
+"""The ledger: atomic changes of the agenda and of the alarm for its next entry."""
 
 from __future__ import annotations
 
@@ -7,45 +7,43 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from functools import partial
 from itertools import count
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 from sleec_runtime.concurrency.critical_section import CriticalSection
 from sleec_runtime.concurrency.fork import renew_after_fork
 from sleec_runtime.errors import Forked
 from sleec_runtime.timed.agenda import Agenda, Entry
-
-if TYPE_CHECKING:
-    from sleec_runtime.timed.bounds import CheckedClock
-    from sleec_runtime.timed.clocks import Cancel, Time
-    from sleec_runtime.timed.tasks import State, Task
+from sleec_runtime.timed.clock import Cancel, CheckedClock, Time
+from sleec_runtime.timed.task import State, Task
+from sleec_runtime.timed.unit import Unit
 
 T = TypeVar("T")
 
 
-class Act(NamedTuple):
-    """Something to do outside of a change. If it is interrupted and has not `begun`, it is done later."""
+class Action(NamedTuple):
+    """Something to do after a change. If it is interrupted before it has `begun`, it is done later."""
 
     do: Callable[[], object]
     begun: Callable[[], bool]
 
 
 class Ledger:
-    """The agenda, the states of the tasks on it, and the clock that wakes for it: `tick` is called then.
+    """The agenda, the states of its tasks, and the alarm for its next entry, which calls `tick`.
 
-    All of it is changed within `change`, by the methods from `undo_by` to `after`.
+    All of them are changed within `change`, by the methods from `undo_by` to `after`.
     """
 
     def __init__(self, clock: CheckedClock, tick: Callable[[], object]) -> None:
         self.agenda = Agenda()
         self.clock = clock
         self.closed = False
-        self.acts: deque[Act] = deque()
-        """What has been decided to be done, first to last."""
+        self.actions: deque[Action] = deque()
+        """The actions that are decided and not begun, in order."""
         self._tick = tick
         self._section = CriticalSection(partial(self._undo_to, 0))
         self._numbers = count()
         self._undo: list[Callable[[], object]] = []
-        self._new_acts: list[Act] = []
+        self._new_actions: list[Action] = []
         self._woken_at: Time | None = None
         self._cancel: Cancel | None = None
         self._forked = False
@@ -54,25 +52,27 @@ class Ledger:
     # Changes --------------------------------------------------------------------------------------------------
 
     def change(self, make: Callable[[], T]) -> T:
-        """Makes one change, by `make`. If that raises, all is as it was before. No other thread sees part of it. Raises
-        Reentrant within another change, and Forked in a process that was forked while something was pending."""
+        """Makes an atomic change by `make`: no other thread sees a part of it, and an error undoes all of it.
+
+        Raises Reentrant within another change, and Forked in a process that was forked while something was pending.
+        """
         if self._forked:
             raise Forked
         return self._section.run(partial(self._change, make))
 
     def look(self, at: Callable[[], T]) -> T:
-        """As `change`, for what starts nothing: in a forked process, too."""
+        """As `change`, also in a forked process, for a call that starts nothing."""
         return self._section.run(partial(self._change, at))
 
     def _change(self, make: Callable[[], T]) -> T:
-        self._undo, self._new_acts = [], []
+        self._undo, self._new_actions = [], []
         try:
             result = make()
             self._rewake()
-            self.acts.extend(self._new_acts)
+            self.actions.extend(self._new_actions)
         except BaseException:
             self._undo_to(0)
-            with suppress(Exception):  # the clock has failed, and this is what is raised
+            with suppress(Exception):  # the error of the clock is raised instead
                 self._rewake()
             raise
         self._undo = []
@@ -80,10 +80,10 @@ class Ledger:
         return result
 
     def after_fork(self) -> None:
-        """What is pending is up to the process that was forked, and so is what it had decided to do."""
+        """Leaves what is pending, and the decided actions, to the parent process."""
         self._section.after_fork()
         self._forked = self._forked or any(True for _ in self.agenda)
-        self.acts.clear()
+        self.actions.clear()
         self._woken_at = self._cancel = None
 
     def refuse_reentry(self) -> None:
@@ -91,13 +91,13 @@ class Ledger:
         self._section.refuse_reentry()
 
     def attempt(self, make: Callable[[], T]) -> T:
-        """A part of a change, which undoes what it has changed if it raises."""
-        changes, acts = len(self._undo), len(self._new_acts)
+        """A part of a change, which is undone if it raises."""
+        changes, acts = len(self._undo), len(self._new_actions)
         try:
             return make()
         except BaseException:
             self._undo_to(changes)
-            del self._new_acts[acts:]
+            del self._new_actions[acts:]
             raise
 
     def _undo_to(self, changes: int) -> None:
@@ -107,36 +107,36 @@ class Ledger:
     # Within a change ------------------------------------------------------------------------------------------
 
     def undo_by(self, undo: Callable[[], object]) -> None:
-        """Has `undo` called if this change is not made. Call it before the change, so that nothing comes between."""
+        """Calls `undo` if this change fails. To be called before the change, so that nothing comes between."""
         self._undo.append(undo)
 
     def set(self, of: object, attribute: str, value: object) -> None:
-        """Sets an attribute, of a task for example."""
+        """Sets an attribute, for example of a task."""
         self.undo_by(partial(setattr, of, attribute, getattr(of, attribute)))
         setattr(of, attribute, value)
 
     def add(self, task: Task) -> None:
-        """It is open from now on."""
+        """Adds an open task to the agenda."""
         task.number = next(self._numbers)
         self.undo_by(partial(self.agenda.remove, task))
         self.agenda.add(task)
 
     def end(self, task: Task, state: State) -> None:
-        """It is over, and what it is then."""
+        """Ends a task with this state."""
         self.set(task, "state", state)
         if task in self.agenda:
             self.undo_by(partial(self.agenda.add, task))
             self.agenda.remove(task)
 
-    def schedule(self, at: Time, kind: int, tasks: Iterable[Task], decide: Callable[[Time], object]) -> None:
-        """Has `decide` come up at the time `at`, if any of `tasks` is open then; it is given that time."""
-        entry = Entry(at, kind, next(self._numbers), tuple(tasks), decide)
+    def schedule(self, at: Time, kind: int, tasks: Iterable[Task], unit: Unit | None = None) -> None:
+        """Adds a timer event at the time `at`, which counts if one of `tasks` is open then."""
+        entry = Entry(at, kind, next(self._numbers), tuple(tasks), unit)
         self.undo_by(partial(self.agenda.drop, entry))
         self.agenda.insert(entry)
 
     def note(self, name: str, own: Task | None = None) -> tuple[list[Task], list[Task]]:
-        """`name` happens now: the obligations that are done by it, and the prohibitions that it breaks, with nothing in
-        their place."""
+        """`name` happens now. Returns the obligations that it fulfils, and the prohibitions without alternatives that
+        it breaks."""
         now = self.clock.now()
         discharged = [task for task in self.agenda.to_do(name) if task.covers(now)]
         if own is not None and own.at_once and own not in discharged:
@@ -148,64 +148,64 @@ class Ledger:
             self.set(task, "broken", True)
         return discharged, [task for task in broken if task.is_decided]
 
-    def decide_next(self) -> bool:
-        """Decides what has come up first. False if nothing has."""
-        # The alarm that is set may have gone off.
+    def decide_next(self, decide: Callable[[Entry], object]) -> bool:
+        """Takes the first entry whose time has come, and calls `decide` with it. False if there is none."""
+        # The alarm may have gone off.
         self._woken_at = None
         entry = None if self.closed else self.agenda.next_entry()
         if entry is None or entry.at > self.clock.now():
             return False
         self.undo_by(partial(self.agenda.insert, entry))
         self.agenda.drop(entry)
-        entry.decide(entry.at)
+        decide(entry)
         return True
 
     def close(self) -> None:
-        """Nothing comes up any more."""
+        """Stops all timer events."""
         self.closed = True
 
-    def after(self, act: Act) -> None:
-        """Has `act` done once the change is made, outside of it."""
-        self._new_acts.append(act)
+    def after(self, action: Action) -> None:
+        """Does `action` after the change."""
+        self._new_actions.append(action)
 
     def do_next(self) -> bool:
-        """Does what is to be done first, outside of a change; False if there is nothing."""
+        """Does the first action, outside of a change. False if there is none."""
         try:
-            act = self.acts[0]
+            action = self.actions[0]
         except IndexError:
             return False
         try:
-            self.acts.remove(act)
+            self.actions.remove(action)
         except ValueError:  # another thread does it
             return True
         except BaseException:
-            self._put_back(act)
+            self._put_back(action)
             raise
         try:
-            act.do()
+            action.do()
         except BaseException:
-            if not act.begun():
-                self._put_back(act)
+            if not action.begun():
+                self._put_back(action)
             raise
         return True
 
-    def wake_for_acts(self) -> None:
-        """Has the clock wake for what is left to be done."""
-        if self.acts:
+    def wake_for_actions(self) -> None:
+        """Sets an alarm for the remaining actions."""
+        if self.actions:
             self.clock.wake(self.clock.now(), self._tick)
 
-    def _put_back(self, act: Act) -> None:
-        if act not in self.acts:
-            self.acts.appendleft(act)
+    def _put_back(self, action: Action) -> None:
+        if action not in self.actions:
+            self.actions.appendleft(action)
 
     def _rewake(self) -> None:
-        """Has the clock wake for what comes next, if that is not what it wakes for already."""
+        """Sets an alarm for the next entry, unless it is set already."""
         entry = None if self.closed or self._forked else self.agenda.next_entry()
         at = None if entry is None else entry.at
-        # An alarm whose time has come may have been lost: what it called was interrupted before it did anything.
+        # An alarm whose time has come may be lost: its call was interrupted before it did anything.
         if at == self._woken_at and (at is None or at > self.clock.now()):
             return
-        # The new alarm first: one too many does no harm.
+        # The new alarm first: an additional one does no harm.
         cancel, self._cancel = self._cancel, None if at is None else self.clock.wake(at, self._tick)
         self._woken_at = at
         if cancel is not None:

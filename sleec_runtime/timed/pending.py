@@ -1,32 +1,42 @@
-"""What users see of an obligation that is not over yet."""
+"""Pending obligations and prohibitions, as users see them."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
+from sleec_runtime.timed.clock import CheckedClock, Time
+from sleec_runtime.timed.task import State, Task
 from sleec_runtime.timed.wording import window_in_words
 
-if TYPE_CHECKING:
-    from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.scheduler import Timekeeper
-    from sleec_runtime.timed.tasks import State, Task
+
+class Host(Protocol):
+    """What follows the tasks: a `Scheduler`."""
+
+    @property
+    def clock(self) -> CheckedClock:
+        """The clock of the instance."""
+        ...
+
+    def completed(self, name: str, task: Task | None = None) -> object:
+        """`name` is done, for `task`."""
+        ...
 
 
 class Pending:
-    """An obligation with its window, or a prohibition. It follows what becomes of it: `state` changes.
+    """An obligation or prohibition with its window. Its `state` changes over time.
 
-    Two are equal if they are of the same obligation of the same dispatch.
+    Two objects are equal if they belong to the same obligation of the same dispatch.
     """
 
-    __slots__ = ("_keeper", "_task")
+    __slots__ = ("_host", "_task")
 
-    def __init__(self, task: Task, keeper: Timekeeper) -> None:
+    def __init__(self, task: Task, host: Host) -> None:
         self._task = task
-        self._keeper = keeper
+        self._host = host
 
     @property
     def obligation(self) -> str:
-        """What is to be done, or not to be done."""
+        """The name of the obligation, or of what is prohibited."""
         return self._task.name
 
     @property
@@ -36,33 +46,33 @@ class Pending:
 
     @property
     def rule(self) -> str:
-        """The label of the rule that asks for it."""
+        """The label of the rule."""
         return self._task.origin.rule.label
 
     @property
     def start(self) -> Time:
-        """When the window opens, on the clock of the instance."""
+        """The time at which the window opens, in seconds on the clock of the instance."""
         return self._task.first
 
     @property
     def until(self) -> Time | None:
-        """When it closes; None if there is no deadline."""
+        """The time at which the window closes; None if there is no deadline."""
         return self._task.last
 
     @property
     def state(self) -> State:
-        """What has become of it."""
-        return self._task.state_at(self._keeper.clock.now())
+        """Its state: see docs/runtime.md."""
+        return self._task.state_at(self._host.clock.now())
 
     @property
     def is_open(self) -> bool:
-        """Whether it is still to be done, or still forbidden."""
-        return self._task.is_open_at(self._keeper.clock.now())
+        """Whether the obligation is still to be done, or the prohibition still in force."""
+        return self._task.is_open_at(self._host.clock.now())
 
     def completed(self) -> None:
-        """It is done: as ``sleec.completed(obligation)``, for code that has this at hand. Raises as that does, and
-        SleecError for a prohibition."""
-        self._keeper.completed(self._task.name, self._task)
+        """The obligation is done now: as ``sleec.completed(obligation)``. Raises as that does, and SleecError for a
+        prohibition."""
+        self._host.completed(self._task.name, self._task)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Pending) and other._task is self._task
@@ -71,7 +81,7 @@ class Pending:
         return hash(self._task)
 
     def __str__(self) -> str:
-        now = self._keeper.clock.now()
+        now = self._host.clock.now()
         window = f", {window_in_words(self._task, now)}" if self._task.is_open_at(now) else ""
         return f"{self._task.literal} ({self.rule}): {self._task.state_at(now)}{window}"
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import re
 from math import isfinite
-from typing import TYPE_CHECKING, Any, Union
+from typing import Any, Union
 
 from sleec_runtime.model import DIGITS, exact
-
-if TYPE_CHECKING:
-    from sleec_runtime.timed.clocks import Time
+from sleec_runtime.timed.clock import Time
 
 PLAIN = "None, truth values, numbers, texts, or lists and dicts of these"
 

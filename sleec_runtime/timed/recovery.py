@@ -1,29 +1,27 @@
-"""From plain data back to pending obligations: the reverse of `checkpoint`.
+"""Recovery of pending obligations from plain data: the inverse of `checkpoint`.
 
-What an obligation is, and when it is due, is decided again from the rules, the context and the time of its trigger. The
-data say only what of it is open, so they cannot ask for what the rules do not ask for.
+The rules, the context and the time of the trigger decide again what each obligation is and when it is due. The data
+only say which obligations are open, so they cannot add obligations that the rules do not have.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
+from sleec_runtime.dispatch.instance import Instance
 from sleec_runtime.dispatch.program import Program
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import SleecError, SnapshotRefused
 from sleec_runtime.evaluation.evaluation import Decision
 from sleec_runtime.support.messages import represent
-from sleec_runtime.timed.bounds import FURTHEST
 from sleec_runtime.timed.checkpoint import FORMAT, identity, may_run_code
-from sleec_runtime.timed.execution_plan import Unit, composed_units, units_of
+from sleec_runtime.timed.clock import FURTHEST, Time
 from sleec_runtime.timed.plain_data import copied, is_plain, number_from_plain
-from sleec_runtime.timed.tasks import Origin, Path, Task, tasks_of
-
-if TYPE_CHECKING:
-    from sleec_runtime.dispatch.instance import Instance
-    from sleec_runtime.timed.clocks import Time
+from sleec_runtime.timed.response_tasks import tasks_of
+from sleec_runtime.timed.task import Origin, Path, Task
+from sleec_runtime.timed.unit import Unit, composed_units, units_of
 
 
 @dataclass(frozen=True)

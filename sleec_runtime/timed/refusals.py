@@ -1,33 +1,29 @@
-"""What is refused before anything runs, because of what is forbidden, now or until some time."""
+"""Refusals: what is forbidden, now or until some time, is refused before anything runs."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from math import floor
-from typing import TYPE_CHECKING
 
-from sleec_runtime.dispatch.dispatch import refuse_conflict
+from sleec_runtime.dispatch.decisions import refuse_conflict
 from sleec_runtime.errors import Prohibited
 from sleec_runtime.evaluation.evaluation import Decision, Due
 from sleec_runtime.model import Obligation
+from sleec_runtime.timed.agenda import Agenda
+from sleec_runtime.timed.cascade import Stage
+from sleec_runtime.timed.clock import Time
+from sleec_runtime.timed.task import Task
 from sleec_runtime.timed.wording import prohibitions_in_words, window_in_words
-
-if TYPE_CHECKING:
-    from sleec_runtime.timed.agenda import Agenda
-    from sleec_runtime.timed.cascade import Stage
-    from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.tasks import Task
 
 
 def refuse(
     stages: Sequence[Stage], agenda: Agenda, now: Time, events: Sequence[str] = (), settled: bool = False
 ) -> None:
-    """Raises if what `stages` start now, or bring, cannot be.
+    """Raises if the tasks of `stages` contradict each other, a constraint, or a prohibition in force.
 
-    Prohibited: for what a prohibition in force forbids, and for an obligation that is forbidden for the whole of its
-    window. ConflictInContext, and UndeterminedDecision in strict mode: for what cannot be done together now. `events`
-    happen now, besides what is started; if that is `settled`, no prohibition can keep them from it. O(what starts +
-    prohibitions in force), and what the constraints cost.
+    `events` happen now too; if they are `settled`, prohibitions do not refuse them. Raises Prohibited for a task that a
+    prohibition in force forbids now or for its whole window; ConflictInContext, and UndeterminedDecision in strict
+    mode, for tasks that cannot start together. O(starting tasks + prohibitions in force), plus the cost of constraints.
     """
     starting = [task for stage in stages for task in stage.starting(now)]
     for name in (*(() if settled else events), *(task.name for task in starting)):
@@ -52,8 +48,10 @@ def prohibited(
     hint: str = "nothing was executed",
     since: Time | None = None,
 ) -> Prohibited:
-    """The error that says so, with the first whole second at which the prohibitions are over. `since` is the end of one
-    that holds but for the moment at which it is called for."""
+    """The error for a forbidden `name`, with the first whole second at which the prohibitions are over.
+
+    `since` is the end of prohibitions that hold only at the time of their trigger.
+    """
     ends = [since if task.at_once else task.last for task in prohibitions]
     over = None if any(end is None for end in ends) else max(floor(end) + 1 for end in ends if end is not None)
     return Prohibited(message, name, over, hint)
@@ -71,7 +69,7 @@ def _refuse_what_stays_forbidden(stages: Sequence[Stage], agenda: Agenda, now: T
 
 
 def _refuse_if_forbidden(task: Task, prohibitions: Iterable[Task], now: Time) -> None:
-    """Raises Prohibited if one of `prohibitions` leaves no time for `task`, and nothing may come in its place."""
+    """Raises Prohibited if one of `prohibitions` covers the window of `task`, and the task has no alternatives."""
     if not task.is_decided:
         return
     for other in prohibitions:
@@ -82,3 +80,9 @@ def _refuse_if_forbidden(task: Task, prohibitions: Iterable[Task], now: Time) ->
                 task.name,
                 [other],
             )
+
+
+def done_though_forbidden(name: str, prohibitions: Sequence[Task], now: Time) -> Prohibited:
+    """The error for `name`, which was done although `prohibitions` forbid it."""
+    message = f"{name} was done, and {prohibitions_in_words(prohibitions, now)}"
+    return prohibited(message, name, prohibitions, "it was begun before that")

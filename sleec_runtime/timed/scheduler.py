@@ -1,44 +1,44 @@
-"""Keeps the times of rules: what a dispatch decides, checks and brings.
+"""The scheduler of rules with times.
 
-Deciding, checking and noting what is due are one change of the ledger; code runs outside of it. So no two dispatches,
-of triggers or of the clock, ever decide on half of what the other brings.
+A dispatch decides, checks and records what is due in one change of the ledger, and runs code outside of it. So no other
+dispatch, by a trigger or by the clock, ever sees a part of its tasks.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping
-from contextlib import AbstractContextManager, nullcontext
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from sleec_runtime.dispatch.dispatch import one_of
-from sleec_runtime.dispatch.implementations import recording
+from sleec_runtime.dispatch.execution import one_of
+from sleec_runtime.dispatch.instance import Instance
+from sleec_runtime.dispatch.program import Program
+from sleec_runtime.dispatch.recording import recording
+from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import SleecError, SnapshotRefused, UnknownObligation
 from sleec_runtime.evaluation.evaluation import Due
+from sleec_runtime.timed.admission import Admission
 from sleec_runtime.timed.agenda import CLOSES, OPENS
-from sleec_runtime.timed.bounds import CheckedClock
-from sleec_runtime.timed.cascade import called_by
+from sleec_runtime.timed.cascade import triggered_stage
+from sleec_runtime.timed.clock import CheckedClock, Clock, Time
 from sleec_runtime.timed.failures import Failure, Failures
 from sleec_runtime.timed.ledger import Ledger
-from sleec_runtime.timed.lifecycle import Lifecycle, done_though_forbidden
 from sleec_runtime.timed.pending import Pending
-from sleec_runtime.timed.refusals import refuse
-from sleec_runtime.timed.tasks import Task
-from sleec_runtime.timed.timed_dispatch import Run, TimedDone
-
-if TYPE_CHECKING:
-    from sleec_runtime.dispatch.instance import Instance
-    from sleec_runtime.dispatch.monitor import Monitor
-    from sleec_runtime.dispatch.program import Program
-    from sleec_runtime.dispatch.snapshot import Snapshot
-    from sleec_runtime.timed.clocks import Clock, Time
+from sleec_runtime.timed.progress import Progress
+from sleec_runtime.timed.refusals import done_though_forbidden, refuse
+from sleec_runtime.timed.run import Run
+from sleec_runtime.timed.task import Task
+from sleec_runtime.timed.timer_events import TimerEvents
 
 _NO_ARGUMENTS: tuple[tuple[Any, ...], Mapping[str, Any]] = ((), {})
 
 
-class Timekeeper:
-    """All of an instance that has to do with time. `state` gives the context and the code of now. With `chains`, a
-    response is an event: doing it sets off the rules that it is the trigger of."""
+class Scheduler:
+    """Schedules the obligations and prohibitions of an instance.
+
+    `state` returns the current context and code. With `chains`, a response is an event that triggers rules. `on_error`
+    gets each failure of what the clock starts.
+    """
 
     def __init__(
         self,
@@ -53,50 +53,54 @@ class Timekeeper:
         self._chains = chains
         self._restored = False
         self._ledger = Ledger(self.clock, self.tick)
-        self._lifecycle = Lifecycle(state, self._ledger, chains, self.failures, self.clock.execute)
+        self._admission = Admission(state, self._ledger, chains)
+        self._progress = Progress(self._admission, self._ledger)
+        self._events = TimerEvents(self._admission, self._progress, self._ledger, self.failures, self.clock.execute)
 
     # Triggers -------------------------------------------------------------------------------------------------
 
-    def trigger(
-        self, names: tuple[str, ...], args: tuple[Any, ...], kwargs: Mapping[str, Any], monitor: Monitor | None
-    ) -> TimedDone:
-        """`Sleec.trigger`, for one name or several; `monitor` looks at it."""
-        run, snapshot = self._decide(names, args, kwargs)
-        with self._looked_at(names, snapshot, run, monitor):
-            run.go()
-        if run.errors:
-            raise one_of(run.errors)
-        return run.done(names, snapshot, self.view)
+    def decide(
+        self,
+        names: tuple[str, ...],
+        args: tuple[Any, ...],
+        kwargs: Mapping[str, Any],
+        in_loop: bool = False,
+        settled: bool = False,
+    ) -> tuple[Run, Snapshot]:
+        """Decides and checks what the triggers ask for, and puts it on the agenda. Returns the run of its code.
 
-    async def trigger_async(
-        self, names: tuple[str, ...], args: tuple[Any, ...], kwargs: Mapping[str, Any], monitor: Monitor | None
-    ) -> TimedDone:
-        """`Sleec.trigger_async`, for one name or several; `monitor` looks at it."""
-        run, snapshot = self._decide(names, args, kwargs, in_loop=True)
-        with self._looked_at(names, snapshot, run, monitor):
-            await run.go_async()
-        if run.errors:
-            raise one_of(run.errors)
-        return run.done(names, snapshot, self.view)
+        Coroutine functions are refused unless the run is `in_loop`. Prohibitions do not refuse triggers that are
+        `settled`. Raises as `Sleec.trigger`.
+        """
+        return self._ledger.change(partial(self._decide, names, args, kwargs, in_loop, settled))
 
-    def _looked_at(
-        self, names: tuple[str, ...], snapshot: Snapshot, run: Run, monitor: Monitor | None
-    ) -> AbstractContextManager[None]:
-        if monitor is None:
-            return nullcontext()
-        chained: Collection[str] = ()
+    def _decide(
+        self,
+        names: tuple[str, ...],
+        args: tuple[Any, ...],
+        kwargs: Mapping[str, Any],
+        in_loop: bool,
+        settled: bool,
+    ) -> tuple[Run, Snapshot]:
+        moment = self._admission.moment(args, kwargs)
+        stages = self._admission.closure(triggered_stage(names, moment), moment)
+        self._admission.admit(stages, moment.now, in_loop, names if self._chains else (), settled)
         if self._chains:
-            _, instance = self._state()
-            chained = snapshot.program.number_of.keys() - instance.takes_time
-        return monitor.looking(names, snapshot, chained, run.fulfilled)
+            for name in names:
+                self._ledger.note(name)
+        return Run(self._progress, stages, moment.now), moment.snapshot
+
+    def chained_events(self, snapshot: Snapshot) -> Collection[str]:
+        """The obligations that trigger rules when their callables return."""
+        return snapshot.program.number_of.keys() - self._state()[1].takes_time if self._chains else ()
 
     def due(self, names: tuple[str, ...]) -> Due:
-        """`Sleec.due`: the decisions, if nothing refuses them now."""
+        """`Sleec.due`: the decisions. Raises if they are refused now."""
         return self._ledger.change(partial(self._due, names))
 
     def _due(self, names: tuple[str, ...]) -> Due:
-        moment = self._lifecycle.moment()
-        stage = called_by(names, moment, code=False)
+        moment = self._admission.moment()
+        stage = triggered_stage(names, moment, code=False)
         refuse([stage], self._ledger.agenda, moment.now, names if self._chains else ())
         return Due(stage.decisions)
 
@@ -107,11 +111,11 @@ class Timekeeper:
         snapshot, _ = self._state()
         program = snapshot.program
         discharged, broken, waiting, now = self._ledger.change(partial(self._discharge, name, task, program))
-        called = next(iter(discharged or waiting), task)
+        origin = next(iter(discharged or waiting), task)
         if self._chains and name in program.number_of:
-            args, kwargs = _NO_ARGUMENTS if called is None else (called.origin.args, called.origin.kwargs)
-            # That it is forbidden does not undo it, and what it sets off is due all the same.
-            run, _ = self._decide((name,), args, kwargs, settled=True)
+            args, kwargs = _NO_ARGUMENTS if origin is None else (origin.origin.args, origin.origin.kwargs)
+            # A prohibition does not undo it, so the rules that it triggers apply.
+            run, _ = self.decide((name,), args, kwargs, settled=True)
             run.go()
             if run.errors:
                 raise one_of(run.errors)
@@ -128,40 +132,14 @@ class Timekeeper:
         discharged, broken = self._ledger.note(name)
         return discharged, broken, waiting, self.clock.now()
 
-    def _decide(
-        self,
-        names: tuple[str, ...],
-        args: tuple[Any, ...],
-        kwargs: Mapping[str, Any],
-        in_loop: bool = False,
-        settled: bool = False,
-    ) -> tuple[Run, Snapshot]:
-        return self._ledger.change(partial(self._decided, names, args, kwargs, in_loop, settled))
-
-    def _decided(
-        self,
-        names: tuple[str, ...],
-        args: tuple[Any, ...],
-        kwargs: Mapping[str, Any],
-        in_loop: bool,
-        settled: bool,
-    ) -> tuple[Run, Snapshot]:
-        moment = self._lifecycle.moment(args, kwargs)
-        stages = self._lifecycle.closure(called_by(names, moment), moment)
-        run = self._lifecycle.admit(stages, moment.now, in_loop, names if self._chains else (), settled)
-        if self._chains:
-            for name in names:
-                self._ledger.note(name)
-        return run, moment.snapshot
-
-    # What there is --------------------------------------------------------------------------------------------
+    # Pending tasks --------------------------------------------------------------------------------------------
 
     def pending(self) -> tuple[Pending, ...]:
-        """All that is not over, by when it ends."""
+        """All open tasks, by the ends of their windows."""
         return self.view(self._ledger.agenda)
 
     def view(self, tasks: Iterable[Task]) -> tuple[Pending, ...]:
-        """What users see of those of `tasks` that are not over, by when they end."""
+        """The open ones of `tasks` as users see them, by the ends of their windows."""
         still = self._ledger.look(partial(self._still_open, tasks))
         still.sort(key=lambda task: (task.last is None, task.first if task.last is None else task.last))
         return self.view_all(still)
@@ -171,13 +149,13 @@ class Timekeeper:
         return [task for task in tasks if task.is_open_at(now)]
 
     def view_all(self, tasks: Iterable[Task]) -> tuple[Pending, ...]:
-        """What users see of `tasks`."""
+        """The `tasks` as users see them."""
         return tuple(Pending(task, self) for task in tasks)
 
-    # For another process --------------------------------------------------------------------------------------
+    # Snapshots for other processes ------------------------------------------------------------------------------------
 
     def snapshot(self, saved_at: Time) -> dict[str, Any]:
-        """What is pending, as plain data: `Sleec.pending_snapshot`."""
+        """`Sleec.pending_snapshot`."""
         return self._ledger.look(partial(self._checkpoint, saved_at))
 
     def _checkpoint(self, saved_at: Time) -> dict[str, Any]:
@@ -205,25 +183,25 @@ class Timekeeper:
         self._ledger.set(self, "_restored", True)
         for task in recovered.tasks:
             last = task.last
-            self._lifecycle.watch(task)
+            self._admission.watch(task)
             if task.at_once and task.state == "waiting" and task.unit is None and last is not None:
-                # The moment at which it was due has passed.
+                # The time at which it was due has passed.
                 task.last = last
-                self._ledger.schedule(last, CLOSES, (task,), partial(self._lifecycle.starts.close, task))
+                self._ledger.schedule(last, CLOSES, (task,))
         for unit in recovered.units:
-            self._ledger.schedule(unit.at, OPENS, unit.tasks, partial(self._lifecycle.starts.open, unit))
+            self._ledger.schedule(unit.at, OPENS, unit.tasks, unit)
         for task in recovered.tasks:
             if task.otherwise is not None and not task.literal.negated and task.last is not None and task.last < now:
-                self._lifecycle.starts.miss(task)
+                self._events.miss(task)
         for label, name in recovered.left_out:
             lost = SnapshotRefused(f"{name} was pending under rules that had been replaced, and is not restored")
-            self._lifecycle.starts.report(Failure(now, label, (name,), lost))
+            self._events.report(Failure(now, label, (name,), lost))
 
     def tick(self) -> None:
-        """Starts and ends all that is due by now. The monitor of a dispatch that calls this does not look at it."""
+        """Handles all timer events up to now. A monitor of the calling dispatch does not see them."""
         with recording(apart=True):
-            self._lifecycle.starts.tick()
+            self._events.tick()
 
     def close(self) -> None:
-        """Nothing is watched any more. What runs, runs on."""
+        """Stops all timer events. Running code continues."""
         self._ledger.look(self._ledger.close)

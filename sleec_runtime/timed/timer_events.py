@@ -1,4 +1,4 @@
-"""What the clock starts and ends."""
+"""Timer events: what happens when windows open and close."""
 
 from __future__ import annotations
 
@@ -9,50 +9,56 @@ from math import floor
 from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import DeadlineMissed, Prohibited, Reentrant
-from sleec_runtime.timed.agenda import CLOSES
-from sleec_runtime.timed.cascade import Moment, Stage, in_place_of, opened
+from sleec_runtime.timed.admission import Admission
+from sleec_runtime.timed.agenda import ENDS, Entry
+from sleec_runtime.timed.cascade import Moment, Stage, alternative_stage, opening_stage
+from sleec_runtime.timed.clock import Execute, Time
 from sleec_runtime.timed.failures import Failure, Failures, raise_interrupt
-from sleec_runtime.timed.instants import Instant
-from sleec_runtime.timed.ledger import Act, Ledger
+from sleec_runtime.timed.ledger import Action, Ledger
+from sleec_runtime.timed.progress import Progress
+from sleec_runtime.timed.run import Run
+from sleec_runtime.timed.simultaneous_starts import SimultaneousStarts
+from sleec_runtime.timed.task import Task
 from sleec_runtime.timed.wording import duration_in_words
 
 if TYPE_CHECKING:
     from asyncio import AbstractEventLoop
 
-    from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.execution_plan import Unit
-    from sleec_runtime.timed.executor import Execute
-    from sleec_runtime.timed.lifecycle import Lifecycle
-    from sleec_runtime.timed.tasks import Task
-    from sleec_runtime.timed.timed_dispatch import Run
 
+class TimerEvents:
+    """Starts what is due when a window opens, and the alternatives when a window closes unfulfilled. `execute` runs the
+    code.
 
-class Starts:
-    """Starts, by `execute`, what opens, and what is due because something closes undone. What goes wrong is reported to
-    `failures`, and not raised: only a KeyboardInterrupt in the main thread is both."""
+    Errors are reported to `failures` and not raised, except a KeyboardInterrupt in the main thread, which is both.
+    """
 
-    def __init__(self, lifecycle: Lifecycle, ledger: Ledger, failures: Failures, execute: Execute) -> None:
-        self._lifecycle = lifecycle
+    def __init__(
+        self, admission: Admission, progress: Progress, ledger: Ledger, failures: Failures, execute: Execute
+    ) -> None:
+        self._admission = admission
+        self._progress = progress
         self._ledger = ledger
         self._failures = failures
         self._execute = execute
-        self._instant = Instant(ledger.clock.now())
+        self._simultaneous = SimultaneousStarts(ledger.clock.now())
         self._running: set[object] = set()
 
     def tick(self) -> None:
-        """Starts and ends all that is due by now. Raises Reentrant within a change."""
+        """Handles all timer events up to now. Raises Reentrant within a change."""
         self._ledger.refuse_reentry()
         try:
             self._serve()
         except BaseException:
-            self._ledger.wake_for_acts()
+            self._ledger.wake_for_actions()
             raise
 
     def _serve(self) -> None:
         interrupt = None
         while True:
             try:
-                if not self._ledger.do_next() and not self._ledger.change(self._ledger.decide_next):
+                if not self._ledger.do_next() and not self._ledger.change(
+                    partial(self._ledger.decide_next, self._decide)
+                ):
                     break
             except KeyboardInterrupt as error:
                 interrupt = error
@@ -61,12 +67,21 @@ class Starts:
 
     # Decisions, within a change of the ledger -----------------------------------------------------------------
 
-    def open(self, unit: Unit, at: Time) -> None:
-        """Its window opens."""
-        self._start(opened(unit, self._lifecycle.moment().snapshot), unit.tasks, at)
+    def _decide(self, entry: Entry) -> None:
+        if entry.unit is not None:
+            stage = opening_stage(entry.unit, self._admission.moment().snapshot)
+            self._start(stage, entry.unit.tasks, entry.at)
+            return
+        (task,) = entry.tasks
+        if entry.kind == ENDS:
+            self._ledger.end(task, "over")
+        elif task.literal.negated:
+            self._close_prohibition(task, entry.at)
+        else:
+            self._close(task, entry.at)
 
-    def close(self, task: Task, at: Time) -> None:
-        """Its window closes, and it is not done."""
+    def _close(self, task: Task, at: Time) -> None:
+        """The window of an unfulfilled obligation closes."""
         alternatives = task.otherwise
         if alternatives is None and task.instead is not None and self._still_possible(task.instead):
             alternatives = task.instead
@@ -74,20 +89,20 @@ class Starts:
         if alternatives is None:
             self.miss(task)
         elif alternatives:
-            self._start(in_place_of(task, alternatives, self._lifecycle.moment().snapshot), alternatives, at)
+            self._start_alternatives(task, alternatives, at)
 
     def miss(self, task: Task) -> None:
-        """Reports that its window has closed, and it is not done."""
-        assert task.last is not None, "what has no end does not close"
+        """Reports that the window of an unfulfilled obligation has closed."""
+        assert task.last is not None, "a window without an end does not close"
         length = duration_in_words(task.last - task.origin.moment)
         message = f"{task.name} was not done within {length} of the trigger of rule {task.origin.rule.label}"
         self.report(self._failure((task,), DeadlineMissed(message, task.name, task.last)))
 
     def report(self, failure: Failure) -> None:
-        """Keeps `failure`, and has it told once the change is made."""
+        """Keeps `failure`, and reports it after the change."""
         self._ledger.undo_by(partial(self._failures.forget, failure))
         self._failures.keep(failure)
-        self._ledger.after(Act(partial(self._failures.tell, failure), lambda: True))
+        self._ledger.after(Action(partial(self._failures.tell, failure), lambda: True))
 
     def _still_possible(self, tasks: Iterable[Task]) -> bool:
         now = self._ledger.clock.now()
@@ -95,40 +110,40 @@ class Starts:
             not task.literal.negated and not task.at_once and (task.last is None or task.last >= now) for task in tasks
         )
 
-    def close_prohibition(self, task: Task, at: Time) -> None:
-        """Its window closes. It forbids to the end of that moment, and is then over."""
-        assert task.last is not None, "what has no end does not close"
-        self._ledger.schedule(floor(task.last) + 1, CLOSES, (task,), partial(self._end, task))
+    def _close_prohibition(self, task: Task, at: Time) -> None:
+        """The window of a prohibition closes. It stays in force to the end of that second, and then ends."""
+        assert task.last is not None, "a window without an end does not close"
+        self._ledger.schedule(floor(task.last) + 1, ENDS, (task,))
         alternatives = task.otherwise if task.otherwise is not None else task.instead
         broken = task.broken
         self._ledger.set(task, "broken", False)
         if broken and alternatives:
-            self._start(in_place_of(task, alternatives, self._lifecycle.moment().snapshot), alternatives, at)
+            self._start_alternatives(task, alternatives, at)
 
-    def _end(self, task: Task, at: Time) -> None:
-        self._ledger.end(task, "over")
+    def _start_alternatives(self, task: Task, alternatives: tuple[Task, ...], at: Time) -> None:
+        self._start(alternative_stage(task, alternatives, self._admission.moment().snapshot), alternatives, at)
 
     def _start(self, stage: Stage, tasks: Sequence[Task], at: Time) -> None:
-        """Starts what is due now. What is forbidden now is started once it no longer is, if its window lasts."""
+        """Starts what is due now. What is forbidden now starts when it no longer is, if its window still lasts."""
         loop = _running_loop()
         try:
             run = self._ledger.attempt(partial(self._admit_when_allowed, stage, at, in_loop=loop is not None))
         except Reentrant:
-            # Raised by a signal handler, which has nothing to do with what is due.
+            # Raised by a signal handler, not by the start.
             raise
         except Exception as error:  # noqa: BLE001 - reported
             self._give_up(tasks, error, at)
             return
         if run is None:
             return
-        if loop is not None and run.asynchronous:
+        if loop is not None and run.needs_loop:
             start: Callable[[], object] = partial(self._spawn, loop, run, stage)
         else:
             start = partial(self._execute, partial(self._go, run, stage), partial(self._fail, stage.tasks))
-        self._ledger.after(Act(start, lambda: run.begun))
+        self._ledger.after(Action(start, lambda: run.begun))
 
     def _admit_when_allowed(self, stage: Stage, at: Time, in_loop: bool) -> Run | None:
-        moment = self._lifecycle.moment()
+        moment = self._admission.moment()
         try:
             return self._ledger.attempt(partial(self._admit, stage, moment, at, in_loop))
         except Prohibited as refusal:
@@ -138,20 +153,20 @@ class Starts:
                 raise
             for unit in late:
                 self._ledger.set(unit, "at", again)
-            # With nothing that starts now, only what it forbids itself can be refused.
+            # Nothing starts now, so only the prohibitions of the stage itself can be refused.
             self._admit(stage, moment, at, in_loop)
             return None
 
     def _admit(self, stage: Stage, moment: Moment, at: Time, in_loop: bool) -> Run:
-        instant = self._instant if self._instant.at == at else Instant(at)
-        stages = self._lifecycle.closure(stage, moment)
-        instant.refuse(stages, moment.now)
-        run = self._lifecycle.admit(stages, moment.now, in_loop)
-        self._ledger.set(self, "_instant", instant.with_started(stages, moment.now))
-        return run
+        simultaneous = self._simultaneous if self._simultaneous.at == at else SimultaneousStarts(at)
+        stages = self._admission.closure(stage, moment)
+        simultaneous.refuse(stages, moment.now)
+        self._admission.admit(stages, moment.now, in_loop)
+        self._ledger.set(self, "_simultaneous", simultaneous.with_started(stages, moment.now))
+        return Run(self._progress, stages, moment.now)
 
     def _give_up(self, tasks: Sequence[Task], error: Exception, at: Time) -> None:
-        """What was to be started now is not. What has a window stays due until that closes."""
+        """Reports tasks that cannot start. Those with a window stay due until it closes."""
         self.report(self._failure(tasks, error))
         for task in tasks:
             watched = task in self._ledger.agenda.to_do(task.name)
@@ -161,9 +176,9 @@ class Starts:
             alternatives = task.otherwise if task.at_once and watched else None
             self._ledger.end(task, "missed" if alternatives is None else "replaced")
             if alternatives:
-                self._start(in_place_of(task, alternatives, self._lifecycle.moment().snapshot), alternatives, at)
+                self._start_alternatives(task, alternatives, at)
 
-    # Acts, outside of it --------------------------------------------------------------------------------------
+    # Actions, outside of a change -------------------------------------------------------------------------------------
 
     def _go(self, run: Run, stage: Stage) -> None:
         try:
@@ -185,7 +200,7 @@ class Starts:
 
     def _spawn(self, loop: AbstractEventLoop, run: Run, stage: Stage) -> None:
         task = loop.create_task(self._finish(run, stage))
-        # The loop itself holds its tasks but weakly.
+        # The loop holds only weak references to its tasks.
         self._running.add(task)
         task.add_done_callback(self._running.discard)
 
@@ -204,7 +219,7 @@ class Starts:
 
 
 def _running_loop() -> AbstractEventLoop | None:
-    """The event loop of this thread, if one is running; asyncio is not imported to find that there is none."""
+    """The running event loop of this thread, if there is one. It does not import asyncio."""
     asyncio = sys.modules.get("asyncio")
     if asyncio is None:
         return None

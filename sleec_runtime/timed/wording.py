@@ -1,15 +1,12 @@
-"""Windows and prohibitions in words, by the time that is left. The readings of a clock mean nothing to people."""
+"""Windows and prohibitions in messages: as the time that is left, because times of a clock mean nothing to people."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from sleec_runtime.support.messages import listed
-
-if TYPE_CHECKING:
-    from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.tasks import Task
+from sleec_runtime.timed.clock import Time
+from sleec_runtime.timed.task import Task
 
 
 def duration_in_words(length: Time, more: str = "") -> str:

@@ -7,7 +7,8 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from typing import Any, Protocol, runtime_checkable
 
-from sleec_runtime.dispatch.implementations import recording, watched
+from sleec_runtime.dispatch.implementations import watched
+from sleec_runtime.dispatch.recording import recording
 from sleec_runtime.errors import NeedsAwait, SleecError
 from sleec_runtime.model import Context, Reading, Ruleset, Value
 from sleec_verify.conformance.oracle import Oracle

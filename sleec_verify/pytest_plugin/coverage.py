@@ -9,10 +9,12 @@ import os
 import pickle
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from functools import partial
 
-from sleec_runtime.dispatch import dispatch, monitor, runtime
+from sleec_runtime.dispatch.plan import Plan
+from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.evaluation.evaluation import holds
+from sleec_runtime.facade.dispatcher import ImmediateDispatcher
 from sleec_runtime.model import Atom, Comparison, Rule, Ruleset
 from sleec_verify.conformance.cases.goals import conditions_of
 from sleec_verify.results.finding import ClauseRef
@@ -71,9 +73,19 @@ class ClauseCoverage:
         self._undo: list[Callable[[], None]] = []
 
     def start(self) -> None:
-        for module in (runtime, monitor):
-            self._wrap(module, "run", dispatch.run)
-            self._wrap(module, "run_async", dispatch.run_async)
+        original = ImmediateDispatcher.plan
+
+        def noted(dispatcher: ImmediateDispatcher, snapshot: Snapshot, names: tuple[str, ...]) -> Plan:
+            plan = original(dispatcher, snapshot, names)
+            self.note(plan, snapshot)
+            return plan
+
+        self._replace(noted)
+        self._undo.append(partial(self._replace, original))
+
+    @staticmethod
+    def _replace(plan: Callable[..., Plan]) -> None:
+        ImmediateDispatcher.plan = plan  # type: ignore[method-assign]
 
     def stop(self) -> None:
         for undo in self._undo:
@@ -103,7 +115,7 @@ class ClauseCoverage:
         for covered in pickle.loads(packed):
             self.about(covered.ruleset).add(covered)
 
-    def note(self, plan: dispatch.Plan, snapshot: Any) -> None:
+    def note(self, plan: Plan, snapshot: Snapshot) -> None:
         if _paused:
             return
         program = snapshot.program
@@ -116,14 +128,6 @@ class ClauseCoverage:
                 for rule in program.cells[program.number_of[trigger]]:
                     vector = tuple(holds(leaf, context, program.measures) for leaf in conditions_of(rule))
                     covered.vectors.setdefault(rule.label, {})[vector] = deciding.get(rule.label)
-
-    def _wrap(self, module: Any, name: str, original: Callable[..., Any]) -> None:
-        def noted(plan: dispatch.Plan, snapshot: Any, *rest: Any) -> Any:
-            self.note(plan, snapshot)
-            return original(plan, snapshot, *rest)
-
-        setattr(module, name, noted)
-        self._undo.append(lambda: setattr(module, name, original))
 
 
 def _same(one: Ruleset, other: Ruleset) -> bool:

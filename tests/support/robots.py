@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextpy3 as cop
 
 from sleec_runtime import Sleec
-from sleec_runtime.dispatch.implementations import recorded
+from sleec_runtime.dispatch.recording import recorded
 from sleec_runtime.language import parse
 from sleec_runtime.model import Clause, Ruleset
 

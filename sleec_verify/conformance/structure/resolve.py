@@ -41,10 +41,10 @@ from sleec_verify.conformance.structure.values import (
     Value,
 )
 
-_RUNTIME = {"sleec_runtime.load", "sleec_runtime.Sleec", "sleec_runtime.dispatch.runtime.Sleec"}
+_RUNTIME = {"sleec_runtime.load", "sleec_runtime.Sleec", "sleec_runtime.facade.sleec.Sleec"}
 _OBLIGATION = {
     f"sleec_runtime.{name}"
-    for name in ("obligation", "dispatch.implementations.obligation", "dispatch.implementations.recorded")
+    for name in ("obligation", "dispatch.implementations.obligation", "dispatch.recording.recorded")
 }
 _CONTEXTPY3 = (
     "Layer", "active_layer", "active_layers", "inactive_layer", "inactive_layers", "proceed", "before", "after",

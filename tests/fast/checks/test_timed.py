@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from sleec_runtime.dispatch.runtime import Sleec
 from sleec_runtime.errors import UnsupportedTimes
+from sleec_runtime.facade.sleec import Sleec
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
 from sleec_verify.checks import CHECKS, run_checks

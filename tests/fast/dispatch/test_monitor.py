@@ -12,9 +12,9 @@ import pytest
 
 import sleec_runtime
 from sleec_runtime import Monitor, Sleec, recording
-from sleec_runtime.dispatch.monitor import Difference
 from sleec_runtime.errors import NeedsAwait, SleecError, Unbindable, WrongArguments
 from sleec_runtime.language import parse
+from sleec_runtime.monitor.difference import Difference
 from tests.support.robots import CURTAINS, listing_2, running
 
 RULES = "RULE r1 WHEN a THEN Open AND Say UNLESS c IN WHICH CASE (Ask AND NOT Open)\nRULE r2 WHEN b THEN Wait"

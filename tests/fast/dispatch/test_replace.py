@@ -6,7 +6,10 @@ import pytest
 
 import sleec_runtime
 from sleec_runtime import Sleec, errors
-from sleec_runtime.dispatch.dispatch import plan, run
+from sleec_runtime.dispatch.execution import plan, run
+from sleec_runtime.dispatch.instance import Instance
+from sleec_runtime.dispatch.program import Program
+from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.language import parse
 from tests.support.robots import CURTAINS, Log, listing_2, running
 
@@ -97,14 +100,16 @@ def test_new_rules_come_with_their_code() -> None:
 
 def test_a_late_plan_of_the_old_rules_leaves_nothing_to_the_new_ones() -> None:
     """A thread may have read the old context, and make its plan when the new rules are in force."""
-    sleec = running("RULE r1 WHEN a THEN First")
     log = Log()
-    sleec.implement({"First": lambda: log.do("First")})
-    old = sleec._snapshot
-    sleec.replace(parse("RULE r1 WHEN a THEN Second"), implement={"Second": lambda: log.do("Second")})
-    run(plan(old, ("a",), sleec._instance), old, (), {})
-    sleec.trigger("a")
-    assert log.taken() == ["First", "Second"]
+    old, new = (Snapshot.first(Program(parse(f"RULE r1 WHEN a THEN {name}")), {}) for name in ("First", "Second"))
+    code = Instance(old.program.whole)
+    code.admit(new.program.whole)
+    code.implement(
+        {name: lambda name=name: log.do(name) for name in ("First", "Second")}, frozenset({"First", "Second"})
+    )
+    for snapshot in (old, new, old):
+        run(plan(snapshot, ("a",), code), (), {})
+    assert log.taken() == ["First", "Second", "First"]
 
 
 def test_what_had_no_code_before_may_stay_without() -> None:

@@ -10,8 +10,8 @@ from collections.abc import Callable
 import pytest
 
 from sleec_runtime import Monitor, Sleec, VirtualClock, obligation
-from sleec_runtime.dispatch.monitor import Difference
 from sleec_runtime.language import parse
+from sleec_runtime.monitor.difference import Difference
 
 RULES = """
 RULE first WHEN A THEN First

@@ -21,7 +21,8 @@ import sleec_runtime
 from sleec_runtime import Monitor, Sleec, VirtualClock, errors, obligation
 from sleec_runtime.concurrency.critical_section import CriticalSection
 from sleec_runtime.language import parse
-from sleec_runtime.timed.ledger import Act
+from sleec_runtime.timed.clock import CheckedClock
+from sleec_runtime.timed.ledger import Action, Ledger
 
 RUNTIME = str(Path(sleec_runtime.__file__).parent) + os.sep
 
@@ -379,8 +380,7 @@ def test_what_is_decided_and_not_done_is_done_when_the_clock_wakes_next():
         clock.time = 2
         if not raises_at(number, robot.sleec.tick):
             break
-        assert robot.sleec._times is not None
-        if robot.sleec._times._ledger.acts:
+        if "A" not in robot.log + robot.told:
             left += 1
             clock.call()
             assert "A" in robot.log + robot.told, number
@@ -461,7 +461,7 @@ def test_an_error_between_any_two_steps_of_a_change_leaves_all_of_it_or_nothing(
 
 
 def behaviour(robot: Robot) -> object:
-    bound = "a" in {rule.label for rule in robot.sleec.ruleset.rules} and robot.sleec._instance.has_method("a")
+    bound = "a" in {rule.label for rule in robot.sleec.ruleset.rules} and bool(robot.sleec.bound_objects())
     robot.sleec.trigger("T2")
     return bound, robot.log, dict(robot.sleec.conditions), robot.sleec.ruleset.source.text, robot.asked()
 
@@ -470,9 +470,7 @@ def behaviour(robot: Robot) -> object:
 
 
 def test_an_act_that_another_thread_does_is_not_done_twice():
-    robot = Robot()
-    assert robot.sleec._times is not None
-    ledger = robot.sleec._times._ledger
+    ledger = Ledger(CheckedClock(VirtualClock()), lambda: None)
 
     class Contested(deque):  # type: ignore[type-arg]
         """Between looking at the first and taking it, another thread takes it."""
@@ -482,7 +480,7 @@ def test_an_act_that_another_thread_does_is_not_done_twice():
             super().remove(act)
 
     done: list[str] = []
-    ledger.acts = Contested([Act(lambda: done.append("done"), lambda: True)])
+    ledger.actions = Contested([Action(lambda: done.append("done"), lambda: True)])
     assert ledger.do_next()
     assert not ledger.do_next()
     assert done == []

@@ -12,6 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sleec_runtime import Sleec
+from sleec_runtime.dispatch.decisions import cell_of
+from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import NotEnforced, SnapshotRefused
 from sleec_runtime.evaluation.evaluation import Decision
 from sleec_runtime.language import parse
@@ -74,10 +76,12 @@ def test_dispatches_agree_with_brute_force(data: st.DataObject) -> None:
     sleec.update(dict(context.conditions))
     expected = [(label, number) for label, number, _ in brute.active_clauses(ruleset, context)]
     assert [(d.rule.label, d.clause) for d in sleec.due(*context.triggers).decisions] == expected
+    taken: list[Snapshot] = []
+    sleec.hold(taken.append)
     for trigger in context.triggers:
         alone = brute.active_clauses(ruleset, type(context)(frozenset({trigger}), context.conditions))
         outcomes = [(label, number) for label, number, _ in alone]
-        cell = sleec._snapshot.cell(sleec._snapshot.program.number_of[trigger])
+        cell = cell_of(taken[0], trigger)
         assert [(o.rule.label, o.clause) for o in cell.outcomes if isinstance(o, Decision)] == outcomes
 
 

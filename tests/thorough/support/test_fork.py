@@ -20,6 +20,7 @@ from sleec_runtime import MonotonicClock, PolledClock, Sleec, VirtualClock, erro
 from sleec_runtime.concurrency import fork as forks
 from sleec_runtime.concurrency.critical_section import CriticalSection
 from sleec_runtime.language import parse
+from sleec_runtime.timed.executor import Executor
 from tests.support.paths import ROOT
 
 ISSUE = """
@@ -195,7 +196,7 @@ def test_what_is_renewed_is_what_still_exists():
     del other
     robot = Robot(clock=VirtualClock())
     robot.sleec.trigger("T2")
-    forks._renew()
+    forks.renew()
     assert renewed == ["renewed"]
     with pytest.raises(errors.Forked, match="load the rules anew in this process"):
         robot.sleec.trigger("T1")
@@ -291,13 +292,16 @@ def test_a_trigger_under_way_in_another_thread_is_that_of_the_other_process():
     assert [one.obligation for one in robot.sleec.pending()] == ["A"]
 
 
-@pytest.mark.parametrize("lock", ["_changed", "_executor._lock"])
-def test_a_lock_of_the_clock_that_another_thread_holds(lock):
+@pytest.mark.parametrize("of_executor", [False, True])
+def test_a_lock_of_the_clock_that_another_thread_holds(of_executor):
     clock = MonotonicClock()
     robot = Robot(clock=clock)
-    held: Any = clock
-    for name in lock.split("."):
-        held = getattr(held, name)
+    holder: Any = clock
+    if of_executor:
+        (holder,) = (value for value in vars(clock).values() if isinstance(value, Executor))
+    (held,) = (
+        value for value in vars(holder).values() if isinstance(value, (threading.Condition, type(threading.RLock())))
+    )
 
     def hold(pause: Callable[[], object]) -> None:
         with held:

@@ -18,9 +18,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sleec_runtime import Monitor, MonotonicClock, Sensors, Sleec, VirtualClock, errors, obligation
-from sleec_runtime.dispatch.monitor import Difference
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context, Source, Span, exact
+from sleec_runtime.monitor.difference import Difference
 from sleec_runtime.predicates import Direct, Fuzzy, Scale, Threshold, trapezoid
 from sleec_runtime.support.messages import LONGEST, represent, text_of
 from sleec_runtime.timed.failures import Failure

@@ -278,7 +278,10 @@ def test_an_alarm_that_comes_after_the_job_does_nothing():
     told: list[object] = []
     began, go_on = threading.Event(), threading.Event()
 
+    threads: list[threading.Thread] = []
+
     def job() -> None:
+        threads.append(threading.current_thread())
         began.set()
         go_on.wait(PATIENCE)
 
@@ -287,8 +290,8 @@ def test_an_alarm_that_comes_after_the_job_does_nothing():
     alarms.calls[-1]()
     assert len(alarms.calls) == 2, "the job may run until its limit"
     go_on.set()
-    while one._threads:
-        time.sleep(0.001)
+    threads[0].join(PATIENCE)
+    assert not threads[0].is_alive()
     for call in tuple(alarms.calls):
         call()
     assert told == []

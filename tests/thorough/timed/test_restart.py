@@ -14,6 +14,7 @@ import contextpy3 as cop
 import pytest
 
 from sleec_runtime import Sleec, VirtualClock, errors, obligation
+from sleec_runtime.concurrency.critical_section import CriticalSection
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset
 from tests.thorough.timed.test_times_random import STEPS, World
@@ -291,25 +292,6 @@ def test_what_follows_from_an_event_that_has_not_happened_is_not_due() -> None:
     assert other.taken() == ["Y"]
 
 
-class Freed:
-    """A lock that calls `freed` whenever another thread could get it."""
-
-    def __init__(self, lock: Any, freed: Callable[[], object]) -> None:
-        self.lock, self.freed, self.depth = lock, freed, 0
-
-    def __enter__(self) -> None:
-        self.lock.__enter__()
-        self.depth += 1
-
-    def __exit__(self, *error: object) -> None:
-        self.depth -= 1
-        self.lock.__exit__(*error)
-        if self.depth == 0:
-            freed, self.freed = self.freed, lambda: None
-            freed()
-            self.freed = freed
-
-
 CHAINS = {
     "otherwise": "RULE a WHEN A THEN X WITHIN 2 seconds OTHERWISE Y WITHIN 2 seconds OTHERWISE Z",
     "else": "RULE a WHEN A THEN X WITHIN 2 seconds ELSE Y WITHIN 5 seconds ELSE Z WITHIN 9 seconds",
@@ -319,22 +301,32 @@ CHAINS = {
 
 
 @pytest.mark.parametrize("name", CHAINS)
-def test_whenever_a_snapshot_can_be_taken_something_of_a_chain_is_pending_until_it_ends(name: str) -> None:
+def test_whenever_a_snapshot_can_be_taken_something_of_a_chain_is_pending_until_it_ends(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     robot = Robot(CHAINS[name], slow=("X", "Y") if name == "otherwise" else ("X",))
     robot.broken |= {"Y"} if name == "else" else set()
     robot.sleec.trigger("A")
-    times = robot.sleec._times
-    assert times is not None
     last = sorted(robot.sleec.ruleset.obligations)[-1]
     seen: list[tuple[str, ...]] = []
 
-    def freed() -> None:
-        names = tuple(one["obligation"] for one in robot.saved()["pending"])
-        seen.append(names)
-        assert len(names) == (last not in [entry[0] for entry in robot.log] or last in names)
+    run = CriticalSection.run
+    depth = 0
 
-    section = times._ledger._section
-    section._lock = Freed(section._lock, freed)  # type: ignore[assignment]
+    def run_and_look(section: CriticalSection, change: Callable[[], Any]) -> Any:
+        """Takes a snapshot after each change, when another thread could."""
+        nonlocal depth
+        depth += 1
+        try:
+            return run(section, change)
+        finally:
+            if depth == 1:
+                names = tuple(one["obligation"] for one in robot.saved()["pending"])
+                seen.append(names)
+                assert len(names) == (last not in [entry[0] for entry in robot.log] or last in names)
+            depth -= 1
+
+    monkeypatch.setattr(CriticalSection, "run", run_and_look)
     robot.clock.advance(60)
     assert {("X",), ("Y",), ()} <= set(seen)
     assert robot.taken()[-1] == last

@@ -33,12 +33,12 @@ def test_generated_robots(path: Path) -> None:
     rules = load(path)
     robot = HEAD + "from rules import sleec\n" + robots.robot_source(rules)
     log = source_of(robots.Log)
-    assert kinds(rules, robots="from sleec_runtime.dispatch.implementations import recorded\n" + log, robot=robot) == []
+    assert kinds(rules, robots="from sleec_runtime.dispatch.recording import recorded\n" + log, robot=robot) == []
 
 
 def test_listing_2_of_the_instance_tests() -> None:
     robot = HEAD + source_of(test_instance.curtain_class)
-    log = "from sleec_runtime.dispatch.implementations import recorded\n" + source_of(robots.Log)
+    log = "from sleec_runtime.dispatch.recording import recorded\n" + source_of(robots.Log)
     assert kinds(robots.CURTAINS, robots=log, robot=robot) == []
 
 

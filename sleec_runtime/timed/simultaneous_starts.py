@@ -1,22 +1,19 @@
-"""What the clock has started at one nominal time. It comes one after the other, and happens at once all the same."""
+"""Timer events with the same time: they run one after the other, but count as simultaneous."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
+from sleec_runtime.timed.cascade import Stage
+from sleec_runtime.timed.clock import Time
 from sleec_runtime.timed.refusals import prohibited
+from sleec_runtime.timed.task import Task
 from sleec_runtime.timed.wording import prohibitions_in_words
 
-if TYPE_CHECKING:
-    from sleec_runtime.timed.cascade import Stage
-    from sleec_runtime.timed.clocks import Time
-    from sleec_runtime.timed.tasks import Task
 
-
-class Instant:
-    """The time `at` at which something was to start or to end, with what was done, and what came to be forbidden.
+class SimultaneousStarts:
+    """The obligations that were done, and the prohibitions that came into force, at the time `at` of timer events.
     Immutable."""
 
     def __init__(
@@ -27,7 +24,7 @@ class Instant:
         self._forbidden = forbidden
 
     def refuse(self, stages: Sequence[Stage], now: Time) -> None:
-        """Raises Prohibited if `stages` do what has been forbidden at this time, or forbid what has been done."""
+        """Raises Prohibited if `stages` do what was forbidden at this time, or forbid what was done at this time."""
         for task in self._starting(stages, now):
             if task.name in self._forbidden:
                 by = self._forbidden[task.name]
@@ -38,11 +35,11 @@ class Instant:
                 message = f"{task.name} was done at this moment, and {prohibitions_in_words([task], now)}"
                 raise prohibited(message, task.name, [task], since=self.at)
 
-    def with_started(self, stages: Sequence[Stage], now: Time) -> Instant:
-        """The same, with `stages` started now."""
+    def with_started(self, stages: Sequence[Stage], now: Time) -> SimultaneousStarts:
+        """The same, after `stages` have started."""
         done = {t.name for t in self._starting(stages, now) if t.name not in t.origin.instance.takes_time}
         forbidden = {task.name: task for task in self._forbidding(stages, now)}
-        return Instant(self.at, self._done | done, {**self._forbidden, **forbidden})
+        return SimultaneousStarts(self.at, self._done | done, {**self._forbidden, **forbidden})
 
     @staticmethod
     def _starting(stages: Sequence[Stage], now: Time) -> list[Task]:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from sleec_runtime.certificate.coverage import Demand
-    from sleec_runtime.timed.clocks import Clock, Time
+    from sleec_runtime.timed.clock import Clock, Time
 
 
 def ruleset(given: Ruleset, reading: Reading | None) -> Ruleset:
@@ -57,16 +57,16 @@ def demand(
 def check_clock(clock: Clock | None) -> None:
     """Raises WrongType for a clock that is none."""
     if clock is not None:
-        from sleec_runtime.timed import clocks
+        from sleec_runtime.timed.clock import check_clock as check
 
-        clocks.check_clock(clock)
+        check(clock)
 
 
 def world_time(now: Time | None) -> Time:
     """The time in seconds since 1970. Raises WrongType."""
     import time
 
-    from sleec_runtime.timed.bounds import checked_time
+    from sleec_runtime.timed.clock import checked_time
 
     return time.time() if now is None else checked_time(now, "now")
 

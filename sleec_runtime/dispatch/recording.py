@@ -1,0 +1,118 @@
+"""Recordings: which obligations are executed, and in which order.
+
+Tests and the monitor use a recording to see what a robot executes.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import types
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
+from contextvars import ContextVar
+from typing import Any
+
+
+class Recording:
+    """The obligations that are executed while it is on: `executed` in order, and in `failed` those that raise.
+
+    It sees its own thread and asyncio task, and the tasks that these start, but not other threads. An implementation
+    that calls another implementation of the same obligation, such as an override that calls `super`, counts once.
+    """
+
+    def __init__(
+        self,
+        outer: Recording | None = None,
+        apart: bool = False,
+        on_execution: Callable[[str], object] | None = None,
+    ) -> None:
+        self.executed: list[str] = []
+        self.failed: list[str] = []
+        self.outer = outer
+        self.apart = apart
+        self.on_execution = on_execution
+        self._under_way: set[str] = set()
+
+    @contextmanager
+    def executing(self, name: str) -> Iterator[None]:
+        """Records that the block executes `name`."""
+        if name in self._under_way:
+            yield
+            return
+        self._under_way.add(name)
+        self.executed.append(name)
+        try:
+            with nullcontext() if self.outer is None else self.outer.executing(name):
+                if self.on_execution is not None:
+                    self.on_execution(name)
+                yield
+        except BaseException:
+            self.failed.append(name)
+            raise
+        finally:
+            self._under_way.discard(name)
+
+
+_recording: ContextVar[Recording | None] = ContextVar("sleec_recording", default=None)
+
+
+@contextmanager
+def recording(apart: bool = False, on_execution: Callable[[str], object] | None = None) -> Iterator[Recording]:
+    """Records what the block executes.
+
+    Recordings nest: an outer recording sees what an inner one sees. Recordings with `apart` do not report to each
+    other, so that the monitor sees each dispatch separately. `on_execution` is called with each name when its execution
+    begins; the implementation raises what it raises.
+    """
+    outer = _recording.get()
+    while apart and outer is not None and outer.apart:
+        outer = outer.outer
+    inner = Recording(outer, apart, on_execution)
+    token = _recording.set(inner)
+    try:
+        yield inner
+    finally:
+        _recording.reset(token)
+
+
+def is_coroutine_function(function: Any) -> bool:
+    """Whether a call of `function` returns a coroutine, as far as this can be known without a call."""
+    if isinstance(function, (staticmethod, classmethod)):
+        function = function.__func__
+    return inspect.iscoroutinefunction(function) or inspect.iscoroutinefunction(type(function).__call__)
+
+
+def recorded(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
+    """A wrapper of `function` that recordings see as `name`."""
+    if is_coroutine_function(function):
+
+        @functools.wraps(function)
+        async def awaited(*args: Any, **kwargs: Any) -> Any:
+            on = _recording.get()
+            if on is None:
+                return await function(*args, **kwargs)
+            with on.executing(name):
+                return await function(*args, **kwargs)
+
+        return awaited
+
+    @functools.wraps(function, updated=())
+    def called(*args: Any, **kwargs: Any) -> Any:
+        on = _recording.get()
+        if on is None:
+            return function(*args, **kwargs)
+        with on.executing(name):
+            return function(*args, **kwargs)
+
+    return called
+
+
+def unrecorded(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The callable that `recorded` wraps, which has the signature."""
+    if isinstance(function, types.MethodType):
+        plain = unrecorded(function.__func__)
+        return function if plain is function.__func__ else functools.partial(plain, function.__self__)
+    # A wrapper is recognised by its globals, because other decorators copy its attributes.
+    ours = getattr(function, "__globals__", None) is globals()
+    return unrecorded(function.__wrapped__) if ours and hasattr(function, "__wrapped__") else function

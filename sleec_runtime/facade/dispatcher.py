@@ -1,0 +1,149 @@
+"""Dispatchers: how an instance answers triggers. `ImmediateDispatcher` is the one for rules without times."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from contextlib import nullcontext
+from typing import TYPE_CHECKING, Any, Protocol
+
+from sleec_runtime.dispatch.decisions import due_in
+from sleec_runtime.dispatch.execution import plan, run, run_async
+from sleec_runtime.dispatch.instance import Instance
+from sleec_runtime.dispatch.plan import Plan
+from sleec_runtime.dispatch.snapshot import Snapshot
+from sleec_runtime.errors import UnknownObligation, UnknownTrigger
+from sleec_runtime.evaluation.evaluation import Due
+from sleec_runtime.facade.done import Done
+
+if TYPE_CHECKING:
+    from sleec_runtime.monitor.monitor import Monitor
+    from sleec_runtime.timed.clock import Time
+    from sleec_runtime.timed.failures import Failure
+    from sleec_runtime.timed.pending import Pending
+
+State = Callable[[], tuple[Snapshot, Instance]]
+"""Returns the current context and code."""
+
+_UNOBSERVED = nullcontext()
+
+
+class Dispatcher(Protocol):
+    """Answers the triggers of an instance. The methods are those of `Sleec`, with checked arguments."""
+
+    def trigger(
+        self,
+        snapshot: Snapshot,
+        names: tuple[str, ...],
+        args: tuple[Any, ...],
+        kwargs: dict[str, Any],
+        monitor: Monitor | None,
+    ) -> Done: ...
+
+    async def trigger_async(
+        self,
+        snapshot: Snapshot,
+        names: tuple[str, ...],
+        args: tuple[Any, ...],
+        kwargs: dict[str, Any],
+        monitor: Monitor | None,
+    ) -> Done: ...
+
+    def due(self, snapshot: Snapshot, names: tuple[str, ...]) -> Due: ...
+
+    def completed(self, obligation: str) -> tuple[Pending, ...]: ...
+
+    def pending(self) -> tuple[Pending, ...]: ...
+
+    def failures(self) -> tuple[Failure, ...]: ...
+
+    def pending_snapshot(self, saved_at: Time) -> dict[str, Any]: ...
+
+    def restore(self, data: Mapping[str, Any], world: Time) -> tuple[Pending, ...]: ...
+
+    def tick(self) -> None: ...
+
+    def close(self) -> None: ...
+
+
+class ImmediateDispatcher:
+    """Dispatches rules without times: all obligations are executed at once, so that nothing is ever pending."""
+
+    def __init__(self, state: State) -> None:
+        self._state = state
+
+    def plan(self, snapshot: Snapshot, names: tuple[str, ...]) -> Plan:
+        """The plan of a dispatch. The plan of a single trigger is cached until the context changes."""
+        if len(names) != 1:
+            return plan(snapshot, names, self._state()[1])
+        try:
+            place = snapshot.program.places.get(names[0])
+        except TypeError:  # not hashable
+            place = None
+        if place is None:
+            raise UnknownTrigger(names[0], snapshot.program.places)
+        outcomes = snapshot.rows[place[0]][place[1]]
+        known = outcomes.plan
+        if known is None or known.mark is not snapshot.mark:
+            # Two threads may both make the plan. Their plans are equal.
+            known = outcomes.plan = plan(snapshot, names, self._state()[1])
+        return known
+
+    def trigger(
+        self,
+        snapshot: Snapshot,
+        names: tuple[str, ...],
+        args: tuple[Any, ...],
+        kwargs: dict[str, Any],
+        monitor: Monitor | None,
+    ) -> Done:
+        ready = self.plan(snapshot, names)
+        ready.refuse_misfits(args, kwargs)
+        ready.refuse_coroutines()
+        with _UNOBSERVED if monitor is None else monitor.observe(names, snapshot):
+            return Done(ready, snapshot, run(ready, args, kwargs))
+
+    async def trigger_async(
+        self,
+        snapshot: Snapshot,
+        names: tuple[str, ...],
+        args: tuple[Any, ...],
+        kwargs: dict[str, Any],
+        monitor: Monitor | None,
+    ) -> Done:
+        ready = self.plan(snapshot, names)
+        ready.refuse_misfits(args, kwargs)
+        with _UNOBSERVED if monitor is None else monitor.observe(names, snapshot):
+            return Done(ready, snapshot, await run_async(ready, args, kwargs))
+
+    def due(self, snapshot: Snapshot, names: tuple[str, ...]) -> Due:
+        return due_in(snapshot, names)
+
+    def completed(self, obligation: str) -> tuple[Pending, ...]:
+        known = self._state()[0].program.whole.obligations
+        if obligation not in known:
+            raise UnknownObligation(obligation, known)
+        return ()
+
+    def pending(self) -> tuple[Pending, ...]:
+        return ()
+
+    def failures(self) -> tuple[Failure, ...]:
+        return ()
+
+    def pending_snapshot(self, saved_at: Time) -> dict[str, Any]:
+        from sleec_runtime.timed.checkpoint import checkpoint
+
+        return checkpoint((), self._state()[0].program, False, 0, saved_at)
+
+    def restore(self, data: Mapping[str, Any], world: Time) -> tuple[Pending, ...]:
+        from sleec_runtime.timed.recovery import Heir, recover
+
+        snapshot, instance = self._state()
+        recover(data, Heir(snapshot.program, instance, False, 0, world))
+        return ()
+
+    def tick(self) -> None:
+        """There are no timer events."""
+
+    def close(self) -> None:
+        """There is no timer."""

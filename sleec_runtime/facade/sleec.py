@@ -1,0 +1,448 @@
+"""The face of the runtime: a ruleset in force, with its context and code."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from sleec_runtime.concurrency.critical_section import CriticalSection, exclusive
+from sleec_runtime.dispatch.decisions import cell_of
+from sleec_runtime.dispatch.instance import Instance
+from sleec_runtime.dispatch.layers import Layers
+from sleec_runtime.dispatch.program import Program
+from sleec_runtime.dispatch.required_code import missing
+from sleec_runtime.dispatch.snapshot import Conditions, Snapshot
+from sleec_runtime.errors import NotBound, SleecError, UnknownObligation
+from sleec_runtime.evaluation.evaluation import Due, broken_assumptions
+from sleec_runtime.facade import arguments
+from sleec_runtime.facade.dispatcher import Dispatcher, ImmediateDispatcher
+from sleec_runtime.facade.done import Done
+from sleec_runtime.facade.global_activation import GlobalActivation, Listener
+from sleec_runtime.model import Assume, Measure, Reading, Rule, Ruleset
+from sleec_runtime.support.messages import listed
+
+if TYPE_CHECKING:
+    from pathlib import Path
+    from types import TracebackType
+
+    from sleec_runtime.certificate.coverage import Demand
+    from sleec_runtime.monitor.monitor import Monitor
+    from sleec_runtime.timed.clock import Clock, Time
+    from sleec_runtime.timed.failures import Failure
+    from sleec_runtime.timed.pending import Pending
+
+F = TypeVar("F")
+
+
+class Sleec:
+    """A CO-SLEEC instance (paper, Section 3.2) with its current context.
+
+    All methods are thread-safe. A dispatch reads one reference and never waits; changes hold a lock. `domain` leaves
+    out the rules of other domains. `reading` overrides the reading of the ruleset. In `strict` mode, a decision that
+    depends on unreported conditions raises UndeterminedDecision; otherwise they are false (Definition 1).
+
+    For rules with times (docs/runtime.md): `clock` measures their windows; the default is the clock of the computer,
+    with a thread while something is pending. With `chains`, a response that is done is an event, which triggers the
+    rules of that name. `on_error` gets each `Failure` of what the clock starts; without it, failures are logged.
+    Constructs that the runtime does not enforce cause a NotEnforced warning, or UnsupportedTimes with `strict_times`.
+
+    `certificate` is the folder of a certificate that must prove the rules free of conflict as they are used. `replace`
+    then needs a certificate too. With `key`, the file of a public key, certificates must be signed with it. With
+    `require_proved` or `require_tied`, they must be made with these options (docs/certificates.md).
+
+    Raises UnknownDomain, WrongType, CertificateRefused and UnsupportedTimes.
+    """
+
+    def __init__(
+        self,
+        ruleset: Ruleset,
+        domain: str | None = None,
+        reading: Reading | None = None,
+        strict: bool = False,
+        *,
+        clock: Clock | None = None,
+        chains: bool = False,
+        on_error: Callable[[Failure], object] | None = None,
+        strict_times: bool = False,
+        certificate: str | Path | None = None,
+        key: str | Path | None = None,
+        require_proved: bool = False,
+        require_tied: bool = False,
+    ) -> None:
+        whole = arguments.ruleset(ruleset, reading)
+        required = {"require_proved": require_proved, "require_tied": require_tied}
+        arguments.check_choices(strict=strict, chains=chains, strict_times=strict_times, **required)
+        program = Program(whole, domain, strict)
+        self._demand = arguments.demand(certificate, chains, key, **required)
+        if self._demand is not None:
+            self._demand.check(whole, domain)
+        self._reading = reading
+        self._strict = strict
+        self._chains = chains
+        self._strict_times = strict_times
+        arguments.check_clock(clock)
+        self._clock = clock
+        self._on_error = on_error
+        self._section = CriticalSection()
+        self._listeners: list[Listener] = []
+        self._objections: list[Listener] = []
+        self._monitor: Monitor | None = None
+        self._snapshot = Snapshot.first(program, {})
+        self._instance = Instance(whole)
+        self._dispatcher = self._dispatcher_for(program, ImmediateDispatcher(self._state))
+
+    # State --------------------------------------------------------------------------------------
+
+    @property
+    def ruleset(self) -> Ruleset:
+        """The rules in force: those of the domain, with their reading."""
+        return self._snapshot.program.ruleset
+
+    @property
+    def domain(self) -> str | None:
+        """The domain of the rules in force; None for all domains."""
+        return self._snapshot.program.domain
+
+    @property
+    def layers(self) -> Layers:
+        """L: the layers by name, for ``@cop.around(sleec.layers["dress_assist.hc1"])``. Raises UnknownLayer."""
+        return self._instance.layers
+
+    @property
+    def conditions(self) -> Conditions:
+        """The reported conditions and measures, as an immutable mapping."""
+        return self._snapshot.conditions
+
+    @property
+    def vocabulary(self) -> Mapping[str, Measure | None]:
+        """The names that `update` accepts: conditions, with None, and measures, with their declarations."""
+        return self._snapshot.program.vocabulary
+
+    # Code for the rules ---------------------------------------------------------------------------------
+
+    def rule(self, label: str) -> Callable[[F], F]:
+        """Marks a method as the one of rule `label`, MM(R); place it above ``@cop.base``. Raises UnknownLabel."""
+        return self._instance.mark(label)
+
+    @exclusive
+    def bind(self, *targets: object) -> None:
+        """Binds the marked methods of objects, classes, modules or functions to their rules: all of them, or none.
+
+        The variants of a method are read now, so define them all before. Raises Unbindable if a target has no marked
+        method, if two variants are on one layer or a variant is on a layer of another rule, and, under global
+        activation, if a plain call cannot dispatch the method; AlreadyBound for a second method of a rule.
+        """
+        with self._instance.kept_on_failure():
+            labels = self._instance.bind(targets, self.ruleset.rules if self.activated_globally else ())
+            self._watch_bound(self._instance, self._snapshot.program)
+            self._plan_anew(labels)
+
+    @exclusive
+    def unbind(self, *labels: str) -> None:
+        """Removes the methods of rules. Dispatches that have begun still use them. Raises UnknownLabel."""
+        with self._instance.kept_on_failure():
+            self._instance.unbind(labels)
+            self._plan_anew(labels)
+
+    @exclusive
+    def implement(self, target: object) -> None:
+        """Sets the callables of obligations. Rules without a method call them in the order of the clause.
+
+        `target` maps names to callables, or is an object or module whose callables are marked with
+        ``@sleec_runtime.obligation("OpenCurtains")`` or named in snake case. Each gets the arguments of the trigger.
+        Raises UnknownObligation, and Unbindable for a value that is not callable or a target that implements nothing.
+        """
+        with self._instance.kept_on_failure():
+            self._instance.implement(target, self._snapshot.program.whole.obligations)
+            self._plan_anew(rule.label for rule in self.ruleset.rules)
+
+    def missing(self) -> Mapping[str, NotBound]:
+        """The rules whose code is missing in some context, with the reason. O(clauses)."""
+        return missing(self.ruleset.rules, self._instance)
+
+    # Context --------------------------------------------------------------------------------------------
+
+    @exclusive
+    def update(self, changes: Mapping[str, object]) -> None:
+        """Changes the context atomically: no dispatch sees a part of the change.
+
+        None removes a value: it is no longer known. O(changes + size of the rules that mention them). Raises
+        UnknownCondition and WrongType; under global activation also ConflictInContext and UndeterminedDecision. Nothing
+        changes then.
+        """
+        before = self._snapshot
+        after, rules = before.changed(changes)
+        if after is not before:
+            self._object(before, after, rules)
+            self._snapshot = after
+            self._tell(before, after, rules)
+
+    def broken_assumptions(self, *triggers: str) -> tuple[Assume, ...]:
+        """The assumptions (ASSUME) that the context breaks if `triggers` occur.
+
+        The proofs about the rules hold only in contexts that break none. A broken assumption suggests a faulty sensor.
+        Rules decide in such a context as in any other. Raises UnknownTrigger.
+        """
+        snapshot = self._snapshot
+        for trigger in triggers:
+            cell_of(snapshot, trigger)
+        return broken_assumptions(snapshot.program.ruleset, snapshot.context(triggers))
+
+    # Triggers -------------------------------------------------------------------------------------------
+
+    def trigger(self, name: str, /, *args: Any, **kwargs: Any) -> Done:
+        """A trigger occurs: decides all its rules in one context, and runs their variants with these arguments.
+
+        Everything that can be refused is refused before anything runs: UnknownTrigger, NotBound, UndeterminedDecision
+        (in strict mode), ConflictInContext, WrongArguments, NeedsAwait. If a variant raises, those of other rules still
+        run; then its error is raised (VariantsFailed for several). O(rules of the trigger) the first time in a context,
+        then O(rules that apply), however many other rules there are.
+        """
+        # The snapshot before the dispatcher: see `_install`.
+        snapshot = self._snapshot
+        return self._dispatcher.trigger(snapshot, (name,), args, kwargs, self._monitor)
+
+    def trigger_all(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
+        """Several triggers occur at once, in one context. Their rules run in rule order. Otherwise as `trigger`."""
+        snapshot = self._snapshot
+        return self._dispatcher.trigger(snapshot, arguments.triggers(names), args, kwargs, self._monitor)
+
+    async def trigger_async(self, name: str, /, *args: Any, **kwargs: Any) -> Done:
+        """`trigger` for variants that may be coroutine functions, which it awaits one after the other. The context is
+        the one when the call is first awaited."""
+        snapshot = self._snapshot
+        return await self._dispatcher.trigger_async(snapshot, (name,), args, kwargs, self._monitor)
+
+    async def trigger_all_async(self, names: Iterable[str], /, *args: Any, **kwargs: Any) -> Done:
+        """`trigger_all` for variants that may be coroutine functions."""
+        snapshot = self._snapshot
+        return await self._dispatcher.trigger_async(snapshot, arguments.triggers(names), args, kwargs, self._monitor)
+
+    def due(self, *names: str) -> Due:
+        """What would be due if these triggers occurred now. It runs nothing, and needs no code. Raises as `trigger`,
+        except for code."""
+        snapshot = self._snapshot
+        return self._dispatcher.due(snapshot, names)
+
+    # Times ----------------------------------------------------------------------------------------------
+
+    def completed(self, obligation: str) -> tuple[Pending, ...]:
+        """An obligation that takes time is done now. Returns the pending obligations that this fulfils.
+
+        With `chains`, it also triggers the rules of that name, with the arguments of the trigger that asked for it.
+        Raises UnknownObligation; Prohibited if a rule forbids it now, although it is done; and as `trigger`.
+        """
+        if not isinstance(obligation, str):
+            raise UnknownObligation(obligation, self._snapshot.program.whole.obligations)
+        return self._dispatcher.completed(obligation)
+
+    def pending(self) -> tuple[Pending, ...]:
+        """The obligations that are still to be done, and the prohibitions that are still in force, by the ends of their
+        windows. It includes those of rules that have been replaced."""
+        return self._dispatcher.pending()
+
+    @property
+    def failures(self) -> tuple[Failure, ...]:
+        """The failures of what the clock started, and the missed deadlines: the last thousand, in order."""
+        return self._dispatcher.failures()
+
+    def pending_snapshot(self, now: Time | None = None) -> dict[str, Any]:
+        """What is pending, as plain data for `json.dump`, which another process can `restore` after this one ends.
+
+        `now` is the time in seconds since 1970, by default that of the computer. The data contain the arguments of
+        triggers whose code may still run. O(pending). Raises WrongType for an argument that is not plain data, and
+        SnapshotRefused for rules that were not read from a text.
+        """
+        return self._dispatcher.pending_snapshot(arguments.world_time(now))
+
+    def restore(self, snapshot: Mapping[str, Any], now: Time | None = None) -> tuple[Pending, ...]:
+        """Continues with what was pending when another process took `snapshot`. Returns what is pending now.
+
+        Bind the code and report the context first, and trigger nothing before. Code that was to start since then starts
+        now. An obligation that was under way stays so. A deadline that has passed since then is missed now: the
+        ``OTHERWISE`` starts, or `failures` gets a DeadlineMissed. `now` is as in `pending_snapshot`.
+
+        Raises SnapshotRefused for a snapshot that is malformed, of other rules or another reading or domain, from a
+        later time, or already restored; NotBound and WrongArguments if the code does not fit. Nothing changes then.
+        """
+        return self._dispatcher.restore(snapshot, arguments.world_time(now))
+
+    def tick(self) -> None:
+        """Handles all timer events up to now, for a clock without alarms. Errors are in `failures` and not raised,
+        except a KeyboardInterrupt in the main thread."""
+        self._dispatcher.tick()
+
+    def close(self) -> None:
+        """Stops all timer events, and the thread of the default clock; waits for its running code, up to the limit of
+        the clock. What is pending stays so. A trigger that would add to it raises SleecError. ``with sleec:`` closes at
+        its end."""
+        self._dispatcher.close()
+
+    def __enter__(self) -> Sleec:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    # Other rules, other modes ---------------------------------------------------------------------------
+
+    @exclusive
+    def prepare(self, ruleset: Ruleset) -> None:
+        """Adds the labels and layers of `ruleset`, so that methods can be marked for it before `replace`."""
+        self._instance.admit(arguments.ruleset(ruleset, self._reading))
+
+    def replace(
+        self,
+        ruleset: Ruleset,
+        *,
+        bind: Iterable[object] = (),
+        implement: object = None,
+        certificate: str | Path | None = None,
+    ) -> None:
+        """Puts other rules in force, atomically. Dispatches that have begun finish under the old rules.
+
+        Layers with the same name stay the same objects, methods stay bound by label, and reported values stay known.
+        `bind` and `implement` add the code of new rules. An instance with a certificate needs `certificate` for them,
+        signed with the same key if it has one.
+
+        Raises NotBound if a rule loses its code, WrongType if a reported value does not fit the new declarations,
+        CertificateRefused, and as `bind` and `implement`. Nothing changes then.
+        """
+        self._replace(arguments.ruleset(ruleset, self._reading), tuple(bind), implement, certificate)
+
+    @exclusive
+    def _replace(
+        self, whole: Ruleset, bind: tuple[object, ...], implement: object, certificate: str | Path | None
+    ) -> None:
+        demand = self._demand
+        if certificate is not None:
+            demand = arguments.demand(certificate, self._chains) if demand is None else demand.of(certificate)
+        instance = self._instance.copied()
+        instance.admit(whole)
+        instance.bind(bind)
+        if implement is not None:
+            instance.implement(implement, whole.obligations)
+        self._install(Program(whole, self.domain, self._strict), instance, demand)
+
+    @exclusive
+    def enter_domain(self, domain: str | None) -> None:
+        """Puts the rules of another domain in force, as `replace` does. Raises UnknownDomain, and CertificateRefused if
+        the certificate does not cover the domain."""
+        program = Program(self._snapshot.program.whole, domain, self._strict)
+        self._install(program, self._instance, self._demand)
+
+    def activate_globally(self) -> GlobalActivation:
+        """Starts the mode of the paper (Section 4): the layers of the active clauses are globally active, so that
+        methods can be called without a trigger. `GlobalActivation` documents its cost and its limits. Raises
+        UnsupportedTimes for rules with times, and as `GlobalActivation.start`."""
+        return GlobalActivation(self).start()
+
+    # For other rooms of the runtime ---------------------------------------------------------------------
+
+    def listen(self, listener: Listener, objection: Listener | None = None) -> Callable[[], None]:
+        """Calls `listener` after each change of context, before the next one. Returns a function that ends this.
+
+        `objection` is called before each change. If it raises, nothing changes.
+        """
+        self._listeners.append(listener)
+        if objection is not None:
+            self._objections.append(objection)
+
+        def end() -> None:
+            self._listeners.remove(listener)
+            if objection is not None:
+                self._objections.remove(objection)
+
+        return end
+
+    @exclusive
+    def hold(self, act: Callable[[Snapshot], None]) -> None:
+        """Calls `act` with the current context, which does not change meanwhile: changes wait, dispatches do not."""
+        act(self._snapshot)
+
+    def attach(self, monitor: Monitor) -> None:
+        """Lets `monitor` observe each dispatch; call it within `hold`. Raises SleecError if another monitor does."""
+        if self._monitor is not None:
+            raise SleecError("a monitor is on already", "stop() it first")
+        self._monitor = monitor
+
+    def detach(self, monitor: Monitor) -> None:
+        """Undoes `attach`."""
+        if self._monitor is monitor:
+            self._monitor = None
+
+    @property
+    def activated_globally(self) -> bool:
+        """Whether global activation is on. Nothing else objects to changes."""
+        return bool(self._objections)
+
+    def allow_calls(self) -> None:
+        """Makes plain calls of bound methods do what a dispatch does. Raises Unbindable for a method that cannot."""
+        self._instance.allow_calls(self.ruleset.rules)
+
+    def bound_objects(self) -> list[object]:
+        """The objects whose methods are bound to rules."""
+        return self._instance.objects()
+
+    def _dispatcher_for(self, program: Program, current: Dispatcher) -> Dispatcher:
+        """The dispatcher for `program`: the `current` one, or a timed one from the first rules with times on. Raises
+        UnsupportedTimes."""
+        if not program.ruleset.is_timed and not self._chains:
+            return current
+        from sleec_runtime.timed.unenforced_constructs import has_times, name_limits
+
+        name_limits(program.ruleset, self._chains, self._strict_times)
+        if not isinstance(current, ImmediateDispatcher) or not (self._chains or has_times(program.ruleset)):
+            return current
+        from sleec_runtime.facade.timed_dispatcher import TimedDispatcher
+
+        return TimedDispatcher(self._state, self._clock, self._chains, self._on_error)
+
+    def _state(self) -> tuple[Snapshot, Instance]:
+        return self._snapshot, self._instance
+
+    def _plan_anew(self, labels: Iterable[str]) -> None:
+        by_label = self.ruleset.by_label
+        triggers = dict.fromkeys(by_label[label].trigger for label in labels if label in by_label)
+        self._snapshot = self._snapshot.without_plans(triggers)
+
+    def _install(self, program: Program, instance: Instance, demand: Demand | None) -> None:
+        if demand is not None:
+            demand.check(program.whole, program.domain)
+        before = self._snapshot
+        were_missing = missing(before.program.ruleset.rules, self._instance)
+        problems = [
+            problem for label, problem in missing(program.ruleset.rules, instance).items() if label not in were_missing
+        ]
+        if problems:
+            labels = [label for problem in problems for label in problem.rules]
+            raise NotBound(
+                "the rules stay as they are: " + listed([problem.message for problem in problems], "; "),
+                labels,
+                "bring the code with replace(…, bind=…, implement=…)",
+            )
+        known = {name: value for name, value in before.conditions.items() if name in program.vocabulary}
+        after = Snapshot.first(program, known, before.number + 1)
+        if self.activated_globally:
+            instance.allow_calls(program.ruleset.rules)
+        self._object(before, after, program.ruleset.rules)
+        self._watch_bound(instance, program)
+        dispatcher = self._dispatcher_for(program, self._dispatcher)
+        # In one step, so that a signal handler sees all of it or nothing. A dispatch reads `_snapshot` before
+        # `_dispatcher`, so that an immediate dispatcher never gets rules with times.
+        vars(self).update(_snapshot=after, _instance=instance, _demand=demand, _dispatcher=dispatcher)
+        self._tell(before, after, program.ruleset.rules)
+
+    def _watch_bound(self, instance: Instance, program: Program) -> None:
+        if self._monitor is not None:
+            self._monitor.watch(instance.objects(), program.whole.obligations)
+
+    def _object(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
+        for objection in self._objections:
+            objection(before, after, rules)
+
+    def _tell(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
+        for listener in tuple(self._listeners):
+            listener(before, after, rules)

@@ -1,0 +1,1 @@
+"""The online monitor: it compares what a dispatch executes with what is due."""
