@@ -1,23 +1,22 @@
-"""The published case studies against what LEGOS-SLEEC answers for them, and every difference with its reason.
-
-The files are read where they are and skipped where they are not.
-"""
+"""Our studies and the published ones: every question is answered, and every timeline is replayed. The published ones
+against what LEGOS-SLEEC answers for them, and every difference with its reason."""
 
 from __future__ import annotations
 
 import json
 from functools import cache
+from pathlib import Path
 
 import pytest
 
-from sleec_runtime.language import parse
+from sleec_runtime.language import load
+from sleec_runtime.model import Ruleset
 from sleec_verify.checks import run_checks
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay.situations import replays
-from sleec_verify.results.finding import Unknown
-from tests.support.paths import ROOT
+from sleec_verify.results.finding import CheckResult, Unknown
+from tests.support.studies import PUBLISHED, each_study, published_only
 
-STUDIES = ROOT.parent / "shared" / "case-studies"
 FILES = {
     ("ALMI", "initial"): "ALMI/ALMI.sleec",
     ("ALMI", "corrected"): "ALMI/ALMI-Corrected.sleec",
@@ -39,80 +38,65 @@ NOT_FOUND = {("Autocar", "corrected", "R1b"): BROKEN}
 
 
 @cache
-def study(name, variant):
-    path = STUDIES / FILES[name, variant]
-    if not path.is_file():
-        pytest.skip(f"the case studies are not at {STUDIES}")
-    ruleset = parse(path.read_text(encoding="utf-8"))
+def checked(path: Path) -> tuple[Ruleset, dict[str, CheckResult]]:
+    ruleset = load(path)
     return ruleset, {result.name: result for result in run_checks(ruleset)}
 
 
-def of_legos(name, variant, check):
+def published(name: str, variant: str) -> dict[str, CheckResult]:
+    return checked(PUBLISHED / FILES[name, variant])[1]
+
+
+def of_legos(name: str, variant: str, check: str) -> set[str]:
     """The rules, concerns or purposes that LEGOS-SLEEC finds."""
-    verdicts = json.loads((STUDIES / "verdicts-of-legos.json").read_text(encoding="utf-8"))
+    verdicts = json.loads((PUBLISHED / "verdicts-of-legos.json").read_text(encoding="utf-8"))
     (found,) = (set(v["found"]) for v in verdicts if (v["case"], v["variant"], v["check"]) == (name, variant, check))
     return found
 
 
+@each_study
+def test_every_question_is_answered(path: Path) -> None:
+    assert not [result for result in checked(path)[1].values() if isinstance(result.verdict, Unknown)]
+
+
+@each_study
+def test_every_timeline_is_replayed(path: Path) -> None:
+    ruleset, results = checked(path)
+    for check in {"conflict", "concern"} & set(results):
+        for finding in results[check].findings:
+            assert replays(RulesetIndex(ruleset.in_domain(finding.domains[0]) if finding.domains else ruleset), finding)
+
+
+@published_only
 @pytest.mark.parametrize("check", CHECKS)
 @pytest.mark.parametrize(("name", "variant"), FILES)
-def test_every_answer_is_that_of_legos(name, variant, check):
-    _, results = study(name, variant)
-    assert not isinstance(results[check].verdict, Unknown)
-    findings = results[check].findings
+def test_every_answer_is_that_of_legos(name: str, variant: str, check: str) -> None:
+    findings = published(name, variant)[check].findings
     ours = {f.obligations[0] if check in ("concern", "purpose") else f.rules[0] for f in findings}
     assert ours == of_legos(name, variant, check)
 
 
+@published_only
 @pytest.mark.parametrize(("name", "variant"), FILES)
-def test_every_conflict_of_legos_is_found_or_a_listed_difference(name, variant):
+def test_every_conflict_of_legos_is_found_or_a_listed_difference(name: str, variant: str) -> None:
     """LEGOS-SLEEC names one rule of each conflict, which is one of those that are named here."""
-    _, results = study(name, variant)
-    result = results["conflict"]
-    assert not isinstance(result.verdict, Unknown)
+    findings = published(name, variant)["conflict"].findings
     theirs = of_legos(name, variant, "conflict")
-    ours = {label for finding in result.findings for label in finding.rules}
+    ours = {label for finding in findings for label in finding.rules}
     assert theirs - ours == {rule for n, v, rule in NOT_FOUND if (n, v) == (name, variant)}
-    assert all(theirs.intersection(finding.rules) for finding in result.findings)
+    assert all(theirs.intersection(finding.rules) for finding in findings)
 
 
-@pytest.mark.parametrize(("name", "variant"), FILES)
-def test_every_timeline_is_replayed(name, variant):
-    ruleset, results = study(name, variant)
-    for check in ("conflict", "concern"):
-        for finding in results[check].findings:
-            assert replays(RulesetIndex(ruleset), finding)
-
-
-OF_SLEEC_TK = (
-    "ALMI",
-    "ASPEN",
-    "CAREBOT-integrated",
-    "CSICobot",
-    "firefighter-initial",
-    "firefighter-valid",
-    "jss_running_example",
-)
-
-
-@cache
-def of_sleec_tk(name):
-    path = STUDIES / "sleec-tk" / f"{name}.sleec"
-    if not path.is_file():
-        pytest.skip(f"the case studies are not at {STUDIES}")
-    return parse(path.read_text(encoding="utf-8"))
-
-
-@pytest.mark.parametrize("name", OF_SLEEC_TK)
-def test_every_question_about_the_files_of_sleec_tk_is_answered(name):
-    (result,) = run_checks(of_sleec_tk(name), ["conflict"])
-    assert not isinstance(result.verdict, Unknown), result.verdict
-
-
-def test_what_others_do_not_report():
-    autocar = study("Autocar", "corrected")[1]
+@published_only
+def test_what_others_do_not_report() -> None:
+    autocar = published("Autocar", "corrected")
     assert {("R8", 3), ("R13", 1), ("R14", 1)} <= {f.clauses[0] for f in autocar["dead-hedge"].findings}
-    aspen = study("ASPEN", "corrected")[1]
+    aspen = published("ASPEN", "corrected")
     assert "SLEEC507" in {f.code for f in aspen["defect"].findings}
-    dressing = study("dressingAssist", "corrected")[1]
+    dressing = published("dressingAssist", "corrected")
     assert "SLEEC506" in {f.code for f in dressing["defect"].findings}
+
+
+@published_only
+def test_all_published_studies_are_here() -> None:
+    assert len(list(PUBLISHED.glob("*/*.sleec"))) == 17

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import random
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -17,10 +18,9 @@ from sleec_verify.traces.index import TraceIndex
 from tests.support.explicit.conflicts import Explicit
 from tests.support.paths import ROOT
 from tests.support.realistic_rules import LONG, peoples_rules
+from tests.support.studies import each_study
 
-SHARED = ROOT.parent / "shared"
-EXAMPLES = SHARED / "conflict-examples.json"
-NEEDS_SHARED = "the rulesets of others are not part of the project"
+EXAMPLES = ROOT.parent / "shared" / "conflict-examples.json"
 
 
 def conflicts_of(text: str) -> tuple[list[Conflict], str | None]:
@@ -189,7 +189,7 @@ def assert_agrees(text: str, smallest: set[frozenset[str]], every: set[frozenset
 
 def examples(first: int, last: int) -> int:
     if not EXAMPLES.exists():
-        pytest.skip(NEEDS_SHARED)
+        pytest.skip("the examples of others are not part of the project")
     chosen = json.loads(EXAMPLES.read_text())[first:last]
     return sum(
         not assert_agrees(one["dsl"], {frozenset(s) for s in one["smallest"]}, {frozenset(s) for s in one["all"]})
@@ -324,8 +324,9 @@ def test_scaling_all_windows_changes_no_rules(seed: int) -> None:
     assert {frozenset(c.rules) for c in found} == {frozenset(c.rules) for c in scaled}
 
 
-@pytest.mark.skipif(not SHARED.exists(), reason=NEEDS_SHARED)
-def test_published_rulesets_are_decided() -> None:
-    for path in sorted((SHARED / "case-studies").glob("*/*.sleec")):
-        for component in components(TraceIndex(load(path))):
+@each_study
+def test_studies_are_decided(path: Path) -> None:
+    ruleset = load(path)
+    for one in [ruleset.in_domain(domain) for domain in ruleset.domains] or [ruleset]:
+        for component in components(TraceIndex(one)):
             list(ConflictSearch(component).find())

@@ -14,10 +14,12 @@ from sleec_runtime.language import load, parse
 from sleec_runtime.model import Obligation, Rule
 from sleec_verify.changes import decision_diagram as diagram
 from sleec_verify.changes.compare import Difference, NameChange, compare
+from sleec_verify.checks import run_checks
 from sleec_verify.exchange.conversion import convert
 from sleec_verify.exchange.conversion.readings import reread
 from tests.support.paths import ROOT
 from tests.support.small_rulesets import small_rulesets
+from tests.support.studies import each_study
 
 RULESETS = ROOT / "rulesets"
 CURTAINS = """\
@@ -58,6 +60,19 @@ def test_a_ruleset_is_equivalent_to_itself(path: Path) -> None:
     assert found.relation == "equivalent"
     assert found.same == len(found.new.rules)
     assert found == Difference(found.old, found.new, same=found.same)
+
+
+@each_study
+def test_a_study_is_equivalent_to_itself_and_stricter_than_without_a_rule(path: Path) -> None:
+    study = load(path)
+    assert compare(study, study).relation == "equivalent"
+    named = {
+        r for result in run_checks(study, ["conflict", "redundant-rule"]) for f in result.findings for r in f.rules
+    }
+    rule = next((rule for rule in study.rules if rule.label not in named), study.rules[-1])
+    without = replace(study, statements=tuple(s for s in study.statements if s is not rule))
+    assert compare(study, without).relation == "laxer"
+    assert compare(without, study).relation == "stricter"
 
 
 def test_renamed_reordered_and_rewritten_rules_are_told_and_equivalent() -> None:

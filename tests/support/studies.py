@@ -1,0 +1,31 @@
+"""The rulesets that tests are run over: our studies, and the published case studies where they are beside the checkout.
+
+The published ones are not part of the project.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import pytest
+
+from tests.support.paths import ROOT
+
+OWN = ROOT / "rulesets" / "studies"
+PUBLISHED = ROOT.parent / "shared" / "case-studies"
+published_only = pytest.mark.skipif(
+    not PUBLISHED.is_dir(), reason="the published case studies are not part of the project"
+)
+
+
+def _each(paths: Iterable[Path]) -> pytest.MarkDecorator:
+    params = [pytest.param(path, id=f"{path.parent.name}-{path.stem}") for path in paths]
+    if not PUBLISHED.is_dir():
+        params.append(pytest.param(None, id="published", marks=published_only))
+    return pytest.mark.parametrize("path", params)
+
+
+_FILES = [*sorted(OWN.glob("*.sleec")), *sorted(PUBLISHED.glob("*/*.sleec"))]
+each_study = _each(_FILES)
+each_dsl_study = _each(path for path in _FILES if "def_start" in path.read_text(encoding="utf-8"))
