@@ -16,7 +16,7 @@ from sleec_verify.results.internal_error import InternalError, internal_errors_o
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset, Source
-    from sleec_verify.changes.assertions import Asked
+    from sleec_verify.changes.assertions.assertion import AssertionResult
     from sleec_verify.changes.compare import Difference
     from sleec_verify.changes.revisions.versions import Version, Versions
     from sleec_verify.encoding.trace_scope import Untimed
@@ -215,10 +215,12 @@ def _check_domain(domain: str | None, found: Sequence[Difference]) -> None:
 
 def _asked(
     texts: Sequence[str], said: Source | None, compared: list[Compared], domain: str | None
-) -> tuple[Asked, ...] | None:
+) -> tuple[AssertionResult, ...] | None:
     """The answers to all assertions, of all new rulesets; None where an assertion is wrong, which is reported. Where a
     ruleset cannot be used, an assertion that seems wrong may be about its names, and is only left out."""
-    from sleec_verify.changes.assertions import Vocabulary, ask, read_assertion, read_assertions
+    from sleec_verify.changes.assertions.parser import parse_assertion, parse_assertions
+    from sleec_verify.changes.assertions.verification import verify
+    from sleec_verify.changes.assertions.vocabulary import Vocabulary
 
     found = [one.difference for one in compared if one.difference is not None]
     known = Vocabulary([*(one.new for one in found), *(one.old for one in found)])
@@ -226,25 +228,25 @@ def _asked(
     wrong: list[SleecError] = []
     for text in texts:
         try:
-            assertions.append(read_assertion(text, known))
+            assertions.append(parse_assertion(text, known))
         except SleecError as error:
             wrong.append(error)
     if said is not None:
         try:
-            assertions += read_assertions(said, known)
+            assertions += parse_assertions(said, known)
         except SleecError as error:
             wrong.append(error)
     if wrong and not any(one.errors for one in compared):
         for mistake in wrong:
             complain(mistake)
         return None
-    answers: list[Asked] = []
+    answers: list[AssertionResult] = []
     for index, one in enumerate(compared):
         if one.difference is None:
             continue
         try:
             with internal_errors_of(one.path):
-                answers += [ask(one.difference.new, assertion, domain, known) for assertion in assertions]
+                answers += [verify(one.difference.new, assertion, domain, known) for assertion in assertions]
         except InternalError as error:
             complain(error)
             compared[index] = one._replace(difference=None, errors=(error,))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @as_text
 def render(report: Report, palette: Palette) -> Iterator[str]:
-    from sleec_verify.changes.assertions import Broken
+    from sleec_verify.changes.assertions.assertion import Violation
 
     for found in report.differences:
         path = found.new.source.path
@@ -42,7 +42,7 @@ def render(report: Report, palette: Palette) -> Iterator[str]:
             yield f"{path}: {palette('unknown', 'unknown')} {what}: {why}"
         yield f"{path}: {palette(RELATION_ROLES[found.relation], found.relation)}"
     for assertion, ruleset, answer in report.asked:
-        if isinstance(answer, Broken):
+        if isinstance(answer, Violation):
             broken = f"{palette('error', 'broken')} {assertion.text}"
             where = in_domains((answer.domain,) if answer.domain else ())
             yield f"{ruleset.source.path}: {broken}: {_short_witness(answer.witness)}{where}"

@@ -24,7 +24,7 @@ from sleec_verify.results.phrases import counted, given, in_domains, listed, occ
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
-    from sleec_verify.changes.assertions import Asked
+    from sleec_verify.changes.assertions.assertion import AssertionResult
     from sleec_verify.changes.compare.result import (
         Change,
         ConflictChange,
@@ -146,17 +146,17 @@ def _same_meaning(found: Difference, palette: Palette) -> Iterator[str]:
         yield f"  {palette('strong', 'readings')}: {found.old.reading} before, {found.new.reading} after"
 
 
-def on_assertions(asked: Sequence[Asked], palette: Palette) -> Iterator[str]:
+def on_assertions(asked: Sequence[AssertionResult], palette: Palette) -> Iterator[str]:
     """The lines on all assertions."""
     if not asked:
         return
-    from sleec_verify.changes.assertions import Broken
+    from sleec_verify.changes.assertions.assertion import Violation
 
     for assertion, ruleset, answer in asked:
         path = ruleset.source.path
         if answer is None:
             yield f"{palette('good', 'holds')}: {assertion.text} ({path})"
-        elif isinstance(answer, Broken):
+        elif isinstance(answer, Violation):
             yield f"{palette('error', 'broken')}: {assertion.text} ({path})"
             yield f"  {witness_text(answer.witness)}{in_domains((answer.domain,) if answer.domain else ())}:"
             lines = [

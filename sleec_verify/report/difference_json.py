@@ -6,14 +6,14 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify import __version__
-from sleec_verify.changes.assertions import Broken
+from sleec_verify.changes.assertions.assertion import Violation
 from sleec_verify.changes.compare.result import by_obligation
 from sleec_verify.results.json_values import dump, error_json, span_json, witness_json
 from sleec_verify.results.phrases import in_short
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
-    from sleec_verify.changes.assertions import Asked
+    from sleec_verify.changes.assertions.assertion import AssertionResult
     from sleec_verify.changes.compare.result import (
         Change,
         ConflictChange,
@@ -150,9 +150,9 @@ def _ruleset_json(ruleset: Ruleset) -> Json:
     }
 
 
-def _asked_json(asked: Asked) -> Json:
+def _asked_json(asked: AssertionResult) -> Json:
     assertion, ruleset, answer = asked
-    broken = answer if isinstance(answer, Broken) else None
+    broken = answer if isinstance(answer, Violation) else None
     return {
         "assertion": assertion.text,
         "holds": None if isinstance(answer, str) else broken is None,

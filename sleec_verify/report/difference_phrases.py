@@ -17,7 +17,7 @@ if TYPE_CHECKING:
         Extent,
         Relation,
     )
-    from sleec_verify.changes.decision_diagram import Part
+    from sleec_verify.changes.diagram.variables import Variable
     from sleec_verify.results.finding import Witness
 
 
@@ -157,14 +157,14 @@ def extent_text(extent: Extent) -> str:
         if extent.affected == extent.possible
         else f"{extent.affected:,} of {extent.possible:,}"
     )
-    over = f", counted over {listed(map(_part, extent.over))}" if extent.over else ""
+    over = f", counted over {listed(map(_variable, extent.over))}" if extent.over else ""
     return f"in {every} situations{where}{over}"
 
 
-def _part(part: Part) -> str:
-    names = listed(quoted(name) for _, name in part.names)
-    if part.orders:
-        return f"{names} in {part.ways} orders"
-    if part.cuts:
-        return f"{names} in {counted(part.ways, 'region')}"
-    return names if part.ways == 2 else f"{names} in {part.ways} values"
+def _variable(variable: Variable) -> str:
+    names = listed(quoted(name) for _, name in variable.names)
+    if variable.orders:
+        return f"{names} in {variable.ways} orders"
+    if variable.cuts:
+        return f"{names} in {counted(variable.ways, 'region')}"
+    return names if variable.ways == 2 else f"{names} in {variable.ways} values"

@@ -8,7 +8,7 @@ from sleec_verify.changes.compare.result import relation
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
-    from sleec_verify.changes.assertions import Asked
+    from sleec_verify.changes.assertions.assertion import AssertionResult
     from sleec_verify.changes.compare.result import (
         Difference,
         Relation,
@@ -28,7 +28,7 @@ class Report(NamedTuple):
 
     compared: tuple[Compared, ...]
     unchanged: int = 0
-    asked: tuple[Asked, ...] = ()
+    asked: tuple[AssertionResult, ...] = ()
 
     @property
     def differences(self) -> list[Difference]:

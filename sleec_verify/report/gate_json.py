@@ -12,7 +12,7 @@ from sleec_verify.results.json_values import VERDICTS, dump, error_json, finding
 if TYPE_CHECKING:
     from sleec_runtime.certificate.manifest import Manifest
     from sleec_runtime.model import Source
-    from sleec_verify.changes.assertions import Asked
+    from sleec_verify.changes.assertions.assertion import AssertionResult
     from sleec_verify.changes.gate.result import Block, Conformed, Examined, Gated
     from sleec_verify.report.palette import Palette
     from sleec_verify.results.json_values import Json
@@ -115,7 +115,7 @@ def _verdict(one: Conformed) -> str:
     return VERDICTS[type(one.result.verdict)]
 
 
-def _asked(one: Asked, paths: Mapping[str, str]) -> Json:
+def _asked(one: AssertionResult, paths: Mapping[str, str]) -> Json:
     assertion, ruleset, answer = one
     return {
         "assertion": assertion.text,

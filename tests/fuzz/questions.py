@@ -8,7 +8,9 @@ from pathlib import Path
 
 from sleec_runtime.language.common.source import source_of
 from sleec_runtime.model import Context
-from sleec_verify.changes.assertions import Vocabulary, ask, read_assertions
+from sleec_verify.changes.assertions.parser import parse_assertions
+from sleec_verify.changes.assertions.verification import verify
+from sleec_verify.changes.assertions.vocabulary import Vocabulary
 from sleec_verify.entailment.consequence_tree import chain
 from sleec_verify.entailment.entailment import entail
 from sleec_verify.entailment.schedule import schedule
@@ -53,9 +55,9 @@ def situation_seeds() -> Iterator[bytes]:
 def assertions(data: bytes, folder: Path) -> None:
     """Each assertion that is read has an answer."""
     source = unless_refused(source_of, "fuzz.txt", data)
-    found = None if source is None else unless_refused(read_assertions, source, Vocabulary([RULESET]))
+    found = None if source is None else unless_refused(parse_assertions, source, Vocabulary([RULESET]))
     for assertion in found or ():
-        assert ask(RULESET, assertion)
+        assert verify(RULESET, assertion)
 
 
 def assertion_seeds() -> Iterator[bytes]:

@@ -62,7 +62,7 @@ def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Unti
     Each ruleset is read in its own reading. `untimed` is what a response without a window means where rules speak of
     time. Nothing is missed and nothing invented, but for what `Difference.undecided` names. O(size of the rules) for
     those that are equal; for each of the others, questions about the rules of its trigger (NP-hard, as all
-    satisfiability is, and small), and a count that is given up past the bounds of `changes.decision_diagram`.
+    satisfiability is, and small), and a count that is given up past the bounds of `changes.diagram`.
     """
     with for_file(len(old.source.text) + len(new.source.text)):
         return _difference(old, new, domain, untimed)

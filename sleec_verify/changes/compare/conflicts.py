@@ -13,7 +13,7 @@ from sleec_verify.changes.compare.replay import conflicts as conflicting
 from sleec_verify.changes.compare.replay import deciding, possible
 from sleec_verify.changes.compare.result import ConflictChange, Undecidable, Way
 from sleec_verify.changes.compare.situation_count import Counting, all_of, conditions_of, named_in, not_counted
-from sleec_verify.changes.decision_diagram import FALSE, TooLarge
+from sleec_verify.changes.diagram.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.equation import disjunction
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.inconsistent_sets import InconsistentSet

@@ -12,7 +12,7 @@ from sleec_verify.changes.compare.result import Change, Extent, Undecidable
 from sleec_verify.changes.compare.rule_alignment import Pair
 from sleec_verify.changes.compare.situation_count import Counting, all_of, conditions_of, named_in, not_counted
 from sleec_verify.changes.compare.timing_order import implies, why_not
-from sleec_verify.changes.decision_diagram import FALSE, TooLarge
+from sleec_verify.changes.diagram.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Witness

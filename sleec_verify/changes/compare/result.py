@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Obligation, Ruleset, Span
-    from sleec_verify.changes.decision_diagram import Part
+    from sleec_verify.changes.diagram.variables import Variable
     from sleec_verify.results.finding import Witness
 
 Relation = Literal["equivalent", "stricter", "laxer", "incomparable", "unknown"]
@@ -25,7 +25,7 @@ class Extent(NamedTuple):
 
     affected: int | None
     possible: int | None
-    over: tuple[Part, ...] = ()
+    over: tuple[Variable, ...] = ()
     given: tuple[str, ...] = ()
     why: str | None = None
 

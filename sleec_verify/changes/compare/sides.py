@@ -27,7 +27,7 @@ from sleec_runtime.model import (
     measures_of,
 )
 from sleec_verify.changes.compare.result import Undecidable
-from sleec_verify.changes.decision_diagram import compares
+from sleec_verify.changes.diagram.formulas import compares
 from sleec_verify.encoding.equation import conjunction, disjunction
 
 if TYPE_CHECKING:

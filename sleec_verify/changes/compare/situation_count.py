@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 
 from sleec_runtime.model import Atom, Formula, Measure, Rule, Truth
 from sleec_verify.changes.compare.result import Extent
-from sleec_verify.changes.decision_diagram import FALSE, TRUE, Diagram
+from sleec_verify.changes.diagram.decision_diagram import FALSE, TRUE
+from sleec_verify.changes.diagram.formulas import FormulaDiagram
 from sleec_verify.encoding.equation import conjunction
 from sleec_verify.query.names import Name, names_in
 
@@ -24,7 +25,7 @@ class Counting:
         """Raises `TooLarge` past a bound of the diagram, as the methods do."""
         self.given = tuple(sorted(given))
         occurring = [Atom("trigger", name) for name in self.given]
-        self.diagram = Diagram([*occurring, *formulas, *assumed], measures)
+        self.diagram = FormulaDiagram([*occurring, *formulas, *assumed], measures)
         self._possible = TRUE
         for formula in (*occurring, *assumed):
             self._possible = self.diagram.both(self._possible, self.diagram.node(formula))
@@ -44,11 +45,11 @@ class Counting:
         """How many situations the node has, counted over these names and all others that it depends on."""
         wanted = set(named)
         over = self.diagram.support(node)
-        over.update(at for at, part in enumerate(self.diagram.parts) if not wanted.isdisjoint(part.names))
+        over.update(at for at, variable in enumerate(self.diagram.variables) if not wanted.isdisjoint(variable.names))
         shown = [
-            self.diagram.parts[at]
+            self.diagram.variables[at]
             for at in sorted(over)
-            if not all(kind == "trigger" and name in self.given for kind, name in self.diagram.parts[at].names)
+            if not all(kind == "trigger" and name in self.given for kind, name in self.diagram.variables[at].names)
         ]
         possible = self.diagram.some(self._possible, over)
         counted = over | self.diagram.support(possible)

@@ -11,7 +11,7 @@ from sleec_verify.changes.compare.replay import possible
 from sleec_verify.changes.compare.result import SituationChange, Undecidable, Way
 from sleec_verify.changes.compare.sides import Given
 from sleec_verify.changes.compare.situation_count import Counting, named_in, not_counted
-from sleec_verify.changes.decision_diagram import FALSE, TooLarge
+from sleec_verify.changes.diagram.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.question import is_possible
 from sleec_verify.query.witness import smallest_situation

@@ -11,7 +11,8 @@ from sleec_verify.results.internal_error import InternalError, internal_errors_o
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import Problem
-    from sleec_verify.changes.assertions import Asked, Assertion, Vocabulary
+    from sleec_verify.changes.assertions.assertion import Assertion, AssertionResult
+    from sleec_verify.changes.assertions.vocabulary import Vocabulary
 
 
 class Asserting:
@@ -32,20 +33,22 @@ class Sides(NamedTuple):
     old: Ruleset
 
 
-def ask_all(found: Gated, asked: Sequence[Sides], asserting: Asserting) -> tuple[Asked, ...]:
+def ask_all(found: Gated, asked: Sequence[Sides], asserting: Asserting) -> tuple[AssertionResult, ...]:
     """The answers. An assertion is asked of each ruleset that knows one of its names, or did in the base: others are
     about other things, and a ruleset that is gone obliges nothing."""
     from sleec_runtime.errors import LanguageError
-    from sleec_verify.changes.assertions import Vocabulary, ask, read_assertion, read_assertions
+    from sleec_verify.changes.assertions.parser import parse_assertion, parse_assertions
+    from sleec_verify.changes.assertions.verification import verify
+    from sleec_verify.changes.assertions.vocabulary import Vocabulary
 
     vocabulary = Vocabulary(side for sides in asked for side in sides)
     said: list[Assertion] = []
     for text in asserting.texts:
-        said.append(read_assertion(text, vocabulary, "assertion"))
+        said.append(parse_assertion(text, vocabulary, "assertion"))
     problems: list[tuple[Source, tuple[Problem, ...]]] = []
     for source in asserting.sources:
         try:
-            said += read_assertions(source, vocabulary)
+            said += parse_assertions(source, vocabulary)
         except LanguageError as error:
             problems.append((source, error.problems))
     if problems:
@@ -56,7 +59,7 @@ def ask_all(found: Gated, asked: Sequence[Sides], asserting: Asserting) -> tuple
         try:
             with internal_errors_of(path):
                 known = _names(Vocabulary((new, old)))
-                answers += [ask(new, one, known=vocabulary) for one in said if not known.isdisjoint(_names_in(one))]
+                answers += [verify(new, one, known=vocabulary) for one in said if not known.isdisjoint(_names_in(one))]
         except InternalError as error:
             examined = next((one for one in found.examined if one.path == path), None)
             if examined is None:

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from sleec_runtime.certificate.manifest import Manifest
     from sleec_runtime.errors import Problem, SleecError
     from sleec_runtime.model import Ruleset, Span
-    from sleec_verify.changes.assertions import Asked
+    from sleec_verify.changes.assertions.assertion import AssertionResult
     from sleec_verify.changes.compare import Difference
     from sleec_verify.changes.gate.keys import Target
     from sleec_verify.changes.gate.suppressions import Suppression
@@ -105,7 +105,7 @@ class Gated:
     examined: list[Examined] = field(default_factory=list)
     unchanged: int = 0
     conformed: list[Conformed] = field(default_factory=list)
-    asked: tuple[Asked, ...] = ()
+    asked: tuple[AssertionResult, ...] = ()
     paths: dict[str, str] = field(default_factory=dict)
     changes: list[Block] = field(default_factory=list)
     blocks: list[Block] = field(default_factory=list)

@@ -9,7 +9,10 @@ from hypothesis import strategies as st
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse
 from sleec_runtime.model import And, Atom, Obligation, Or, Ruleset, Source, Span, Truth
-from sleec_verify.changes.assertions import Assertion, Broken, Vocabulary, ask, read_assertion, read_assertions
+from sleec_verify.changes.assertions.assertion import Assertion, Violation
+from sleec_verify.changes.assertions.parser import parse_assertion, parse_assertions
+from sleec_verify.changes.assertions.verification import verify
+from sleec_verify.changes.assertions.vocabulary import Vocabulary
 from tests.support import brute_force as brute
 from tests.support.small_rulesets import CONDITIONS, OBLIGATIONS, TRIGGERS, _booleans, _formula, small_rulesets
 
@@ -30,7 +33,7 @@ KNOWN = Vocabulary([RULES])
 
 
 def holds(text: str, ruleset: Ruleset = RULES) -> bool:
-    answer = ask(ruleset, read_assertion(text, Vocabulary([ruleset]))).answer
+    answer = verify(ruleset, parse_assertion(text, Vocabulary([ruleset]))).answer
     assert not isinstance(answer, str), answer
     return answer is None
 
@@ -62,10 +65,10 @@ def test_assumptions_and_domains_count() -> None:
     home, ward = "RULE a\nWHEN t THEN o\n", "RULE b\nWHEN t THEN p UNLESS c IN WHICH CASE q\n"
     ruleset = parse(f"DOMAIN home\n{home}DOMAIN ward\nASSUME NOT c\n{ward}")
     assert holds("never q", ruleset)
-    answer = ask(ruleset, read_assertion("always o when t", Vocabulary([ruleset]))).answer
-    assert isinstance(answer, Broken)
+    answer = verify(ruleset, parse_assertion("always o when t", Vocabulary([ruleset]))).answer
+    assert isinstance(answer, Violation)
     assert (answer.domain, [one.rule for one in answer.deciding]) == ("ward", ["b"])
-    assert ask(ruleset, read_assertion("always o when t", Vocabulary([ruleset])), domain="home").answer is None
+    assert verify(ruleset, parse_assertion("always o when t", Vocabulary([ruleset])), domain="home").answer is None
 
 
 def test_relations_count() -> None:
@@ -89,9 +92,9 @@ def test_against_brute_force(ruleset, kind, literals, when) -> None:
 
     names = Ruleset((*ruleset.statements, brute_names(ruleset, when)))
     expected = any(broken(context) for context in brute.contexts(names))
-    answer = ask(ruleset, Assertion(kind, tuple(literals), when, Source("t", ""), Span(0, 0))).answer
+    answer = verify(ruleset, Assertion(kind, tuple(literals), when, Source("t", ""), Span(0, 0))).answer
     assert (answer is not None) == expected
-    if isinstance(answer, Broken):
+    if isinstance(answer, Violation):
         assert broken(answer.witness.context())
 
 
@@ -129,7 +132,7 @@ def brute_names(ruleset, when):
 )
 def test_what_is_none_is_refused_with_its_place(text: str, column: int, message: str, hint: str) -> None:
     with pytest.raises(LanguageError) as caught:
-        read_assertion(text, KNOWN)
+        parse_assertion(text, KNOWN)
     (problem,) = caught.value.problems
     assert message in problem.message
     assert hint in (problem.hint or "")
@@ -138,19 +141,19 @@ def test_what_is_none_is_refused_with_its_place(text: str, column: int, message:
 
 def test_a_file_has_one_a_line() -> None:
     text = "# what must hold\nnever Refuse when Risk = low  # ever\n\nalways Open when Request\n"
-    found = read_assertions(Source("file", text), KNOWN)
+    found = parse_assertions(Source("file", text), KNOWN)
     assert [one.text for one in found] == ["never Refuse when Risk = low", "always Open when Request"]
 
 
 def test_all_problems_of_a_file_are_told() -> None:
     with pytest.raises(LanguageError) as caught:
-        read_assertions(Source("file", "never Opn\nalways Open\nnever\n"), KNOWN)
+        parse_assertions(Source("file", "never Opn\nalways Open\nnever\n"), KNOWN)
     assert [caught.value.source.place(p.span)[:2] for p in caught.value.problems] == [(1, 7), (3, 6)]
 
 
 def test_a_file_without_assertions_is_a_mistake() -> None:
     with pytest.raises(LanguageError, match="no assertion"):
-        read_assertions(Source("file", "# nothing\n"), KNOWN)
+        parse_assertions(Source("file", "# nothing\n"), KNOWN)
 
 
 MEASURING = "MEASURE c: number\nWHEN t THEN o UNLESS c > 1 IN WHICH CASE p\n"
@@ -172,8 +175,8 @@ def test_rules_that_take_a_name_otherwise_are_not_asked(when: str, other: str, w
     """The first ruleset says how the assertion is read; what it would mean to the other nobody said."""
     rulesets = [parse(BESIDE), parse(other)]
     known = Vocabulary(rulesets)
-    assertion = read_assertion(f"never o when {when}", known)
-    first, second = (ask(ruleset, assertion, known=known).answer for ruleset in rulesets)
+    assertion = parse_assertion(f"never o when {when}", known)
+    first, second = (verify(ruleset, assertion, known=known).answer for ruleset in rulesets)
     assert not isinstance(first, str)
     assert isinstance(second, str)
     assert second.startswith(why)
@@ -182,5 +185,7 @@ def test_rules_that_take_a_name_otherwise_are_not_asked(when: str, other: str, w
 def test_rules_that_do_not_know_a_name_are_asked_all_the_same() -> None:
     rulesets = [parse(BESIDE), parse("WHEN t THEN p\n")]
     known = Vocabulary(rulesets)
-    asked = [ask(ruleset, read_assertion("never p when Age < Grown and c", known), known=known) for ruleset in rulesets]
-    assert all(isinstance(one.answer, Broken) for one in asked)
+    asked = [
+        verify(ruleset, parse_assertion("never p when Age < Grown and c", known), known=known) for ruleset in rulesets
+    ]
+    assert all(isinstance(one.answer, Violation) for one in asked)

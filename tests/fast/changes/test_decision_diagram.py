@@ -7,8 +7,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sleec_runtime.model import Comparison, Measure, MeasureRef, Never, Not, Number, Ruleset
-from sleec_verify.changes import decision_diagram as diagram
-from sleec_verify.changes.decision_diagram import FALSE, TRUE, Diagram, TooLarge
+from sleec_verify.changes.diagram import decision_diagram
+from sleec_verify.changes.diagram.decision_diagram import FALSE, TRUE, TooLarge
+from sleec_verify.changes.diagram.formulas import FormulaDiagram
 from tests.support import brute_force as brute
 from tests.support.small_rulesets import CONDITIONS, MEASURES, _booleans, _flipped, _formula, _numeric, _pairs, _scales
 
@@ -17,16 +18,16 @@ FORMULAS = _formula(LEAVES, 4)
 MEASURED = {measure.name: measure for measure in MEASURES}
 
 
-def told_apart(made: Diagram, context):
+def told_apart(made: FormulaDiagram, context):
     said = []
-    for part in made.parts:
-        for _, name in part.names:
-            if not part.cuts:
+    for variable in made.variables:
+        for _, name in variable.names:
+            if not variable.cuts:
                 said.append(context.conditions.get(name, False))
-        for name, cuts in part.cuts:
+        for name, cuts in variable.cuts:
             value = context.conditions[name]
             said.append(sum(value > c.value or (value == c.value and not c.inclusive) for c in cuts))
-        for x, y in part.orders:
+        for x, y in variable.orders:
             a, b = context.conditions[x], context.conditions[y]
             said.append((a > b) - (a < b))
     return tuple(said)
@@ -35,10 +36,10 @@ def told_apart(made: Diagram, context):
 @settings(max_examples=60)
 @given(FORMULAS, FORMULAS)
 def test_counts_and_equality(one, other) -> None:
-    made = Diagram([one, other], MEASURED)
+    made = FormulaDiagram([one, other], MEASURED)
     every = list(brute.contexts(Ruleset((*MEASURES, Never(one), Never(other)))))
     nodes = [made.node(formula) for formula in (one, other)]
-    over = set(range(len(made.parts)))
+    over = set(range(len(made.variables)))
     true = [{told_apart(made, c) for c in every if brute.value(f, c, measures=MEASURED)} for f in (one, other)]
     for node, where in zip(nodes, true):
         assert made.count(node, over) == len(where)
@@ -50,11 +51,11 @@ def test_counts_and_equality(one, other) -> None:
 @settings(max_examples=60)
 @given(FORMULAS)
 def test_what_can_be_chosen(formula) -> None:
-    made = Diagram([formula], MEASURED)
-    kept = {at for at, part in enumerate(made.parts) if part.names[0][1] in CONDITIONS[:2]}
+    made = FormulaDiagram([formula], MEASURED)
+    kept = {at for at, variable in enumerate(made.variables) if variable.names[0][1] in CONDITIONS[:2]}
     projected = made.some(made.node(formula), kept)
     assert made.support(projected) <= kept
-    names = [made.parts[at].names[0][1] for at in sorted(kept)]
+    names = [made.variables[at].names[0][1] for at in sorted(kept)]
     true = {
         tuple(context.conditions[name] for name in names)
         for context in brute.contexts(Ruleset((*MEASURES, Never(formula))))
@@ -65,7 +66,7 @@ def test_what_can_be_chosen(formula) -> None:
 
 def test_a_formula_and_its_negation() -> None:
     formula = Comparison(MeasureRef("x"), "<", Number(2))
-    made = Diagram([formula], MEASURED)
+    made = FormulaDiagram([formula], MEASURED)
     assert made.both(made.node(formula), made.node(Not(formula))) == FALSE
 
 
@@ -73,8 +74,8 @@ def test_bounds_are_stated(monkeypatch: pytest.MonkeyPatch) -> None:
     names = [Measure(f"n{i}", "number") for i in range(6)]
     pairs = [Comparison(MeasureRef(a.name), "<", MeasureRef(b.name)) for a in names for b in names if a.name < b.name]
     with pytest.raises(TooLarge, match="more than 2,000 orders"):
-        Diagram(pairs, {measure.name: measure for measure in names})
-    monkeypatch.setattr(diagram, "MOST_NODES", 3)
-    made = Diagram(pairs[:1], {measure.name: measure for measure in names})
+        FormulaDiagram(pairs, {measure.name: measure for measure in names})
+    monkeypatch.setattr(decision_diagram, "MOST_NODES", 3)
+    made = FormulaDiagram(pairs[:1], {measure.name: measure for measure in names})
     with pytest.raises(TooLarge, match="more than 3 nodes"):
         made.opposite(made.node(pairs[0]))

@@ -134,7 +134,7 @@ def test_diff_compares_the_other_files(form: str, target: str, cli: Cli, fail_in
 
 
 def test_diff_asks_the_other_files(cli: Cli, fail_in: Callable[[str], None]) -> None:
-    fail_in("sleec_verify.changes.assertions.ask")
+    fail_in("sleec_verify.changes.assertions.verification.verify")
     files = {f"{side}/{name}": GOOD for side in ("old", "new") for name in FILES}
     ran = cli("diff", "old", "new", "--format", "json", "--assert", "never B when A", files=files)
     assert ran.code == 2
@@ -156,7 +156,12 @@ def repository(tmp_path: Path) -> None:
 @pytest.mark.usefixtures("repository")
 @pytest.mark.parametrize(
     "target",
-    [PARSING, CHECKING, "sleec_verify.changes.gate.examination.compare", "sleec_verify.changes.assertions.ask"],
+    [
+        PARSING,
+        CHECKING,
+        "sleec_verify.changes.gate.examination.compare",
+        "sleec_verify.changes.assertions.verification.verify",
+    ],
 )
 @pytest.mark.parametrize("form", FORMATS)
 def test_gate_judges_the_other_files(form: str, target: str, cli: Cli, fail_in: Callable[[str], None]) -> None:

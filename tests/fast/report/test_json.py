@@ -232,7 +232,7 @@ def test_differences_fit_the_schema(old: str, new: str, relation: str, cli: Cli)
 
 
 def test_differences_that_are_not_counted_fit_the_schema(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sleec_verify.changes.decision_diagram.MOST_NAMES", 1)
+    monkeypatch.setattr("sleec_verify.changes.diagram.variables.MOST_NAMES", 1)
     files = {"old.sleec": FLAT, "new.sleec": f"{FLAT} AND E"}
     said = json.loads(cli("diff", "old.sleec", "new.sleec", "--format", "json", files=files).out)
     jsonschema.validate(said, DIFFERENCE)
@@ -252,7 +252,7 @@ def test_assertions_fit_the_schema(cli: Cli, monkeypatch: pytest.MonkeyPatch) ->
     def undecided(*_: object) -> None:
         raise Undecided("the solver gave up")
 
-    monkeypatch.setattr("sleec_verify.changes.assertions.smallest_situation", undecided)
+    monkeypatch.setattr("sleec_verify.changes.assertions.verification.smallest_situation", undecided)
     said = json.loads(cli(*line).out)
     jsonschema.validate(said, DIFFERENCE)
     assert None in [one["holds"] for one in said["assertions"]]

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from sleec_runtime.errors import Unsayable
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Obligation, Rule
-from sleec_verify.changes import decision_diagram as diagram
 from sleec_verify.changes.compare import Difference, NameChange, compare
+from sleec_verify.changes.diagram import decision_diagram
 from sleec_verify.checks import run_checks
 from sleec_verify.exchange.conversion import convert
 from sleec_verify.exchange.conversion.readings import reread
@@ -499,7 +499,7 @@ def test_relations_of_one_moment_are_kept_and_those_of_several_named() -> None:
 
 
 def test_what_is_not_counted_is_told_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(diagram, "MOST_NODES", 5)
+    monkeypatch.setattr(decision_diagram, "MOST_NODES", 5)
     found = edit(CURTAINS, "UNLESS UserUndressed IN", "UNLESS UserUndressed OR WindowOpen IN")
     assert {change.extent.affected for change in found.changes} == {None}
     assert all("more than 5 nodes" in str(change.extent.why) for change in found.changes)

@@ -1,206 +1,32 @@
-"""Properties asked of rules: ``never RefuseRequest when MedicalEmergency``, ``always CallNurse when FallDetected``.
-
-An assertion is about what clauses that decide call for, at once or within a time, in every situation that the
-assumptions allow. Whether the rules also contradict one another there is for the check `conflict`.
-"""
+"""Parses assertions."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Literal, NamedTuple, NoReturn, Union
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple, NoReturn
 
 from sleec_runtime.errors import LanguageError, Problem
-from sleec_runtime.evaluation.evaluation import decide, holds
 from sleec_runtime.language.common.comparisons import OPERATORS
 from sleec_runtime.model import (
     And,
-    Assume,
     Atom,
     Comparison,
     Formula,
-    Measure,
     MeasureRef,
     Not,
     Number,
     Obligation,
     Or,
     Rational,
-    Ruleset,
     ScaleValue,
     Source,
     Span,
     Term,
     Truth,
-    leaves,
-    measures_of,
 )
-from sleec_verify.changes.compare.result import Deciding
-from sleec_verify.changes.compare.sides import instants
-from sleec_verify.encoding.equation import conjunction, disjunction, implications
-from sleec_verify.encoding.solver import Undecided
-from sleec_verify.query.question import is_possible
-from sleec_verify.query.ruleset_index import RulesetIndex
-from sleec_verify.query.witness import smallest_situation
-from sleec_verify.results.finding import Witness
-
-Kind = Literal["never", "always"]
-
-
-@dataclass(frozen=True)
-class Assertion:
-    """Where `when` holds, never all of `literals` are called for, or always each of them is."""
-
-    kind: Kind
-    literals: tuple[Obligation, ...]
-    when: Formula
-    source: Source
-    span: Span
-
-    @property
-    def text(self) -> str:
-        """As it was written."""
-        return " ".join(self.source.text[self.span.start : self.span.end].split())
-
-
-class Broken(NamedTuple):
-    """A smallest situation in which an assertion does not hold, with the clauses that decide there. `domain` is the one
-    in which that is so, if the ruleset has any."""
-
-    witness: Witness
-    deciding: tuple[Deciding, ...]
-    domain: str | None = None
-
-
-class Asked(NamedTuple):
-    """The answer for one ruleset: None where the assertion holds, else the counterexample, or why it is not decided."""
-
-    assertion: Assertion
-    ruleset: Ruleset
-    answer: Union[Broken, str, None]
-
-
-# Asking ---------------------------------------------------------------------------------------------------
-
-
-def ask(ruleset: Ruleset, assertion: Assertion, domain: str | None = None, known: Vocabulary | None = None) -> Asked:
-    """Whether the assertion holds of the rules in every situation, in every domain, or in `domain`.
-
-    Unsatisfiable exactly when it holds: the situation of the assertion, and every literal of a `never` obliged, or some
-    literal of an `always` obliged by no rule. A model is a counterexample; the smallest is replayed by the evaluator.
-    """
-    apart = next(_read_otherwise(ruleset, assertion, known), None) if known is not None else None
-    if apart is not None:
-        return Asked(assertion, ruleset, apart)
-    domains: Sequence[str | None] = ruleset.domains or (None,) if domain is None else (domain,)
-    measures = {**(known.measures if known is not None else {}), **ruleset.measures}
-    try:
-        for one in domains:
-            broken = _broken(ruleset if one is None else ruleset.in_domain(one), assertion, measures)
-            if broken is not None:
-                return Asked(assertion, ruleset, broken._replace(domain=one))
-    except Undecided as error:
-        return Asked(assertion, ruleset, str(error))
-    return Asked(assertion, ruleset, None)
-
-
-def _read_otherwise(ruleset: Ruleset, assertion: Assertion, known: Vocabulary) -> Iterator[str]:
-    """The names of the assertion that these rules take for something else than `known` does, by which it was read."""
-    kinds = (
-        ("a trigger", ruleset.triggers, known.triggers),
-        ("a condition", ruleset.conditions, known.conditions),
-        ("a measure", ruleset.measures.keys(), known.measures.keys()),
-    )
-    for leaf in leaves(assertion.when):
-        for name in (leaf.name,) if isinstance(leaf, Atom) else measures_of(leaf):
-            mine, theirs = ([kind for kind, *names in kinds if name in names[side]] for side in (0, 1))
-            if mine and mine != theirs:
-                yield f"{name} is {mine[0]} in these rules, and {theirs[0]} where the assertion was read"
-            elif name in ruleset.measures and ruleset.measures[name].values != known.measures[name].values:
-                yield f"{name} has another scale in these rules than where the assertion was read"
-        for side in () if isinstance(leaf, Atom) else (leaf.left, leaf.right):
-            if not isinstance(side, Number) or side.constant is None or side.constant not in ruleset.constants:
-                continue
-            if ruleset.constants[side.constant].value != side.value:
-                yield f"{side.constant} is another number in these rules than where the assertion was read"
-
-
-def _broken(ruleset: Ruleset, assertion: Assertion, measures: Mapping[str, Measure]) -> Broken | None:
-    given = [c.formula for c in ruleset.constraints if isinstance(c, Assume)]
-    given += [formula for _, formula in instants(ruleset)] if ruleset.is_timed else []
-    index = RulesetIndex(Ruleset((*measures.values(), *map(Assume, given), *ruleset.rules)))
-    if not is_possible(index):
-        return None
-    called = [_called_for(ruleset, literal) for literal in assertion.literals]
-    if assertion.kind == "never":
-        questions = [conjunction([assertion.when, *called])]
-    else:
-        questions = [conjunction([assertion.when, Not(formula)]) for formula in called]
-    found = [w for w in (smallest_situation(index, question) for question in questions) if w is not None]
-    if not found:
-        return None
-    witness = min(found, key=lambda w: len(w.triggers) + len(w.conditions))
-    return Broken(witness, _replayed(ruleset, assertion, witness, given, measures))
-
-
-def _called_for(ruleset: Ruleset, literal: Obligation) -> Formula:
-    """Where some clause that decides obliges the literal, whenever it is due."""
-    return disjunction(
-        [
-            guard
-            for rule in ruleset.rules
-            if any(_is(o, literal) for clause in rule.clauses() for o in clause.obligations)
-            for _, guard, clause in implications(rule, ruleset.reading)
-            if any(_is(o, literal) for o in clause.obligations)
-        ]
-    )
-
-
-def _is(one: Obligation, literal: Obligation) -> bool:
-    return one.name == literal.name and one.negated == literal.negated
-
-
-def _replayed(
-    ruleset: Ruleset, assertion: Assertion, witness: Witness, given: Iterable[Formula], measures: Mapping[str, Measure]
-) -> tuple[Deciding, ...]:
-    context = witness.context()
-    found = []
-    for rule in ruleset.rules:
-        decision = decide(rule, context, ruleset.reading, ruleset.measures)
-        if decision is not None:
-            span = list(rule.clauses())[decision.clause].span
-            found.append(Deciding(rule.label, decision.clause, decision.obligations, span))
-    due = [any(_is(o, literal) for one in found for o in one.obligations) for literal in assertion.literals]
-    broken = all(due) if assertion.kind == "never" else not all(due)
-    if not (broken and all(holds(formula, context, measures) for formula in (assertion.when, *given))):
-        raise Undecided("a situation did not replay, which is a bug in sleec-verify")
-    return tuple(found)
-
-
-# Reading --------------------------------------------------------------------------------------------------
-
-
-class Vocabulary:
-    """The names that assertions may use: those of some rulesets. Where these take a name for different things, the
-    first of them says what it is."""
-
-    def __init__(self, rulesets: Iterable[Ruleset]) -> None:
-        self.triggers: set[str] = set()
-        self.conditions: set[str] = set()
-        self.obligations: set[str] = set()
-        self.measures: dict[str, Measure] = {}
-        self.constants: dict[str, Rational] = {}
-        for ruleset in rulesets:
-            said = self.triggers | self.conditions | self.measures.keys()
-            self.triggers |= ruleset.triggers - said
-            self.conditions |= ruleset.conditions - said
-            self.obligations |= ruleset.obligations
-            for name, measure in ruleset.measures.items():
-                if name not in said:
-                    self.measures[name] = measure
-            for name, constant in ruleset.constants.items():
-                self.constants.setdefault(name, constant.value)
+from sleec_verify.changes.assertions.assertion import Assertion
+from sleec_verify.changes.assertions.vocabulary import Vocabulary
 
 
 class _Token(NamedTuple):
@@ -218,7 +44,7 @@ _EXAMPLE = "as in: never RefuseRequest when MedicalEmergency"
 _DEEPEST = 200
 
 
-def read_assertion(text: str, known: Vocabulary, path: str = "--assert") -> Assertion:
+def parse_assertion(text: str, known: Vocabulary, path: str = "--assert") -> Assertion:
     """The assertion that `text` says, over the names of `known`.
 
     Raises:
@@ -227,7 +53,7 @@ def read_assertion(text: str, known: Vocabulary, path: str = "--assert") -> Asse
     return _Reader(Source(path, text), Span(0, len(text)), known).assertion()
 
 
-def read_assertions(source: Source, known: Vocabulary) -> list[Assertion]:
+def parse_assertions(source: Source, known: Vocabulary) -> list[Assertion]:
     """The assertions of a text, one a line; ``#`` starts a comment.
 
     Raises:

@@ -1,0 +1,1 @@
+"""Formulas as decision diagrams, to count the situations that make them true."""
