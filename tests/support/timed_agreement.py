@@ -1,5 +1,5 @@
 """The answers about rules with time against the second method: a direct encoding in z3 that shares nothing with the
-product (tests/support/z3_oracle.py).
+product (tests/support/z3_oracle/).
 
 Where the two differ, one of them may only have looked at too few instants: a trace that either shows is replayed by the
 evaluator of traces first, and z3 is asked again with more.
