@@ -7,7 +7,9 @@ from collections.abc import Iterable, Sequence
 from sleec_runtime.dispatch.snapshot import Cell, Snapshot
 from sleec_runtime.errors import ConflictInContext, UndeterminedDecision, UnknownTrigger
 from sleec_runtime.evaluation.conflicts import find_conflict, missing_for
-from sleec_runtime.evaluation.evaluation import Decision, Due, Outcome, Situation, Undetermined
+from sleec_runtime.evaluation.due import Due
+from sleec_runtime.evaluation.formula_truth import Situation
+from sleec_runtime.evaluation.hedge_chain import Decision, Outcome, Undetermined
 from sleec_runtime.model import Obligation, Rule
 
 

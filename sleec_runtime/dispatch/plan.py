@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from sleec_runtime.dispatch.variants import Variant
 from sleec_runtime.errors import NeedsAwait, WrongArguments
-from sleec_runtime.evaluation.evaluation import Due
+from sleec_runtime.evaluation.due import Due
 from sleec_runtime.support.messages import represent, text_of
 
 

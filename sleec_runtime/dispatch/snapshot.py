@@ -6,7 +6,8 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from sleec_runtime.dispatch.plan import Plan
 from sleec_runtime.dispatch.program import Program
-from sleec_runtime.evaluation.evaluation import Outcome, Situation, walk
+from sleec_runtime.evaluation.formula_truth import Situation
+from sleec_runtime.evaluation.hedge_chain import Outcome, walk
 from sleec_runtime.model import Context, Rule, Value
 from sleec_runtime.support.chunked_sequence import Chunks
 

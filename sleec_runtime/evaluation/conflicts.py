@@ -1,8 +1,8 @@
-"""Whether what is due in one context can be done together: Definition 1 would entail everything where it cannot.
+"""Conflicts in one context, in which Definition 1 would entail everything.
 
-A context conflicts when the literals that are due, the context and the constraints have no common model over the
-obligations. Found by backtracking over the few obligations that `NEVER` constraints mention; the verifier asks a
-solver for the same.
+A context conflicts if the literals that are due, the context and the constraints have no common model over the
+obligations. The search backtracks over the few obligations that `NEVER` constraints mention. The verifier uses a solver
+for the same question.
 """
 
 from __future__ import annotations
@@ -11,7 +11,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Union
 
-from sleec_runtime.evaluation.evaluation import Situation, due, truth, unreported
+from sleec_runtime.evaluation.due import due
+from sleec_runtime.evaluation.formula_truth import Situation, truth, unreported
 from sleec_runtime.model import Atom, Context, Exclusive, Never, Obligation, Ruleset, leaves
 
 Forbidding = Union[Exclusive, Never]
@@ -19,10 +20,9 @@ Forbidding = Union[Exclusive, Never]
 
 @dataclass(frozen=True, slots=True)
 class Conflict:
-    """A smallest set of due literals and constraints that cannot all be.
+    """A minimal inconsistent set of due literals and constraints.
 
-    No constraints: a name and its negation are both due. No literals: the situation itself is one that a `NEVER`
-    forbids, whatever is done.
+    Without constraints, a name and its negation are both due. Without literals, a `NEVER` forbids the situation itself.
     """
 
     literals: tuple[Obligation, ...]
@@ -30,18 +30,18 @@ class Conflict:
 
 
 def conflict(ruleset: Ruleset, context: Context) -> Conflict | None:
-    """Why what is due in `context` cannot all be done, or None if it can. O(size of the rules) plus the search."""
+    """A conflict among what is due in `context`; None if there is none. O(size of the rules), plus the search."""
     literals = due(ruleset, context).literals
     return find_conflict(literals, forbidding(ruleset), Situation(context, ruleset.measures))
 
 
 def forbidding(ruleset: Ruleset) -> tuple[Forbidding, ...]:
-    """The constraints that forbid; an `ASSUME` speaks of contexts only."""
+    """The constraints that can forbid obligations: all but `ASSUME`."""
     return tuple(c for c in ruleset.constraints if isinstance(c, (Exclusive, Never)))
 
 
 def mentioned(constraint: Forbidding) -> frozenset[str]:
-    """The obligations that a constraint speaks of."""
+    """The obligations that a constraint mentions."""
     if isinstance(constraint, Exclusive):
         return frozenset(constraint.names)
     return frozenset(
@@ -52,10 +52,10 @@ def mentioned(constraint: Forbidding) -> frozenset[str]:
 def find_conflict(
     literals: Sequence[Obligation], constraints: Sequence[Forbidding], situation: Situation
 ) -> Conflict | None:
-    """A smallest conflict among due `literals` under `constraints`, or None.
+    """A minimal conflict among due `literals` under `constraints`; None if there is none.
 
-    O(literals + constraints) where nothing that a `NEVER` mentions is left open; exponential in what is, in the
-    worst case. In the open world a `NEVER` that unreported conditions may make true counts as broken.
+    O(literals + constraints) if all obligations that a `NEVER` mentions are fixed; exponential in the number of the
+    others in the worst case. In the open world, a `NEVER` that unreported conditions may make true counts as broken.
     """
     opposed = _opposed(literals)
     if opposed is not None:
@@ -77,18 +77,18 @@ def find_conflict(
 
 
 def has_conflict(literals: Sequence[Obligation], constraints: Sequence[Forbidding], situation: Situation) -> bool:
-    """Whether there is a conflict, at a fraction of what it takes to find a smallest one."""
+    """Whether there is a conflict. Much faster than to find a minimal one."""
     return _opposed(literals) is not None or not _possible(literals, constraints, situation)
 
 
 def missing_for(constraints: Iterable[Forbidding], situation: Situation) -> tuple[str, ...]:
-    """The unreported conditions that the `NEVER`s among `constraints` may depend on."""
+    """The unreported conditions that the `NEVER` constraints depend on."""
     formulas = (constraint.formula for constraint in constraints if isinstance(constraint, Never))
     return tuple(dict.fromkeys(name for formula in formulas for name in unreported(formula, situation)))
 
 
 def _opposed(literals: Sequence[Obligation]) -> str | None:
-    """The first name that is due and forbidden at once."""
+    """The first name that is both due and forbidden."""
     forbidden = {literal.name for literal in literals if literal.negated}
     return next((one.name for one in literals if not one.negated and one.name in forbidden), None)
 
@@ -99,7 +99,7 @@ def _possible(literals: Iterable[Obligation], constraints: Sequence[Forbidding],
     by_never = {name for c in constraints if isinstance(c, Never) for name in mentioned(c)}
     for constraint in constraints:
         if isinstance(constraint, Exclusive):
-            # Doing nothing more can only help an EXCLUSIVE; a NEVER may ask for something to be done.
+            # An EXCLUSIVE never requires an obligation; a NEVER may.
             fixed.update((name, False) for name in constraint.names if name not in fixed and name not in by_never)
     return _satisfiable(constraints, fixed, situation)
 

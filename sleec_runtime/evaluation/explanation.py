@@ -1,11 +1,11 @@
-"""Decisions in words: which clause of which rule, and the conditions and values that made it so."""
+"""Decisions and conflicts as text: the active clause of each rule, and the conditions that decided it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from sleec_runtime.evaluation.conflicts import Conflict
-from sleec_runtime.evaluation.evaluation import Decision, Step
+from sleec_runtime.evaluation.hedge_chain import ConditionTest, Decision
 from sleec_runtime.language.common.formula_printer import print_formula, print_number
 from sleec_runtime.model import (
     Atom,
@@ -23,14 +23,14 @@ from sleec_runtime.support.messages import listed
 
 
 def outcome_in_words(rule: Rule, outcome: Decision | None, context: Context) -> str:
-    """A few lines on what one rule says and why."""
+    """The outcome of one rule with its reasons, in a few lines."""
     if outcome is None:
         return f"{rule.label}: nothing, because its guard is false"
     return decision_in_words(outcome, context)
 
 
 def decision_in_words(decision: Decision, context: Context) -> str:
-    """The active clause, what it obliges, and the conditions that decided, with the values that they were read from."""
+    """The active clause, its obligations, and the conditions that decided it, with their values."""
     clause = "the default" if decision.layer is None else f"hedge {decision.layer}"
     what = ", ".join(map(str, decision.obligations)) or "nothing"
     lines = [f"{decision.rule.label}: {clause} obliges {what}"]
@@ -39,7 +39,7 @@ def decision_in_words(decision: Decision, context: Context) -> str:
 
 
 def conflict_in_words(cause: Conflict, decisions: tuple[Decision, ...]) -> str:
-    """What cannot all be done, which rules ask for it, and which constraints forbid it."""
+    """The contradicting literals with their rules, and the constraints that forbid them."""
     literals = " and ".join(_with_rules(literal, decisions) for literal in cause.literals)
     forbidding = "; ".join(
         f"EXCLUSIVE {listed(c.names)}" if isinstance(c, Exclusive) else f"NEVER {print_formula(c.formula)}"
@@ -56,7 +56,7 @@ def _with_rules(literal: Obligation, decisions: tuple[Decision, ...]) -> str:
     return f"{literal} ({listed(labels)})" if labels else str(literal)
 
 
-def _step(step: Step, context: Context) -> str:
+def _step(step: ConditionTest, context: Context) -> str:
     where = "guard" if step.clause is None else f"clause {step.clause}"
     values = ", ".join(dict.fromkeys(_values(step.condition, context)))
     text = f"{where}: {print_formula(step.condition)} is {'true' if step.held else 'false'}"

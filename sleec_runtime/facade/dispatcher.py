@@ -12,7 +12,7 @@ from sleec_runtime.dispatch.instance import Instance
 from sleec_runtime.dispatch.plan import Plan
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import UnknownObligation, UnknownTrigger
-from sleec_runtime.evaluation.evaluation import Due
+from sleec_runtime.evaluation.due import Due
 from sleec_runtime.facade.done import Done
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from sleec_runtime.dispatch.decisions import outcomes_of
 from sleec_runtime.dispatch.plan import ActiveClause, Plan
 from sleec_runtime.dispatch.snapshot import Snapshot
-from sleec_runtime.evaluation.evaluation import Decision, Undetermined
+from sleec_runtime.evaluation.hedge_chain import Decision, Undetermined
 from sleec_runtime.model import Context
 
 if TYPE_CHECKING:

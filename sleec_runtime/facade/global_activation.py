@@ -19,7 +19,7 @@ from sleec_runtime.dispatch.decisions import due_in
 from sleec_runtime.dispatch.layers import Layers, RuleLayer
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import SleecError
-from sleec_runtime.evaluation.evaluation import Decision
+from sleec_runtime.evaluation.hedge_chain import Decision
 from sleec_runtime.model import Rule, require_untimed
 
 Listener = Callable[[Snapshot, Snapshot, "tuple[Rule, ...]"], None]

@@ -13,7 +13,7 @@ from sleec_runtime.dispatch.program import Program
 from sleec_runtime.dispatch.required_code import missing
 from sleec_runtime.dispatch.snapshot import Conditions, Snapshot
 from sleec_runtime.errors import NotBound, SleecError, UnknownObligation
-from sleec_runtime.evaluation.evaluation import Due, broken_assumptions
+from sleec_runtime.evaluation.due import Due, broken_assumptions
 from sleec_runtime.facade import arguments
 from sleec_runtime.facade.dispatcher import Dispatcher, ImmediateDispatcher
 from sleec_runtime.facade.done import Done

@@ -9,7 +9,7 @@ from typing import Any
 
 from sleec_runtime.dispatch.execution import one_of
 from sleec_runtime.dispatch.snapshot import Snapshot
-from sleec_runtime.evaluation.evaluation import Due
+from sleec_runtime.evaluation.due import Due
 from sleec_runtime.facade.dispatcher import State
 from sleec_runtime.facade.done import Done
 from sleec_runtime.monitor.monitor import Monitor

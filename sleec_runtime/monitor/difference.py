@@ -8,7 +8,8 @@ from typing import Any, TypeVar
 
 from sleec_runtime.dispatch.recording import Recording
 from sleec_runtime.dispatch.snapshot import Snapshot
-from sleec_runtime.evaluation.evaluation import Decision, Due, decide
+from sleec_runtime.evaluation.due import Due
+from sleec_runtime.evaluation.hedge_chain import Decision, decide
 from sleec_runtime.model import Context, Obligation
 from sleec_runtime.support.messages import listed
 

@@ -9,7 +9,7 @@ from typing import Any
 from sleec_runtime.dispatch.decisions import decisions_of
 from sleec_runtime.dispatch.instance import Instance
 from sleec_runtime.dispatch.snapshot import Snapshot
-from sleec_runtime.evaluation.evaluation import Decision
+from sleec_runtime.evaluation.hedge_chain import Decision
 from sleec_runtime.timed.clock import Time
 from sleec_runtime.timed.response_tasks import tasks_of
 from sleec_runtime.timed.task import Origin, Task

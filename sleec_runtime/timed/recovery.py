@@ -14,7 +14,7 @@ from sleec_runtime.dispatch.instance import Instance
 from sleec_runtime.dispatch.program import Program
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import SleecError, SnapshotRefused
-from sleec_runtime.evaluation.evaluation import Decision
+from sleec_runtime.evaluation.hedge_chain import Decision
 from sleec_runtime.support.messages import represent
 from sleec_runtime.timed.checkpoint import FORMAT, identity, may_run_code
 from sleec_runtime.timed.clock import FURTHEST, Time

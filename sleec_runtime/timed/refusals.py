@@ -7,7 +7,8 @@ from math import floor
 
 from sleec_runtime.dispatch.decisions import refuse_conflict
 from sleec_runtime.errors import Prohibited
-from sleec_runtime.evaluation.evaluation import Decision, Due
+from sleec_runtime.evaluation.due import Due
+from sleec_runtime.evaluation.hedge_chain import Decision
 from sleec_runtime.model import Obligation
 from sleec_runtime.timed.agenda import Agenda
 from sleec_runtime.timed.cascade import Stage

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from sleec_runtime.errors import UndeterminedDecision, WrongType
-from sleec_runtime.evaluation.evaluation import Situation, Undetermined, walk
+from sleec_runtime.evaluation.formula_truth import Situation
+from sleec_runtime.evaluation.hedge_chain import Undetermined, walk
 from sleec_runtime.model import Clause, Length, Obligation, Rational, Rule
 from sleec_runtime.timed.clock import FURTHEST, Time
 from sleec_runtime.timed.task import Origin, Path, Task

@@ -10,7 +10,7 @@ from types import CoroutineType
 from sleec_runtime.dispatch.plan import Plan
 from sleec_runtime.dispatch.variants import Unfinished, Variant, await_under, run_all
 from sleec_runtime.errors import NeedsAwait
-from sleec_runtime.evaluation.evaluation import Due
+from sleec_runtime.evaluation.due import Due
 from sleec_runtime.model import Obligation
 from sleec_runtime.timed.cascade import Stage
 from sleec_runtime.timed.clock import Time

@@ -16,7 +16,7 @@ from sleec_runtime.dispatch.program import Program
 from sleec_runtime.dispatch.recording import recording
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import SleecError, SnapshotRefused, UnknownObligation
-from sleec_runtime.evaluation.evaluation import Due
+from sleec_runtime.evaluation.due import Due
 from sleec_runtime.timed.admission import Admission
 from sleec_runtime.timed.agenda import CLOSES, OPENS
 from sleec_runtime.timed.cascade import triggered_stage

@@ -8,7 +8,7 @@ from typing import Any, Literal, Protocol, Union
 
 from sleec_runtime.dispatch.instance import Instance
 from sleec_runtime.dispatch.snapshot import Snapshot
-from sleec_runtime.evaluation.evaluation import Decision
+from sleec_runtime.evaluation.hedge_chain import Decision
 from sleec_runtime.model import Obligation, Rule
 from sleec_runtime.timed.clock import Time
 

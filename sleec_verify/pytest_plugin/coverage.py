@@ -13,7 +13,7 @@ from functools import partial
 
 from sleec_runtime.dispatch.plan import Plan
 from sleec_runtime.dispatch.snapshot import Snapshot
-from sleec_runtime.evaluation.evaluation import holds
+from sleec_runtime.evaluation.formula_truth import holds
 from sleec_runtime.facade.dispatcher import ImmediateDispatcher
 from sleec_runtime.model import Atom, Comparison, Rule, Ruleset
 from sleec_verify.conformance.cases.goals import conditions_of

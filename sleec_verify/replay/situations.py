@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from sleec_runtime.evaluation.conflicts import has_conflict
-from sleec_runtime.evaluation.evaluation import Decision, Situation, decide, holds
+from sleec_runtime.evaluation.formula_truth import Situation, holds
+from sleec_runtime.evaluation.hedge_chain import Decision, decide
 from sleec_runtime.model import READINGS, Context
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding

@@ -6,7 +6,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from sleec_runtime.evaluation.traces import Instant, Trace, Untimed, broken
+from sleec_runtime.evaluation.trace import Instant, Trace, Untimed
+from sleec_runtime.evaluation.trace_violations import violations
 from sleec_runtime.model import Ruleset
 from sleec_verify.games.players import is_environments
 from sleec_verify.results.finding import Finding
@@ -30,7 +31,7 @@ def _plays(
     strategy: Strategy, robots: Ruleset, environments: Ruleset, before: tuple[Instant, ...], untimed: Untimed
 ) -> bool:
     act = _instant(strategy.act)
-    if broken(environments, Trace((*before, act)), untimed):
+    if violations(environments, Trace((*before, act)), untimed):
         return False
     for branch in strategy.branches:
         after = branch.then.act.time
@@ -41,7 +42,7 @@ def _plays(
             continue
         now = replace(act, events=act.events.union(branch.done))
         plan = [_instant(planned) for planned in branch.planned]
-        if broken(robots, Trace((*before, now, *plan)), untimed):
+        if violations(robots, Trace((*before, now, *plan)), untimed):
             return False
         done = [instant for instant in plan if instant.time < after]
         if not _plays(branch.then, robots, environments, (*before, now, *done), untimed):

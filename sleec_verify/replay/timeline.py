@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
-from sleec_runtime.evaluation.evaluation import decide
+from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import Context, Rule, formulas_of, names_of, obligation_text
 from sleec_verify.encoding.response_windows import Windowed, Windows
 from sleec_verify.results import timeline

@@ -7,8 +7,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from sleec_runtime.evaluation.evaluation import decide
-from sleec_runtime.evaluation.traces import Instant, Lawlike, Trace, broken, broken_so_far, claim_holds
+from sleec_runtime.evaluation.hedge_chain import decide
+from sleec_runtime.evaluation.trace import Instant, Trace
+from sleec_runtime.evaluation.trace_violations import Requirement, claim_holds, violations, violations_so_far
 from sleec_runtime.model import Context, Rule, Ruleset, claims
 from sleec_verify.encoding.relations import events_of
 from sleec_verify.query.ruleset_index import RulesetIndex
@@ -35,16 +36,16 @@ def replays(index: RulesetIndex, finding: Finding) -> bool:
         if speaking and not _decides(index, rule, number, speaking):
             return False
     before = Trace((*history, replace(now, events=frozenset())))
-    violated = broken_so_far(_about(index, before), before, index.untimed)
+    violated = violations_so_far(_about(index, before), before, index.untimed)
     if any(one.time != now.time or _is_violated_by(now, one.statement) for one in violated):
         return False
     rules = [index.ruleset.by_label[label] for label in finding.rules]
     inputs = replace(_about(index, before), statements=tuple(rules))
-    found = broken_so_far(inputs, Trace((*history, now)), index.untimed)
+    found = violations_so_far(inputs, Trace((*history, now)), index.untimed)
     return all(one.time == now.time for one in found)
 
 
-def _is_violated_by(now: Instant, relation: Lawlike) -> bool:
+def _is_violated_by(now: Instant, relation: Requirement) -> bool:
     """Whether a relation that seems to be violated now is. Which events occur now is open, and so are conditions and
     measures that do not matter."""
     assert not isinstance(relation, Rule), "no event triggers a rule"
@@ -56,7 +57,7 @@ def _comes_about(index: RulesetIndex, finding: Finding) -> bool:
     trace = as_trace(finding.timeline)
     (claim,) = (c for c in claims(index.ruleset, "concern") if c.label == finding.obligations[0])
     ruleset = _about(index, trace)
-    return not broken(ruleset, trace, index.untimed) and claim_holds(claim, ruleset, trace, index.untimed)
+    return not violations(ruleset, trace, index.untimed) and claim_holds(claim, ruleset, trace, index.untimed)
 
 
 def _decides(index: RulesetIndex, rule: Rule, number: int, instants: Iterable[Instant]) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from sleec_runtime.evaluation.evaluation import due
+from sleec_runtime.evaluation.due import due
 from sleec_runtime.language import parse_source
 from sleec_runtime.language.common.source import source_of
 from sleec_verify.changes.gate.baseline import baseline_text, key, read_baseline

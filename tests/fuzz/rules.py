@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from unittest.mock import patch
 from zlib import crc32
 
-from sleec_runtime.evaluation.evaluation import due
+from sleec_runtime.evaluation.due import due
 from sleec_runtime.language import parse, parse_source, print_ruleset
 from sleec_runtime.language.common.source import source_of
 from sleec_runtime.language.dsl.scanner import scan as scan_dsl

@@ -9,7 +9,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain, combinations, product
 
-from sleec_runtime.evaluation.traces import Instant, Trace, broken
+from sleec_runtime.evaluation.trace import Instant, Trace
+from sleec_runtime.evaluation.trace_violations import violations
 from sleec_runtime.model import RELATIONS, Assume, Exclusive, Never, Rule, Ruleset
 
 
@@ -39,10 +40,10 @@ class Game:
 
     def _beaten(self, before: tuple[Instant, ...], act: Instant, left: int) -> bool:
         """Whether the environment wins with an act, with so many acts left, this one included."""
-        if broken(self.lawful, Trace((*before, act))):
+        if violations(self.lawful, Trace((*before, act))):
             return False
         for now, plan in self._replies(act):
-            if broken(self.all, Trace((*before, now, *plan))):
+            if violations(self.all, Trace((*before, now, *plan))):
                 continue
             if left == 1:
                 return False

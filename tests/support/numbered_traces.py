@@ -10,7 +10,8 @@ import operator
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import prod
 
-from sleec_runtime.evaluation.traces import Instant, Lawlike, Trace, Untimed
+from sleec_runtime.evaluation.trace import Instant, Trace, Untimed
+from sleec_runtime.evaluation.trace_violations import Requirement
 from sleec_runtime.model import (
     RELATIONS,
     SECONDS,
@@ -60,7 +61,7 @@ class NumberedTraces:
     """The questions about the traces of one ruleset. `laws` are the statements that a trace may break."""
 
     def __init__(self, ruleset: Ruleset, untimed: Untimed) -> None:
-        self.laws: Sequence[Lawlike] = [
+        self.laws: Sequence[Requirement] = [
             s for s in ruleset.statements if isinstance(s, (Rule, Exclusive, Never, Assume, *RELATIONS))
         ]
         self._measures = ruleset.measures
@@ -83,7 +84,7 @@ class NumberedTraces:
             several.append(several[-1].meanwhile)
         return " ".join(("claims", *_listed([list(self._claim(one)) for one in several])))
 
-    def broken(self, answer: str, trace: Trace) -> list[tuple[Lawlike, int]]:
+    def broken(self, answer: str, trace: Trace) -> list[tuple[Requirement, int]]:
         """The laws and the times of an answer's places."""
         places = [tuple(map(int, word.split("."))) for word in answer.split()[1:]]
         return [(self.laws[law], trace.instants[instant].time) for instant, law in places]
@@ -123,7 +124,7 @@ class NumberedTraces:
 
     # Rules ----------------------------------------------------------------------------------------------------
 
-    def _law(self, law: Lawlike) -> Iterator[str]:
+    def _law(self, law: Requirement) -> Iterator[str]:
         if isinstance(law, Rule):
             yield from ("rule", self._event(law.trigger), *self._formula(law.guard))
             yield from self._chain(law.default, law.hedges)

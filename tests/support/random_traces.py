@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
-from sleec_runtime.evaluation.traces import Instant, Trace, Untimed
+from sleec_runtime.evaluation.trace import Instant, Trace, Untimed
 from sleec_runtime.model import (
     READINGS,
     SECONDS,

@@ -8,7 +8,7 @@ from itertools import islice
 from pathlib import Path
 
 from sleec_runtime.evaluation.conflicts import conflict
-from sleec_runtime.evaluation.evaluation import broken_assumptions, due
+from sleec_runtime.evaluation.due import broken_assumptions, due
 from sleec_runtime.model import (
     READINGS,
     And,

@@ -11,7 +11,8 @@ import sys
 from itertools import combinations
 from typing import Any
 
-from sleec_runtime.evaluation.traces import Instant, Trace, broken, claim_holds
+from sleec_runtime.evaluation.trace import Instant, Trace
+from sleec_runtime.evaluation.trace_violations import claim_holds, violations
 from sleec_runtime.language import parse
 from sleec_runtime.model import claims
 from sleec_verify.checks import run_checks
@@ -48,7 +49,7 @@ def compare(ruleset, untimed):
         if answer is not None:
             count += 1
             if answer.trace is not None:
-                found = broken(ruleset, Trace(tuple(Instant(*one) for one in answer.trace)), untimed)
+                found = violations(ruleset, Trace(tuple(Instant(*one) for one in answer.trace)), untimed)
                 assert found, "the trace breaks the rule"
                 assert {b.statement for b in found} == {rule}
             assert_same(answer.trace is None, lambda n: oracle.redundant(ruleset, rule.label, n, untimed))  # noqa: B023
@@ -56,7 +57,7 @@ def compare(ruleset, untimed):
         if answer is not None:
             count += 1
             if answer.trace is not None:
-                assert broken(ruleset, Trace(tuple(Instant(*one) for one in answer.trace)), untimed) == ()
+                assert violations(ruleset, Trace(tuple(Instant(*one) for one in answer.trace)), untimed) == ()
             theirs = oracle.vacuous(ruleset, rule.label, 4, untimed)
             # The table asks besides whether the guard can hold at all, which is the check dead-rule here.
             assert answer.trace is None or not theirs.found
@@ -67,7 +68,7 @@ def compare(ruleset, untimed):
             if answer is not None:
                 count += 1
                 if answer.trace is not None:
-                    assert broken(ruleset, Trace(tuple(Instant(*one) for one in answer.trace)), untimed) == ()
+                    assert violations(ruleset, Trace(tuple(Instant(*one) for one in answer.trace)), untimed) == ()
                     assert claim_holds(claim, ruleset, Trace(tuple(Instant(*one) for one in answer.trace)), untimed)
                 assert_same(answer.trace is not None, lambda n: oracle.concern(ruleset, claim, n, untimed))  # noqa: B023
     return count

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from sleec_runtime.evaluation.evaluation import decide, holds
+from sleec_runtime.evaluation.formula_truth import holds
+from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import (
     Assume,
     Atom,

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from sleec_runtime.evaluation.conflicts import has_conflict
-from sleec_runtime.evaluation.evaluation import Situation, decide, holds
+from sleec_runtime.evaluation.formula_truth import Situation, holds
+from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import Context, Exclusive, Formula, Never, Obligation
 from sleec_verify.changes.compare.alternatives import here
 from sleec_verify.changes.compare.comparison import SIDES, Which, World, triggered

@@ -58,7 +58,7 @@ def _allowed(world: World, by: Which, given: Given, way: Way) -> SituationChange
 
 
 def _keeps(world: World, which: Which, given: Given, context: object) -> bool:
-    from sleec_runtime.evaluation.evaluation import holds
+    from sleec_runtime.evaluation.formula_truth import holds
     from sleec_runtime.model import Context
 
     assert isinstance(context, Context)

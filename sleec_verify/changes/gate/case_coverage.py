@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from sleec_runtime.errors import SleecError, UnsupportedTimes
-from sleec_runtime.evaluation.evaluation import decide
+from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import Ruleset
 from sleec_verify.changes.gate.result import Coverage
 from sleec_verify.conformance.cases.goals import clause_name

@@ -17,7 +17,7 @@ import pytest
 import sleec_runtime
 from sleec_runtime.certificate.coverage import Use
 from sleec_runtime.errors import CertificateRefused, ConflictInContext, SleecError
-from sleec_runtime.evaluation.evaluation import due
+from sleec_runtime.evaluation.due import due
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import READINGS, Context, Reading, Ruleset
 from sleec_verify.certificates.checker import IN_PYTHON

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from sleec_runtime.dispatch import snapshot as snapshot_module
 from sleec_runtime.errors import SleecError
-from sleec_runtime.evaluation import evaluation
+from sleec_runtime.evaluation import hedge_chain
 from sleec_runtime.support.chunked_sequence import Chunks
 from tests.support.robots import CURTAINS, listing_2, running
 
@@ -30,7 +30,7 @@ RULE other WHEN b THEN Wait UNLESS Asleep IN WHICH CASE Leave
 def looked_at(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The labels of the rules that are evaluated."""
     labels: list[str] = []
-    walk = evaluation.walk
+    walk = hedge_chain.walk
 
     def walked(rule: Any, *rest: Any) -> Any:
         labels.append(rule.label)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from sleec_runtime.evaluation.evaluation import decide
+from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
 from sleec_verify.entailment.consequence_tree import DEEPEST, chain

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from sleec_runtime.evaluation.traces import Instant, Trace, broken, broken_so_far
+from sleec_runtime.evaluation.trace import Instant, Trace
+from sleec_runtime.evaluation.trace_violations import violations, violations_so_far
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
 from sleec_verify.encoding.trace_scope import Untimed
@@ -125,7 +126,7 @@ def test_to_do_all_as_scheduled_keeps_the_rules(late: bool) -> None:
     assert c.end is not None
     times = {"A": 0, "B": b.end, "C": b.end + c.end + late}
     trace = Trace(tuple(Instant(time, frozenset({event})) for event, time in times.items()))
-    assert bool(broken(parse(text), trace)) == late
+    assert bool(violations(parse(text), trace)) == late
 
 
 RELATED = """MEASURE n: integer
@@ -157,7 +158,7 @@ def test_a_situation_that_relations_rule_out_is_told(when: str, given: str) -> N
     lasting = (" PRECEDES ", " FOR ")
     told = {ruleset.source.place(law.span).line for law in entail(ruleset, context).broken_assumptions}
     instant = Instant(0, context.triggers, {"n": 0, **context.conditions})
-    found = {ruleset.source.place(b.statement.span).line for b in broken_so_far(ruleset, Trace((instant,)))}
+    found = {ruleset.source.place(b.statement.span).line for b in violations_so_far(ruleset, Trace((instant,)))}
     lines = RELATED.splitlines()
     assert told == {
         line

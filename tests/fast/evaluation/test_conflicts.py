@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sleec_runtime.evaluation.conflicts import Conflict, conflict, find_conflict, missing_for
-from sleec_runtime.evaluation.evaluation import Situation, truth
+from sleec_runtime.evaluation.formula_truth import Situation, truth
 from sleec_runtime.model import (
     And,
     Atom,

@@ -10,15 +10,9 @@ from typing import Any
 import pytest
 
 from sleec_runtime.errors import WrongType
-from sleec_runtime.evaluation.evaluation import (
-    Decision,
-    Undetermined,
-    broken_assumptions,
-    decide,
-    decide_reported,
-    due,
-    holds,
-)
+from sleec_runtime.evaluation.due import broken_assumptions, due
+from sleec_runtime.evaluation.formula_truth import holds
+from sleec_runtime.evaluation.hedge_chain import Decision, Undetermined, decide, decide_reported
 from sleec_runtime.model import (
     And,
     Assume,

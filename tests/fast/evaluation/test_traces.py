@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 
 from sleec_runtime.errors import WrongType
-from sleec_runtime.evaluation.traces import Instant, Trace, broken, broken_so_far, claim_holds
+from sleec_runtime.evaluation.trace import Instant, Trace
+from sleec_runtime.evaluation.trace_violations import claim_holds, violations, violations_so_far
 from sleec_runtime.language import parse
 from sleec_runtime.model import Rule, claims
 
@@ -53,19 +54,19 @@ def times(found):
 
 
 def broken_at(rules, timeline, untimed="at"):
-    return times(broken(ruleset(f"R1 when {rules}"), trace(timeline), untimed))
+    return times(violations(ruleset(f"R1 when {rules}"), trace(timeline), untimed))
 
 
 def hopeless_at(rules, timeline, untimed="at"):
-    return times(broken_so_far(ruleset(f"R1 when {rules}"), trace(timeline), untimed))
+    return times(violations_so_far(ruleset(f"R1 when {rules}"), trace(timeline), untimed))
 
 
 def relation_broken_at(relation, timeline):
-    return times(broken(ruleset(relations=relation), trace(timeline)))
+    return times(violations(ruleset(relations=relation), trace(timeline)))
 
 
 def relation_hopeless_at(relation, timeline):
-    return times(broken_so_far(ruleset(relations=relation), trace(timeline)))
+    return times(violations_so_far(ruleset(relations=relation), trace(timeline)))
 
 
 # Traces ---------------------------------------------------------------------------------------------------
@@ -79,7 +80,7 @@ def test_times_are_whole_and_increase(times_given):
 
 def test_nothing_breaks_nothing():
     rules = ruleset("R1 when A then B", "happenBefore A B", "c1 exists A")
-    assert broken(rules, Trace(())) == broken_so_far(rules, Trace(())) == ()
+    assert violations(rules, Trace(())) == violations_so_far(rules, Trace(())) == ()
     assert not claim_holds(claims(rules, "concern")[0], rules, Trace(()))
 
 
@@ -87,7 +88,7 @@ def test_what_is_broken_is_told_by_time_and_then_by_the_order_of_the_text():
     rules = ruleset("R1 when A then B\nR2 when A then C", "measure invariant {m}")
     first, second = rules.rules
     relation = rules.statements[-1]
-    found = broken(rules, trace("1: A m | 2: | 4: A B m"))
+    found = violations(rules, trace("1: A m | 2: | 4: A B m"))
     assert found == ((first, 1), (second, 1), (relation, 2), (second, 4))
     assert found[0].statement is first
     assert isinstance(first, Rule)
@@ -186,18 +187,18 @@ def test_rules_that_are_due_some_time(rule, timeline, expected):
 
 def test_the_reading_decides():
     text = "WHEN A THEN B UNLESS m IN WHICH CASE C UNLESS n IN WHICH CASE (NOT B AND NOT C)"
-    assert times(broken(parse(text).read_as("cascade"), trace("0: A B n"))) == []
-    assert times(broken(parse(text).read_as("priority"), trace("0: A B n"))) == [0]
+    assert times(violations(parse(text).read_as("cascade"), trace("0: A B n"))) == []
+    assert times(violations(parse(text).read_as("priority"), trace("0: A B n"))) == [0]
 
 
 def test_all_obligations_of_a_clause_are_due():
     rules = parse("WHEN A THEN (B AND NOT C)")
-    assert times(broken(rules, trace("0: A B | 1: A | 2: A B C"))) == [1, 2]
+    assert times(violations(rules, trace("0: A B | 1: A | 2: A B C"))) == [1, 2]
 
 
 def test_a_window_needs_the_value_of_its_measure():
     with pytest.raises(WrongType, match="x is the length of a window"):
-        broken(ruleset("R1 when A then B within {x} seconds"), Trace((Instant(0, frozenset("A")),)))
+        violations(ruleset("R1 when A then B within {x} seconds"), Trace((Instant(0, frozenset("A")),)))
 
 
 # Relations and constraints --------------------------------------------------------------------------------
@@ -245,7 +246,7 @@ def test_relations(relation, timeline, expected):
 )
 def test_constraints(constraint, expected):
     rules = parse(f"{constraint}\nWHEN A THEN NOT D\nWHEN B THEN NOT D\nWHEN D THEN (A AND B AND C)\nUNLESS m")
-    assert times(broken(rules, trace("0: | 1: A m | 2: A B | 3: B C"))) == expected
+    assert times(violations(rules, trace("0: | 1: A m | 2: A B | 3: B C"))) == expected
 
 
 # Histories ------------------------------------------------------------------------------------------------
@@ -331,7 +332,7 @@ def test_obligations_of_one_clause_are_kept_together(first, second, timeline, ex
     rules = ruleset(f"R1 when A then {first}\nR2 when A then {second}")
     obligations = tuple(o for rule in rules.rules for o in rule.default.obligations)
     rule = replace(rules.rules[0], default=replace(rules.rules[0].default, obligations=obligations))
-    assert times(broken_so_far(replace(rules, statements=(rule,)), trace(timeline))) == expected
+    assert times(violations_so_far(replace(rules, statements=(rule,)), trace(timeline))) == expected
 
 
 @pytest.mark.parametrize(
@@ -361,9 +362,9 @@ def test_what_a_history_breaks_of_relations(relation, timeline, expected):
 
 def test_what_a_history_breaks_of_constraints():
     rules = parse("ASSUME A OR B OR m\nNEVER C AND m\nWHEN A THEN NOT D\nWHEN B THEN C UNLESS m")
-    assert times(broken_so_far(rules, trace("0: | 1: C m | 2:"))) == [0, 1]
-    assert times(broken_so_far(rules, trace("0: m | 1: C m"))) == [1]
-    assert times(broken_so_far(rules, trace("0: A | 1:"))) == []
+    assert times(violations_so_far(rules, trace("0: | 1: C m | 2:"))) == [0, 1]
+    assert times(violations_so_far(rules, trace("0: m | 1: C m"))) == [1]
+    assert times(violations_so_far(rules, trace("0: A | 1:"))) == []
 
 
 # Concerns and purposes ------------------------------------------------------------------------------------

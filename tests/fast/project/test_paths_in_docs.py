@@ -33,7 +33,7 @@ def test_modules_exist(page):
     modules = {found[2] for found in MODULE.finditer((ROOT / "docs" / page).read_text(encoding="utf-8"))}
     assert modules
     there = {path.name for folder in ENGINES[page] for path in (ROOT / "sleec_verify" / folder).rglob("*.py")}
-    there |= {path.name for path in (ROOT / "tests").rglob("*.py")} | {"traces.py"}
+    there |= {path.name for path in (ROOT / "tests").rglob("*.py")} | {"trace_violations.py"}
     assert modules <= there
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from sleec_runtime import Sleec
-from sleec_runtime.evaluation.evaluation import Decision
+from sleec_runtime.evaluation.hedge_chain import Decision
 from tests.support.mutants.robot import DOMAIN, RULES, Instance, instance, mutant, read
 from tests.support.robots import Log
 

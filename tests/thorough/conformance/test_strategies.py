@@ -8,7 +8,7 @@ from hypothesis import find, given, settings
 from hypothesis import strategies as st
 
 from sleec_runtime import Sleec
-from sleec_runtime.evaluation.evaluation import broken_assumptions
+from sleec_runtime.evaluation.due import broken_assumptions
 from sleec_runtime.language import load
 from sleec_runtime.model import Context
 from sleec_verify.conformance import strategies

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from sleec_runtime import Sleec
 from sleec_runtime.errors import ConflictInContext, UndeterminedDecision
 from sleec_runtime.evaluation.conflicts import conflict
-from sleec_runtime.evaluation.evaluation import decide, due
+from sleec_runtime.evaluation.due import due
+from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import READINGS
 from tests.support import brute_force as brute
 from tests.support.robots import Log, listing_2

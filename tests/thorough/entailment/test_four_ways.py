@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sleec_runtime.evaluation import evaluation
+from sleec_runtime.evaluation import due as evaluation
 from sleec_runtime.model import Atom, Comparison, Obligation, Ruleset, leaves
 from sleec_verify.encoding.equation import implications
 from sleec_verify.encoding.solver import MiniSat

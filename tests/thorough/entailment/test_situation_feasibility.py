@@ -6,7 +6,8 @@ from itertools import combinations, product
 
 import pytest
 
-from sleec_runtime.evaluation.evaluation import broken_assumptions, holds
+from sleec_runtime.evaluation.due import broken_assumptions
+from sleec_runtime.evaluation.formula_truth import holds
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
 from sleec_verify.encoding.relations import relations_on_situations

@@ -15,7 +15,7 @@ from sleec_runtime import Sleec
 from sleec_runtime.dispatch.decisions import cell_of
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import NotEnforced, SnapshotRefused
-from sleec_runtime.evaluation.evaluation import Decision
+from sleec_runtime.evaluation.hedge_chain import Decision
 from sleec_runtime.language import parse
 from sleec_runtime.timed.clocks import VirtualClock
 from tests.support import brute_force as brute

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 import sleec_runtime
 from sleec_runtime.errors import LanguageError
-from sleec_runtime.evaluation.evaluation import Situation, holds, truth
+from sleec_runtime.evaluation.formula_truth import Situation, holds, truth
 from sleec_runtime.language import parse, print_ruleset
 from sleec_runtime.model import Context
 from tests.support.calculations import NAMES, OPERATORS, TEXT, guard_of, results, ruleset_of, worked_out

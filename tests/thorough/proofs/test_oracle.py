@@ -1,6 +1,6 @@
 """Algorithm 1, Definition 1 and the conflicts of a context, in Python, say what is extracted from the theory says.
 
-One comparison is one context of one ruleset: what is due there and by which clauses (`evaluation.evaluation`), what
+One comparison is one context of one ruleset: what is due there and by which clauses (`evaluation.due`), what
 is entailed, all at once and a literal to the letter (`entailment.entailment.Definition1`), whether the context counts
 and whether it conflicts (`evaluation.conflicts`). The oracle answers by a walk of the rules, by the guards of
 Equation 1, and by a table over all interpretations, all proved to agree.

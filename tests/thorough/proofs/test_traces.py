@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from sleec_runtime.evaluation.traces import Lawlike, broken, broken_so_far, claim_holds
+from sleec_runtime.evaluation.trace_violations import Requirement, claim_holds, violations, violations_so_far
 from sleec_runtime.model import (
     RELATIONS,
     Atom,
@@ -47,9 +47,9 @@ def compare(oracle: Path, cases: Iterable[Case], at_once: int = 200) -> Counter[
             for trace in case.traces:
                 whole, so_far = next(said).split(";")
                 where = f"{case} at {trace}"
-                found = list(map(tuple, broken(case.ruleset, trace, case.untimed)))
+                found = list(map(tuple, violations(case.ruleset, trace, case.untimed)))
                 assert found == one.broken(whole, trace), where
-                early = list(map(tuple, broken_so_far(case.ruleset, trace, case.untimed)))
+                early = list(map(tuple, violations_so_far(case.ruleset, trace, case.untimed)))
                 assert early == one.broken(so_far, trace), where
                 holds = [claim_holds(claim, case.ruleset, trace, case.untimed) for claim in case.claims]
                 assert holds == [next(said) == "yes" for _ in case.claims], where
@@ -62,7 +62,7 @@ def compare(oracle: Path, cases: Iterable[Case], at_once: int = 200) -> Counter[
     return seen
 
 
-def kind(law: Lawlike) -> str:
+def kind(law: Requirement) -> str:
     return relation_name(law) if isinstance(law, RELATIONS) else type(law).__name__.lower()
 
 

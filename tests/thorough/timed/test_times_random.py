@@ -1,6 +1,6 @@
 """Random rules with times at work: as long as the runtime raises and reports nothing, what happened keeps the rules.
 
-What happened is told by `sleec_runtime.evaluation.traces`, which shares no code with what keeps the times.
+What happened is told by `sleec_runtime.evaluation.trace_violations`, which shares no code with what keeps the times.
 """
 
 from __future__ import annotations
@@ -11,7 +11,8 @@ from random import Random
 import pytest
 
 from sleec_runtime import Sleec, VirtualClock, errors, obligation
-from sleec_runtime.evaluation.traces import Instant, Trace, broken, broken_so_far
+from sleec_runtime.evaluation.trace import Instant, Trace
+from sleec_runtime.evaluation.trace_violations import violations, violations_so_far
 from sleec_runtime.language import parse
 from sleec_runtime.model import Value, literals
 from tests.support.timed_strategies import BOOLEANS, SCALE, timed_ruleset
@@ -128,14 +129,14 @@ def outcome(seed: int) -> str:
             return "refused what had happened"
         if world.sleec.failures:
             return "reported"
-        assert broken_so_far(world.ruleset, world.trace()) == (), world.ruleset.source.text
+        assert violations_so_far(world.ruleset, world.trace()) == (), world.ruleset.source.text
     world.clock.advance(LONG)
     if world.sleec.failures:
         return "reported"
     if any(not one.prohibited for one in world.sleec.pending()):
-        assert broken_so_far(world.ruleset, world.trace()) == (), world.ruleset.source.text
+        assert violations_so_far(world.ruleset, world.trace()) == (), world.ruleset.source.text
         return "pending"
-    assert broken(world.ruleset, world.trace()) == (), world.ruleset.source.text
+    assert violations(world.ruleset, world.trace()) == (), world.ruleset.source.text
     return "kept"
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from sleec_runtime.evaluation.traces import Instant, Trace, broken
+from sleec_runtime.evaluation.trace import Instant, Trace
+from sleec_runtime.evaluation.trace_violations import violations
 from sleec_verify.results.finding import Proved, Refuted
 from tests.support.calculations import BOTH, results, ruleset_of
 
@@ -40,8 +41,8 @@ def test_windows_and_calculations_together():
     instants = [Instant(m.time, frozenset(m.events), dict(m.conditions)) for m in finding.timeline.moments]
     # Done or not, one of the two is broken.
     ruleset = ruleset_of(*rules)
-    assert broken(ruleset, Trace(tuple(instants)))
-    assert broken(
+    assert violations(ruleset, Trace(tuple(instants)))
+    assert violations(
         ruleset, Trace((*instants[:-1], Instant(instants[-1].time, frozenset("ABC"), instants[-1].conditions)))
     )
 

@@ -8,8 +8,9 @@ from itertools import combinations, product
 
 import pytest
 
-from sleec_runtime.evaluation.evaluation import holds
-from sleec_runtime.evaluation.traces import Instant, Trace, Untimed, broken, broken_so_far, claim_holds
+from sleec_runtime.evaluation.formula_truth import holds
+from sleec_runtime.evaluation.trace import Instant, Trace, Untimed
+from sleec_runtime.evaluation.trace_violations import claim_holds, violations, violations_so_far
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context, claims
 from tests.support import z3_oracle as oracle
@@ -41,18 +42,18 @@ def test_every_model_is_replayed(seed):
         answer = oracle.redundant(ruleset, rule.label, untimed=untimed)
         assert answer.found == (answer.moments is None)
         if answer.moments is not None:
-            assert {law for law, _ in broken(ruleset, trace(answer.moments), untimed)} == {rule}
+            assert {law for law, _ in violations(ruleset, trace(answer.moments), untimed)} == {rule}
         answer = oracle.vacuous(ruleset, rule.label, untimed=untimed)
         if answer.moments is not None:
             assert not answer.found
-            assert not broken(ruleset, trace(answer.moments), untimed)
+            assert not violations(ruleset, trace(answer.moments), untimed)
             assert any(rule.trigger in moment.events for moment in answer.moments)
     for claim in (*claims(ruleset, "concern"), *claims(ruleset, "purpose")):
         answer = oracle.concern(ruleset, claim, untimed=untimed)
         assert answer.found == (answer.moments is not None)
         assert oracle.purpose(ruleset, claim, untimed=untimed).found != answer.found
         if answer.moments is not None:
-            assert not broken(ruleset, trace(answer.moments), untimed)
+            assert not violations(ruleset, trace(answer.moments), untimed)
             assert claim_holds(claim, ruleset, trace(answer.moments), untimed)
 
 
@@ -90,7 +91,7 @@ def triggered(rule, instant):
 def test_the_answers_are_those_of_all_traces(seed):
     ruleset = tiny_ruleset(seed)
     untimed = UNTIMED[seed % 2]
-    broken_by = [(whole, broken(ruleset, whole, untimed)) for whole in all_traces()]
+    broken_by = [(whole, violations(ruleset, whole, untimed)) for whole in all_traces()]
     kept = [whole for whole, found in broken_by if not found]
     for rule in ruleset.rules:
         alone = any({law for law, _ in found} == {rule} for _, found in broken_by)
@@ -143,7 +144,7 @@ def test_the_history_of_a_conflict_is_lawful():
     ruleset = rules("A then B within 3 seconds", "C then not B within 2 seconds")
     found = oracle.conflict(ruleset, ("R1", "R2"))
     assert found.moments is not None
-    assert not broken_so_far(ruleset, trace(found.moments))
+    assert not violations_so_far(ruleset, trace(found.moments))
 
 
 def test_redundant_and_vacuous_rules():
@@ -222,4 +223,4 @@ def test_lengths_and_values_of_measures():
     found = oracle.concern(ruleset, possible)
     assert found.moments is not None
     assert claim_holds(possible, ruleset, trace(found.moments))
-    assert not broken(ruleset, trace(found.moments))
+    assert not violations(ruleset, trace(found.moments))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from itertools import combinations, product
 
-from sleec_runtime.evaluation.traces import Instant, Trace, broken
+from sleec_runtime.evaluation.trace import Instant, Trace
+from sleec_runtime.evaluation.trace_violations import violations
 from sleec_runtime.language import parse
 from sleec_verify.changes.compare.timing_order import implies
 
@@ -36,7 +37,7 @@ def test_what_asks_for_more_is_what_no_trace_keeps_without_keeping_the_other() -
         Trace(tuple(Instant(at, events | ({"t"} if at == 0 else set())) for at, events in enumerate(course)))
         for course in product(moments, repeat=4)
     ]
-    kept = [{at for at, trace in enumerate(traces) if not broken(ruleset, trace)} for ruleset in rules]
+    kept = [{at for at, trace in enumerate(traces) if not violations(ruleset, trace)} for ruleset in rules]
     said = [ruleset.rules[0].default.obligations[0] for ruleset in rules]
     for one, other in product(range(len(RESPONSES)), repeat=2):
         assert implies(said[one], said[other]) == (kept[one] <= kept[other]), (RESPONSES[one], RESPONSES[other])

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sleec_runtime.errors import LanguageError
-from sleec_runtime.evaluation.evaluation import Situation, decide, truth
+from sleec_runtime.evaluation.formula_truth import Situation, truth
+from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.language import parse, print_ruleset
 from sleec_runtime.model import (
     And,
