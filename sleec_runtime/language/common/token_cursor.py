@@ -1,7 +1,7 @@
-"""What the parsers of both syntaxes do with their tokens: say where it is, report, and find their feet again.
+"""A position in a sequence of tokens: spans, error reports and recovery, for the parsers of both languages.
 
-One mistake is reported once. After a problem the rest of the clause it stands in is silent (`hurt`), and parsing goes
-on at the next token that surely starts something new.
+One mistake is reported once. After a problem, the rest of its clause is silent (`hurt`), and parsing goes on at the
+next token that starts something new.
 """
 
 from __future__ import annotations
@@ -14,21 +14,24 @@ from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.model import NO_COMMENTS, Comments, Source, Span
 
 MAX_DEPTH = 100
-"""How deep parentheses and NOTs may be nested: far deeper than people read, far shallower than Python's stack."""
+"""The deepest nesting of parentheses and NOTs: far deeper than people read, far shallower than Python's stack."""
 
 ALTERNATIVE_LEVELS = 3
-"""As many levels as what OTHERWISE and ELSE hold counts for: its values are nested so much deeper."""
+"""The levels of nesting that an OTHERWISE or ELSE counts for: its values are nested so much deeper."""
 
 MAX_NAME = 200
-"""The longest name, in characters. A longer one is a text in which keywords are missing."""
+"""The longest name, in characters. A longer one is a sign of missing keywords."""
 
 
 class Abandon(Exception):
-    """The clause at hand cannot be read further. The problem has been reported; parsing goes on elsewhere."""
+    """Gives up the clause at hand, whose problem has been reported. Parsing goes on elsewhere."""
 
 
 class TokenCursor:
-    """Where a parser stands in `tokens`, and the problems that it has met so far."""
+    """A position in `tokens`, and the problems so far."""
+
+    operators = "NOT"
+    """What else nests besides parentheses, for messages."""
 
     def __init__(self, source: Source, tokens: Tokens, problems: list[Problem]) -> None:
         self.source = source
@@ -41,9 +44,10 @@ class TokenCursor:
         self.comments = tokens.comments
         self.at = 0
         self.depth = 0
+        self.deepest = 0
         self.hurt = False
 
-    # Places ---------------------------------------------------------------------------------------------------
+    # Spans ----------------------------------------------------------------------------------------------------
 
     def span(self, first: int) -> Span:
         """From token `first` to the last one read."""
@@ -55,6 +59,9 @@ class TokenCursor:
     def token_text(self, token: int) -> str:
         return self.text[self.starts[token] : self.ends[token]]
 
+    def starts_line(self, token: int) -> bool:
+        return self.tokens.starts_line(token)
+
     def comments_of(self, token: int) -> Comments:
         return self.comments.get(token, NO_COMMENTS)
 
@@ -63,6 +70,12 @@ class TokenCursor:
 
     # Problems -------------------------------------------------------------------------------------------------
 
+    def begin_clause(self) -> None:
+        """From here on a problem is a new one."""
+        self.hurt = False
+        self.depth = 0
+        self.deepest = 0
+
     def problem(self, message: str, span: Span, hint: str | None = None) -> None:
         """Reports a problem, unless this clause already has one."""
         if not self.hurt:
@@ -70,9 +83,13 @@ class TokenCursor:
             self.problems.append(Problem(message, span, hint))
 
     def fail(self, message: str, span: Span, hint: str | None = None) -> NoReturn:
-        """Reports a problem and gives the clause up."""
+        """Reports a problem and gives up the clause."""
         self.problem(message, span, hint)
         raise Abandon
+
+    def expected(self, what: str, hint: str | None = None) -> NoReturn:
+        """Gives up because the token at hand is not `what`."""
+        raise NotImplementedError
 
     def skip(self, stops: Collection[str]) -> None:
         """On to the next token whose kind is among `stops`, or to the end."""
@@ -81,9 +98,56 @@ class TokenCursor:
             at += 1
         self.at = at
 
+    # Nesting --------------------------------------------------------------------------------------------------
+
+    def deeper(self, levels: int = 1) -> None:
+        """One bracket or negation further in, or `levels` of them."""
+        self.depth += levels
+        if self.depth > self.deepest:
+            self.deepest = self.depth
+            if self.depth > MAX_DEPTH:
+                self.too_deep()
+
+    def too_deep(self) -> NoReturn:
+        self.fail(
+            f"nested too deeply: more than {MAX_DEPTH} levels of parentheses or {self.operators}",
+            self.token_span(self.at),
+            "name a part of the condition, or split the rule in two",
+        )
+
+    def close(self, mark: str, opened: int) -> None:
+        """Reads the `mark` that closes what token `opened` opened."""
+        if self.kinds[self.at] != mark and self.token_text(self.at) != mark:
+            place = self.source.place(self.token_span(opened))
+            bracket = {"}": "brace", "]": "bracket"}.get(mark, "parenthesis")
+            self.expected(
+                f"a closing {bracket} for the one opened in line {place.line}, column {place.column}",
+                f"add the closing {bracket}, or delete the opening one",
+            )
+        self.at += 1
+
+    # Names ----------------------------------------------------------------------------------------------------
+
+    def checked_name(self, token: int) -> str:
+        """The name that is one token, in its composed form (NFC). Gives up if it is too long."""
+        start, end = self.starts[token], self.ends[token]
+        if end - start > MAX_NAME:
+            self.fail(
+                f"this name has {end - start:,} characters, more than {MAX_NAME}",
+                Span(start, start + MAX_NAME),
+                "is a space missing?",
+            )
+        return composed(self.text[start:end])
+
+    def joined_name(self, first: int, end: int) -> str:
+        """The tokens from `first` to before `end` as one name, in its composed form."""
+        return composed(" ".join(map(self.token_text, range(first, end))))
+
 
 def composed(name: str) -> str:
-    """`name` with its accents as one character each, so that what looks the same is the same."""
+    """`name` in Unicode's composed form (NFC), so that names that look the same are the same."""
+    if name.isascii():
+        return name
     import unicodedata
 
     return unicodedata.normalize("NFC", name)

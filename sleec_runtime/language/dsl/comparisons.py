@@ -1,4 +1,4 @@
-"""What the sides of comparisons and lengths of time come to, and what a comparison says."""
+"""Comparisons of measures, numbers and values of scales."""
 
 from __future__ import annotations
 
@@ -7,12 +7,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from math import ceil, floor, gcd
-from typing import Union
 
-from sleec_runtime.language.common.comparisons import MAX_DIGITS, Side, scale_text
+from sleec_runtime.language.common.comparisons import Side, scale_text
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.dsl.calculations import Operand, Sum
-from sleec_runtime.language.dsl.name_resolution import Names
+from sleec_runtime.language.dsl.amounts import Amounts
+from sleec_runtime.language.dsl.calculations import Operand
 from sleec_runtime.model import (
     Calculation,
     Comparison,
@@ -31,9 +30,6 @@ from sleec_runtime.model import (
 )
 from sleec_runtime.support.suggestions import did_you_mean
 
-MAX_TERMS = 20
-"""Parts that what a calculation comes to may have: written with all parentheses, they are no longer than one may be."""
-
 _COMPARED: Mapping[Operator, Callable[[Rational, Rational], bool]] = {
     "<": operators.lt,
     "<=": operators.le,
@@ -45,101 +41,8 @@ _COMPARED: Mapping[Operator, Callable[[Rational, Rational], bool]] = {
 _MIRRORED: Mapping[Operator, Operator] = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
 
-class Terms(Names):
-    """Makes comparisons and amounts of the names of one text."""
-
-    def amount(self, operand: Operand) -> Union[Number, MeasureRef, Calculation, None]:
-        """How long something takes: a number, a constant, a numeric measure, or what is calculated from these; None,
-        and a problem, if it is nothing of that."""
-        if isinstance(operand, Side):
-            return self.number(operand)
-        whole = self._sum(operand)
-        if whole is None:
-            return None
-        if not whole.terms:
-            return Number(whole.number)
-        (measures, factor), *more = whole.terms.items()
-        if (len(measures), factor, whole.number) == (1, 1, 0) and not more:
-            return self._ref(measures[0])
-        terms = [(factor, names) for names, factor in whole.terms.items()]
-        number = [(whole.number, ())] if whole.number else []
-        return Calculation(tuple(sorted([*terms, *number], key=lambda term: term[0] < 0)), self.line(operand.span))
-
-    def number(self, side: Side) -> Union[Number, MeasureRef, None]:
-        """A number, a constant or a numeric measure; None, and a problem, if it is nothing of that."""
-        name = side.written
-        if not isinstance(name, str):
-            return Number(name)
-        constant = self.constants.get(name)
-        if constant is not None and not side.braced:
-            return Number(constant.value, name)
-        measure = self.measures.get(name)
-        if measure is not None and measure.kind != "scale":
-            return self._ref(name)
-        if name not in self.kinds:
-            if self.complete:
-                self._without_definition(
-                    name, side.span, "constant or numeric measure", "measure", f"measure {name}: numeric"
-                )
-        elif constant is not None:
-            self.problem(
-                f"{self.described(name)}, and braces hold a measure", side.span, f"write {name} without braces"
-            )
-        else:
-            self.problem(
-                f"{self.described(name)}, not a number",
-                side.span,
-                "write a whole number, a constant or a numeric measure",
-            )
-        return None
-
-    def _sum(self, side: Operand) -> Sum | None:
-        """What a side comes to; None, and a problem, if it cannot be told."""
-        if isinstance(side, Side):
-            term = self.number(side)
-            if term is None:
-                return None
-            if isinstance(term, MeasureRef):
-                return Sum({(term.name,): 1}, 0)
-            if term.constant is not None:
-                self.calculated_with.add(term.constant)
-            return Sum({}, int(term.value))
-        left, right = self._sum(side.left), self._sum(side.right)
-        if left is None or right is None:
-            return None
-        if side.operator != "*":
-            found = left.plus(right, 1 if side.operator == "+" else -1)
-        elif max(map(len, left.terms), default=0) + max(map(len, right.terms), default=0) > 2:
-            self.problem(
-                "a product of more than two measures is not analysed", side.span, "multiply two measures at most"
-            )
-            return None
-        else:
-            found = left.multiplied(right)
-        return self._limited(found, side.span)
-
-    def _limited(self, found: Sum, span: Span) -> Sum | None:
-        """What a calculation comes to; None, and a problem, if that is too long."""
-        if len(found.terms) > MAX_TERMS:
-            self.problem(
-                f"this calculation comes to a sum of {len(found.terms)} parts, more than {MAX_TERMS}",
-                span,
-                "multiply out less, or compare parts of it",
-            )
-            return None
-        if found.digits() > MAX_DIGITS:
-            message = f"this calculation comes to a number of more than {MAX_DIGITS} digits"
-            self.problem(message, span, "count in a larger unit")
-            return None
-        return found
-
-    def _ref(self, name: str) -> MeasureRef:
-        ref = self._refs.get(name)
-        if ref is None:
-            ref = self._refs[name] = MeasureRef(name)
-        return ref
-
-    # Comparisons ----------------------------------------------------------------------------------------------
+class Comparisons(Amounts):
+    """Makes comparisons of the names of one text."""
 
     def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison | Truth | None:
         """``left operator right``; None, and a problem, if the sides do not fit. With two fixed numbers it is true or
@@ -154,14 +57,14 @@ class Terms(Names):
                     f"{quoted(one.name)} and {quoted(two.name)} have different scales: "
                     f"{scale_text(one)} and {scale_text(two)}",
                     span,
-                    "only measures of the same scale can be compared with each other",
+                    "compare measures of the same scale only",
                 )
                 return None
-            terms = self._ref(one.name), self._ref(two.name)
+            terms = self.measure_ref(one.name), self.measure_ref(two.name)
         elif one is not None:
-            terms = self._ref(one.name), self._value(one, right)
+            terms = self.measure_ref(one.name), self._value(one, right)
         elif two is not None:
-            terms = self._value(two, left), self._ref(two.name)
+            terms = self._value(two, left), self.measure_ref(two.name)
         else:
             if self._stray(left, right) or self._stray(right, left):
                 return None
@@ -175,10 +78,10 @@ class Terms(Names):
     def calculated(self, left: Operand, operator: Operator, right: Operand, span: Span) -> Formula | None:
         """A comparison of calculations as one that compares a measure with a number, or two measures, or else what is
         calculated from several with a number; None, and a problem, if there is none."""
-        one, two = self._sum(left), self._sum(right)
+        one, two = self.polynomial(left), self.polynomial(right)
         if one is None or two is None:
             return None
-        whole = self._limited(one.plus(two, -1), span)
+        whole = self.checked_size(one.plus(two, -1), span)
         if whole is None:
             return None
         if not whole.terms:
@@ -189,9 +92,9 @@ class Terms(Names):
         divisor = gcd(*whole.terms.values()) * (1 if factor > 0 else -1)
         number = Fraction(-whole.number, divisor)
         if not more and len(names) == 1:
-            return _with_whole_number(self._ref(names[0]), operator, number, span)
+            return _with_whole_number(self.measure_ref(names[0]), operator, number, span)
         if whole.number == 0 and [(len(other), times) for other, times in more] == [(1, -factor)] and len(names) == 1:
-            return Comparison(self._ref(names[0]), operator, self._ref(more[0][0][0]), span)
+            return Comparison(self.measure_ref(names[0]), operator, self.measure_ref(more[0][0][0]), span)
         terms = tuple((times // divisor, product) for product, times in whole.terms.items())
         found = _with_whole_number(Calculation(terms, self.line(span)), operator, number, span)
         # A constant that stands alone on one side keeps its name.
@@ -211,7 +114,7 @@ class Terms(Names):
             if scale is not None and side.written in scale.values:
                 return False
             self.problem(
-                f"{self.described(side.written)}, true or false, and not compared with {quoted(str(other.written))}",
+                f"{self.described(side.written)}, which cannot be compared with {quoted(str(other.written))}",
                 side.span,
                 f"write {side.written} alone, or not {side.written}{self._instead(side.written, other.written)}",
             )
@@ -225,9 +128,9 @@ class Terms(Names):
             return f"; {quoted(measure.name)} can be {scale_text(measure)}"
         kind = self.kinds.get(str(other))
         if kind == "boolean" and other != boolean:
-            return f"; that both are alike is ({boolean} and {other}) or (not {boolean} and not {other})"
+            return f"; if both are equal, write ({boolean} and {other}) or (not {boolean} and not {other})"
         if kind in ("measure", "constant") or not isinstance(other, str):
-            return f"; if it is a number, define it so: measure {boolean}: numeric"
+            return f"; if it is a number, write measure {boolean}: numeric"
         return ""
 
     def _scale(self, side: Side) -> Measure | None:
@@ -243,18 +146,18 @@ class Terms(Names):
                 return ScaleValue(value, measure.values.index(value))
             owner = self._owners.get(value)
             if owner is not None:
-                said = f"{value} is no value of {measure.name} but of {owner.name}"
+                said = f"`{value}` is a value of `{owner.name}`, not of `{measure.name}`"
                 return self._by_place(measure, value, owner.values.index(value), "foreign-value", said, side.span)
         number = self.constants[value].value if isinstance(value, str) and value in self.constants else value
         if isinstance(number, int) and not side.braced:
-            named = f"{value}, which is {number}," if isinstance(value, str) else str(number)
-            said = f"{measure.name} is a scale, and {named} a number"
+            named = f"`{value}` (= {number})" if isinstance(value, str) else str(number)
+            said = f"`{measure.name}` is a scale, but {named} is a number"
             return self._by_place(measure, str(value), number, "number-as-value", said, side.span)
         known = isinstance(value, str) and value in self.kinds
         near = self._nearest(value, measure.values) if isinstance(value, str) and not known else None
-        what = f"{self.described(value)}, and" if isinstance(value, str) and known else f"{quoted(str(value))} is"
+        what = self.described(value) + ", and" if isinstance(value, str) and known else f"{quoted(str(value))} is"
         self.problem(
-            f"{what} no value of {quoted(measure.name)}",
+            f"{what} not a value of {quoted(measure.name)}",
             side.span,
             f"{did_you_mean(near) + ' ' if near else ''}{quoted(measure.name)} can be {scale_text(measure)}",
         )
@@ -264,16 +167,16 @@ class Terms(Names):
         self, measure: Measure, written: str, rank: int, kind: DefectKind, said: str, span: Span
     ) -> ScaleValue:
         """What is no value of the measure, as the value in that place of its scale; there may be none."""
-        can_be = f"{measure.name} can be {scale_text(measure)}"
+        can_be = f"`{measure.name}` can be {scale_text(measure)}"
         if 0 <= rank < len(measure.values):
             meant = measure.values[rank]
             place = "the same place" if kind == "foreign-value" else f"place {rank}, counted from 0"
-            read = f"it is read as {meant}, which has {place}"
-            hint = f"write {meant}, if that is meant; {can_be}"
+            read = f"it is read as `{meant}`, which has {place}"
+            hint = f"write {meant} if you mean that; {can_be}"
         else:
             side = "below" if rank > 0 else "above"
-            read = f"every value of {measure.name} lies {side} it, so the answer is always the same"
-            hint = f"write the value that is meant; {can_be}"
+            read = f"every value of `{measure.name}` is {side} it, so the result is always the same"
+            hint = f"write the value that you mean; {can_be}"
         self.defects.append(Defect(kind, f"{said}; {read}", span, hint))
         return ScaleValue(written, rank)
 
@@ -291,7 +194,7 @@ class Terms(Names):
             return True
         one = self.described(compared) if isinstance(compared, str) else f"{quoted(str(compared))} is a number"
         self.problem(
-            f"{one}, and {self.described(value)}: they cannot be compared",
+            f"{one}, and {self.described(value)}; they cannot be compared",
             side.span,
             f"compare {quoted(self._owners[value].name)} with it, or write a number",
         )

@@ -5,33 +5,31 @@ from __future__ import annotations
 from sleec_runtime.language.common.comparisons import Side
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.units import UNITS
-from sleec_runtime.language.dsl.formulas import FormulaParser
-from sleec_runtime.language.dsl.slips import type_meant
+from sleec_runtime.language.dsl.formulas import ConditionParser
+from sleec_runtime.language.dsl.hints import TYPE_SYNONYMS
 from sleec_runtime.model import Agent, Constant, Declaration, Measure, Span
-from sleec_runtime.support.suggestions import nearest
+from sleec_runtime.support.suggestions import did_you_mean, nearest
 
 _TYPES = ("boolean", "numeric", "scale")
+_SCALE_EXAMPLE = "for example: scale(low, medium, high)"
 
 
-class DefinitionParser(FormulaParser):
-    """Reads definitions; of a constant the value is not settled before all of them are read."""
+class DefinitionParser(ConditionParser):
+    """Reads definitions. Constants get their values once all of them are read."""
 
     constants: dict[str, tuple[Side, Constant]]
 
-    def definition(self, has_keyword: bool = True) -> Declaration | Measure | Constant:
-        """The definition at hand, which may lack its keyword."""
+    def definition(self) -> Declaration | Measure | Constant:
+        """The definition at hand."""
         first = self.at
         kind = self.kinds[first]
-        if has_keyword:
-            self.at += 1
-        else:
-            self.kinds[first] = "word"
+        self.at += 1
         if kind == "event":
             return self._event(first)
         return self._measure(first) if kind == "measure" else self._constant(first)
 
     def _event(self, first: int) -> Declaration:
-        name = self.name("the name of an event", "as in: event SmokeDetected")
+        name = self.name("the name of an event", "for example: event SmokeDetected")
         span = self.token_span(self.at - 1)
         agent: Agent | None = None
         if self.kinds[self.at] == "word" and self.token_text(self.at) == "as":
@@ -39,7 +37,7 @@ class DefinitionParser(FormulaParser):
             written = self.token_text(self.at)
             if written not in ("system", "environment"):
                 near = nearest(written, ("system", "environment"))
-                self.expected("system or environment", f"did you mean {near}?" if near else "as in: event E as system")
+                self.expected("system or environment", did_you_mean(near) or "for example: event E as system")
             agent = "system" if written == "system" else "environment"
             self.at += 1
         event = Declaration("event", (name,), self.span(first), (span,), self.comments_of(first), agent)
@@ -49,14 +47,14 @@ class DefinitionParser(FormulaParser):
     def _measure(self, first: int) -> Declaration | Measure:
         name = self.name("the name of a measure")
         name_span = self.token_span(self.at - 1)
-        self.require(":", "a colon after the name of the measure", self._without_colon(name))
+        self.require(":", "a colon after the name of the measure", "for example: measure userAtHome: boolean")
         at_type = self.at
         written = self.token_text(at_type)
         if self.kinds[at_type] != "word" or written not in _TYPES:
-            near = type_meant(written) or nearest(written, _TYPES) if self.kinds[at_type] == "word" else None
+            near = TYPE_SYNONYMS.get(written.lower()) or nearest(written, _TYPES)
             self.expected(
                 "boolean, numeric or scale(...)",
-                f"did you mean {near}?" if near else f"as in: measure {name}: scale(low, medium, high)",
+                did_you_mean(near) or f"for example: measure {name}: scale(low, medium, high)",
             )
         self.at += 1
         comments = self.comments_of(first)
@@ -71,23 +69,13 @@ class DefinitionParser(FormulaParser):
         self.names.define_measure(measure, name_span, spans)
         return measure
 
-    def _without_colon(self, name: str) -> str:
-        """What to do where no colon stands behind the name of a measure."""
-        if self.token_text(self.at) == ",":
-            return f"define each by itself, as in: measure {name}: boolean"
-        written = self.token_text(self.at + (self.kinds[self.at] != "word"))
-        its = {"numeric": "numeric", "scale": "scale(low, medium, high)"}.get(type_meant(written) or written, "boolean")
-        return (
-            f"as in: measure {self.token_text(self.at) if name in _TYPES else name}: {name if name in _TYPES else its}"
-        )
-
     def _scale(self) -> tuple[list[str], list[Span]]:
         opened = self.at
-        self.require("(", "the values of the scale in parentheses", "as in: scale(low, medium, high)")
+        self.require("(", "the values of the scale in parentheses", _SCALE_EXAMPLE)
         values: list[str] = []
         spans: list[Span] = []
         while True:
-            values.append(self.name("a value of the scale", "as in: scale(low, medium, high)"))
+            values.append(self.name("a value of the scale", _SCALE_EXAMPLE))
             spans.append(self.token_span(self.at - 1))
             if not self.accept(","):
                 break
@@ -95,27 +83,27 @@ class DefinitionParser(FormulaParser):
             self.fail(
                 f"expected a comma between the values of the scale, but found {quoted(self.token_text(self.at))}",
                 self.token_span(self.at),
-                "as in: scale(low, medium, high)",
+                _SCALE_EXAMPLE,
             )
         self.close(")", opened)
         if len(values) < 2:
             self.fail(
-                f"the scale has one value, {quoted(values[0])}, so it says nothing",
+                f"the scale has only one value, {quoted(values[0])}",
                 spans[0],
-                "a scale has two values or more, lowest first",
+                "a scale has two or more values, lowest first",
             )
         return values, spans
 
     def _constant(self, first: int) -> Constant:
-        name = self.name("the name of a constant", "as in: constant LIMIT = 18")
+        name = self.name("the name of a constant", "for example: constant LIMIT = 18")
         name_span = self.token_span(self.at - 1)
         if self.kinds[self.at] != "operator" or self.token_text(self.at) != "=":
-            self.expected("= after the name of the constant", f"as in: constant {name} = 18")
+            self.expected("= after the name of the constant", f"for example: constant {name} = 18")
         self.at += 1
         what = "a whole number or the name of another constant"
         if self.kinds[self.at] in ("true", "false"):
-            self.expected(what, f"what is true or false is a measure: measure {name}: boolean")
-        side = self._side(what)
+            self.expected(what, f"for true or false, write measure {name}: boolean")
+        side = self.side(what)
         self._refuse_more_than_number(name)
         alias = side.written if isinstance(side.written, str) else None
         value = 0 if isinstance(side.written, str) else side.written
@@ -125,17 +113,17 @@ class DefinitionParser(FormulaParser):
         return constant
 
     def _refuse_more_than_number(self, name: str) -> None:
-        """A constant has neither a unit nor a calculation behind its number."""
+        """Gives up at a unit or a calculation after the number."""
         written = self.token_text(self.at)
         if written in UNITS:
             self.fail(
-                f"a constant is a number, without {quoted(written)}",
+                f"a constant has no unit, but found {quoted(written)}",
                 self.token_span(self.at),
-                f"the unit stands where the constant is used, as in: within {name} {written}",
+                f"write the unit where you use the constant: within {name} {written}",
             )
         if self.kinds[self.at] in ("+", "-", "*"):
             self.fail(
-                "a constant is a number, and not calculated",
+                "a constant cannot be calculated",
                 self.token_span(self.at),
-                f"write what it comes to, as in: constant {name} = 18",
+                f"write the number, for example: constant {name} = 18",
             )

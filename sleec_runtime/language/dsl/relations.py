@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.common.problems import quoted
@@ -12,18 +12,20 @@ from sleec_runtime.model import (
     NO_COMMENTS,
     NOWHERE,
     Claim,
+    ClaimForm,
+    ClaimKind,
     Clause,
     Effect,
+    EffectKind,
     EventRelation,
+    EventRelationKind,
     Formula,
     Lasting,
     MeasureRelation,
+    MeasureRelationKind,
     Span,
 )
-from sleec_runtime.support.suggestions import nearest
-
-if TYPE_CHECKING:
-    from sleec_runtime.model import ClaimForm, ClaimKind, EffectKind, EventRelationKind, MeasureRelationKind
+from sleec_runtime.support.suggestions import did_you_mean, nearest
 
 _EVENT_RELATIONS = ("witness", "equal", "mutualExclusive", "happenBefore")
 OF_MEASURES = ("imply", "iff", "mutualExclusive", "opposite", "invariant")
@@ -31,9 +33,9 @@ OF_MEASURES = ("imply", "iff", "mutualExclusive", "opposite", "invariant")
 
 
 _NAMED = {
-    "rule": "every rule begins with its name: R1 when Event then Response",
-    "concern": "every concern begins with its name: c1 when Event then not Response",
-    "purpose": "every purpose begins with its name: p1 exists Event",
+    "rule": "start a rule with its name: R1 when Event then Response",
+    "concern": "start a concern with its name: c1 when Event then not Response",
+    "purpose": "start a purpose with its name: p1 exists Event",
 }
 
 
@@ -52,8 +54,8 @@ class RelationParser(ResponseParser):
         self.at += 1
         label = self.names.label(self.token_text(at), span)
         if self.kinds[self.at] == ":":
-            message = f"there is no colon behind the name of a {what}"
-            self.problems.append(Problem(message, self.token_span(self.at), "leave it out"))
+            message = f"unexpected colon after the name of the {what}"
+            self.problems.append(Problem(message, self.token_span(self.at), "delete it"))
             self.at += 1
         return label, span
 
@@ -61,7 +63,7 @@ class RelationParser(ResponseParser):
         """``Event [and condition]``."""
         at_event = self.at
         if self.kinds[at_event] == "not":
-            self.expected(f"the name of {what}", f"{what} is something that happens; put what is not so behind and")
+            self.expected(f"the name of {what}", f"{what} is an event; write conditions after and")
         name = self.name(f"the name of {what}", "the name of an event, without braces and parentheses")
         span = self.token_span(at_event)
         if not self.hurt:
@@ -72,7 +74,7 @@ class RelationParser(ResponseParser):
 
     def claim(self, kind: ClaimKind) -> Claim:
         first = self.at
-        self.names_events = True
+        self.allows_events = True
         label, _ = self.label(kind)
         return self._claim(kind, label, first)
 
@@ -90,10 +92,10 @@ class RelationParser(ResponseParser):
         if self.kinds[self.at] == "meanwhile":
             self.at += 1
             opened = self.at
-            self.require("(", "a parenthesis after meanwhile", "as in: meanwhile (exists Event and {condition})")
+            self.require("(", "a parenthesis after meanwhile", "for example: meanwhile (exists Event and {condition})")
             self.deeper()
             if self.kinds[self.at] not in ("exists", "when"):
-                self.expected("exists or when", "as in: meanwhile (exists Event and {condition})")
+                self.expected("exists or when", "for example: meanwhile (exists Event and {condition})")
             meanwhile = self._claim(kind, "", self.at)
             self.close(")", opened)
             self.depth -= 1
@@ -121,7 +123,11 @@ class RelationParser(ResponseParser):
         if not hedges:
             return clause
         if clause.hedges:
-            self.fail("a chain in braces has its hedges inside them", hedges[0].span, "move it inside the braces")
+            self.fail(
+                "the exceptions of a chain in braces must be inside the braces",
+                hedges[0].span,
+                "move it inside the braces",
+            )
         return Clause(None, clause.obligations, tuple(hedges), self.span(first))
 
     # Relations ------------------------------------------------------------------------------------------------
@@ -130,7 +136,7 @@ class RelationParser(ResponseParser):
         first = self.at
         word = self.token_text(first)
         self.at += 1
-        self.names_events = False
+        self.allows_events = False
         if word == "when":
             return self._lasting(first)
         comments = self.comments_of(first)
@@ -143,10 +149,14 @@ class RelationParser(ResponseParser):
         return Effect(cast("EffectKind", word), event, self.formula(), self.span(first), comments)
 
     def _event_in(self, relation: str) -> str:
-        hint = f"as in: {relation} A B" if relation in _EVENT_RELATIONS else f"as in: {relation} A {{condition}}"
+        hint = (
+            f"for example: {relation} A B"
+            if relation in _EVENT_RELATIONS
+            else f"for example: {relation} A {{condition}}"
+        )
         name = self.name("the name of an event", hint)
         if not self.hurt:
-            self.names.event(name, self.token_span(self.at - 1), f"what {relation} speaks of")
+            self.names.event(name, self.token_span(self.at - 1), f"what {relation} relates")
         return name
 
     def _of_measures(self, first: int) -> MeasureRelation:
@@ -154,9 +164,9 @@ class RelationParser(ResponseParser):
         if word not in OF_MEASURES:
             near = nearest(word, OF_MEASURES)
             self.fail(
-                f"there is no relation measure {quoted(word)}",
+                f"no relation of measures is called {quoted(word)}",
                 self.token_span(self.at),
-                f"did you mean {near}?" if near else f"behind measure comes one of {', '.join(OF_MEASURES)}",
+                did_you_mean(near) or f"write one of {', '.join(OF_MEASURES)} after measure",
             )
         self.at += 1
         left = self.formula()
@@ -166,7 +176,7 @@ class RelationParser(ResponseParser):
 
     def _lasting(self, first: int) -> Lasting:
         event, _, condition = self.occasion("the event of a relation")
-        self.require("then", "then and a condition", "as in: when A then {p} until B")
+        self.require("then", "then and a condition", "for example: when A then {p} until B")
         formula = self.formula()
         end: str | None = None
         end_condition: Formula | None = None
@@ -174,7 +184,9 @@ class RelationParser(ResponseParser):
         if self.accept("for"):
             duration = self.length()
         else:
-            self.require("until", "until and an event, or for and a length of time", "as in: when A then {p} until B")
+            self.require(
+                "until", "until and an event, or for and a length of time", "for example: when A then {p} until B"
+            )
             end, _, end_condition = self.occasion("the event that ends it")
         return Lasting(
             event, condition, formula, end, end_condition, duration, self.span(first), self.comments_of(first)

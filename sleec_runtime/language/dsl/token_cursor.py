@@ -1,4 +1,4 @@
-"""A place in the tokens of a text in the DSL: reading names and marks, and the ends of items and blocks."""
+"""A position in the tokens of a text in the DSL: names and marks, the ends of items and blocks, and error reports."""
 
 from __future__ import annotations
 
@@ -6,38 +6,33 @@ from typing import NoReturn
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.common.token_cursor import MAX_DEPTH, MAX_NAME, TokenCursor, composed
+from sleec_runtime.language.common.token_cursor import Abandon, TokenCursor
 from sleec_runtime.language.common.tokens import Tokens
+from sleec_runtime.language.dsl.hints import (
+    DEFINITION_END,
+    REPLACEMENTS,
+    RULE_EXAMPLE,
+    RULE_START,
+    SYNONYMS,
+    example_of,
+    hint_for,
+)
 from sleec_runtime.language.dsl.keywords import BLOCKS, DEFINITIONS, ITEM_STARTS, KEYWORDS
-from sleec_runtime.language.dsl.slips import MEANT, Found, help_with, means_when
 from sleec_runtime.model import Dialect, Source, Span
 from sleec_runtime.support.suggestions import nearest
 
 _SUGGESTED = sorted(KEYWORDS)
-_INSTEAD = {
-    "&": "write and",
-    "&&": "write and",
-    "|": "write or",
-    "||": "write or",
-    "!": "write not, or <> between two values",
-    "=>": "write >= to compare, or then before a response",
-    "=<": "write <=",
-    ";": "there is no punctuation between rules or definitions; leave it out",
-    ".": "there is no punctuation between rules or definitions, and no dot in a name; leave it out",
-    "#": "comments start with //",
-    "/": "comments start with //",
-    "/*": "close this comment with */",
-    '"': "write names without quotation marks",
-    **dict.fromkeys("'`\u2018\u2019\u201c\u201d\u00ab\u00bb", "write names without quotation marks"),
-}
-_DEFINE = "a definition begins with event, measure or constant, as in: event SmokeDetected"
+_RESUMED = DEFINITIONS | frozenset(BLOCKS.values())
+"""The keywords at which parsing goes on when they are corrected."""
 
 
-class Cursor(TokenCursor):
-    """Where the parser of the DSL stands, and what it does with names, keywords and mistakes."""
+class DslCursor(TokenCursor):
+    """A position in a text in the DSL."""
+
+    operators = "not"
 
     item = "rule"
-    """What a name at the begin of a line is that of."""
+    """What a name at the start of a line is the name of."""
 
     def __init__(self, source: Source, tokens: Tokens, dialect: Dialect, problems: list[Problem]) -> None:
         super().__init__(source, tokens, problems)
@@ -45,52 +40,43 @@ class Cursor(TokenCursor):
 
     # Problems -------------------------------------------------------------------------------------------------
 
-    def begin_clause(self) -> None:
-        """From here on a problem is a new one."""
-        self.hurt = False
-        self.depth = 0
-
     def expected(self, what: str, hint: str | None = None) -> NoReturn:
         """Gives up because the token at hand is not `what`."""
         at = self.at
         kind = self.kinds[at]
         written = self.token_text(at)
-        if kind in ("strange", "/*") and written in _INSTEAD:
-            self.fail(f"unexpected {quoted(written)}", self.token_span(at), _INSTEAD[written])
-        hint = self._help_with(what) or hint
+        if kind in ("strange", "/*") and written in REPLACEMENTS:
+            self.fail(f"unexpected {quoted(written)}", self.token_span(at), REPLACEMENTS[written])
         if kind == "word":
-            meant = written.lower() if written.lower() in KEYWORDS else nearest(written, _SUGGESTED)
-            if meant is not None and meant in MEANT.get(what, what.split()):
-                self.fail(
-                    f"{quoted(written)} is no keyword; did you mean {meant}?",
-                    self.token_span(at),
-                    "keywords are written in small letters" if written.lower() == meant else f"write {meant}",
-                )
+            self._correct_keyword(what, written)
         if kind in ITEM_STARTS:
             end = self.ends[at - 1] if at else 0
-            ends = {"end": "the text ends here", "label": f"here the {self.item} {quoted(written)} begins"}
-            self.fail(
-                f"expected {what}, but {ends.get(kind, f'{written} comes next')}",
-                Span(end, end),
-                hint or self._unsaid(kind),
-            )
+            starts = f"the {self.item} {quoted(written)} starts here"
+            here = {"end": "the text ends here", "label": starts}.get(kind, f"found {quoted(written)}")
+            self.fail(f"expected {what}, but {here}", Span(end, end), hint or example_of(what))
+        hint = hint_for(what, written, self.kinds[at - 1]) or hint or example_of(what)
         self.fail(f"expected {what}, but found {quoted(written)}", self.token_span(at), hint)
 
-    def _help_with(self, what: str) -> str | None:
-        """What to do about the token at hand where `what` is expected, if that can be told."""
-        at = self.at
-        if at == 0 or self.kinds[at] == "end":
-            return None
-        begins_line = "\n" in self.text[self.ends[at - 1] : self.starts[at]]
-        return help_with(
-            what, Found(begins_line, self.kinds[at - 1], self.kinds[at], self.token_text(at), self.token_text(at + 1))
-        )
+    def precedes_mistake(self) -> bool:
+        """Whether the token at hand cannot follow a name in a rule or claim. The problem is then reported there."""
+        return self.item != "relation" and self.kinds[self.at] in ("word", "number", "digits", "strange", ":")
 
-    def _unsaid(self, kind: str) -> str | None:
-        name = "R1" if self.item == "rule" else f"{self.item[0]}1"
-        return f"a {self.item} looks like this: {name} when Event then Response" if kind == "label" else None
+    def _correct_keyword(self, what: str, written: str) -> None:
+        """Gives up at a misspelling of a keyword that may stand here."""
+        word = written.lower()
+        keyword = word if word in KEYWORDS else SYNONYMS.get(word) or nearest(word, _SUGGESTED)
+        starts_line = self.starts_line(self.at)
+        if keyword is None or not (
+            f"`{keyword}`" in what or (keyword in _RESUMED and (starts_line or what == DEFINITION_END))
+        ):
+            return
+        hint = "write keywords in lowercase" if word == keyword else f"replace it with {keyword}"
+        self.problem(f"{quoted(written)} is not a keyword; did you mean `{keyword}`?", self.token_span(self.at), hint)
+        if keyword in _RESUMED:
+            self.kinds[self.at] = keyword
+        raise Abandon
 
-    # Small things ---------------------------------------------------------------------------------------------
+    # Marks and names ------------------------------------------------------------------------------------------
 
     def accept(self, kind: str) -> bool:
         """Reads the token at hand if it is of this kind."""
@@ -108,107 +94,64 @@ class Cursor(TokenCursor):
         at = self.at
         kind = self.kinds[at]
         if kind == "digits" or kind == "number":
-            self.fail(
-                f"expected {what}, but found {quoted(self.token_text(at))}: a name begins with a letter",
-                self.token_span(at),
-                self._help_with(what) or hint,
-            )
+            message = f"expected {what}, but found {quoted(self.token_text(at))}: a name begins with a letter"
+            self.fail(message, self.token_span(at), hint or example_of(what))
         if kind in KEYWORDS and kind not in ITEM_STARTS:
-            self.fail(
-                f"expected {what}, but found the keyword {kind}",
-                self.token_span(at),
-                hint if hint and not hint.startswith("as in") else "a keyword cannot be a name",
-            )
+            message = f"expected {what}, but found the keyword `{kind}`"
+            is_example = hint is None or hint.startswith("for example")
+            self.fail(message, self.token_span(at), "a keyword cannot be a name" if is_example else hint)
         if kind != "word":
             self.expected(what, hint)
         self.at = at + 1
-        word = self.token_text(at)
-        if len(word) > MAX_NAME:
-            self.fail(
-                f"this name has {len(word):,} characters, more than {MAX_NAME}",
-                Span(self.starts[at], self.starts[at] + MAX_NAME),
-                "is a blank missing?",
-            )
-        return word if word.isascii() else composed(word)
+        return self.checked_name(at)
 
-    def close(self, mark: str, opened: int) -> None:
-        """Reads the `mark` that closes what token `opened` opened."""
-        if not self.accept(mark):
-            place = self.source.place(self.token_span(opened))
-            what = "brace" if mark == "}" else "bracket" if mark == "]" else "parenthesis"
-            self.expected(
-                f"a closing {what} for the one opened in line {place.line}, column {place.column}",
-                "close it, or delete the opening one",
-            )
+    # Ends -----------------------------------------------------------------------------------------------------
 
-    def deeper(self, levels: int = 1) -> None:
-        """One parenthesis, brace or `not` further in, or `levels` of them."""
-        self.depth += levels
-        if self.depth > MAX_DEPTH:
-            self.fail(
-                f"nested too deeply: more than {MAX_DEPTH} levels of parentheses, braces or not",
-                self.token_span(self.at),
-                "name a part of the condition, or split the rule in two",
-            )
-
-    def end_of(self, what: str) -> None:
+    def end_of_item(self, what: str) -> None:
         """Makes sure that the next token starts something new."""
         kind = self.kinds[self.at]
         if kind in ITEM_STARTS:
             return
         if kind in (")", "}", "]"):
             self.fail(f"this closing {quoted(kind)} has no opening one", self.token_span(self.at), "delete it")
-        if what in MEANT and "\n" in self.text[self.ends[self.at - 1] : self.starts[self.at]]:
-            self.refuse_begin_of_rule()
-        self.expected(what, self._begins_wrong(what))
+        if self.starts_line(self.at):
+            self.refuse_item(what)
+        self.expected(what)
 
-    def refuse_begin_of_rule(self) -> None:
-        """Gives up where the line at hand begins nearly as a rule does."""
-        at = self.at
-        first, second = self.token_text(at), self.token_text(at + 1)
-        example = "a rule looks like this: R1 when Event then Response"
-        if self.kinds[at] in ("number", "digits"):
-            self.fail("the name of a rule begins with a letter", self.token_span(at), example)
-        if self.kinds[at] != "word":
-            return
-        if first.lower() in ("rule", "rules"):
-            self.fail(f"{quoted(first)} does not stand before the name of a rule", self.token_span(at), example)
-        for token in (at, at + 1):
-            word = self.token_text(token)
-            if self.kinds[token] == "word" and means_when(word):
-                said = f"{quoted(word)} is no keyword; did you mean when?"
-                self.fail(said, self.token_span(token), example)
-        if self.kinds[at + 1] == "word" and self.kinds[at + 2] in ("then", "and"):
-            self.fail(f"when is missing before {quoted(second)}", self.token_span(at + 1), example)
-        if self.kinds[at + 1] in ("number", "strange", ",", ")", "-") and "\n" not in second:
-            said = f"the name of a rule has letters, digits and _ only, and here comes {quoted(second)}"
-            self.fail(said, self.token_span(at + 1), example)
+    def refuse_item(self, what: str, hint: str | None = None) -> NoReturn:
+        """Gives up because no item starts with the line at hand."""
+        if self.item != "definition":
+            self._correct_when()
+        self.expected(what, hint or (RULE_START if self.item == "rule" else None))
 
-    def _begins_wrong(self, what: str) -> str | None:
-        """What to do about a word, or a line of them, that begins nothing."""
+    def _correct_when(self) -> None:
+        """Gives up where a rule or claim has another word for `when`, or none."""
         at = self.at
-        begins_line = "\n" in self.text[self.ends[at - 1] : self.starts[at]]
-        if "definition" in what:
-            meant = nearest(self.token_text(at).lower(), sorted(DEFINITIONS)) if begins_line else None
-            return f"did you mean {meant}?" if meant is not None else _DEFINE
-        if "rule" not in what:
-            return None
-        if begins_line and self.kinds[at] == "word":
-            return "a rule begins with its name and when: R1 when Event then Response"
-        return "behind a response comes within, otherwise, else, unless or the next rule"
+        kinds = self.kinds[at : at + 3]
+        words = [self.token_text(token).lower() for token in range(at, at + 3) if self.kinds[token] == "word"]
+        for token, word in zip((at, at + 1), words if kinds[0] == "word" else ()):
+            if SYNONYMS.get(word) == "when" or word == "when" or nearest(word, ("when",)) is not None:
+                message = f"{quoted(self.token_text(token))} is not a keyword; did you mean `when`?"
+                self.problem(message, self.token_span(token), "replace it with when")
+                if token > at:
+                    self.kinds[at], self.kinds[token] = "label", "when"
+                raise Abandon
+        if kinds[:2] == ["word", "word"] and kinds[2] in ("then", "and"):
+            message = f"`when` is missing before {quoted(self.token_text(at + 1))}"
+            self.fail(message, self.token_span(at + 1), RULE_EXAMPLE)
 
     def end_of_block(self, opened: int) -> None:
-        """Reads the keyword that closes the block of token `opened`, or says that it is missing."""
+        """Reads the keyword that closes the block of token `opened`, or reports that it is missing."""
         closing = BLOCKS[self.kinds[opened]]
         if self.accept(closing):
             return
         self.begin_clause()
         end = self.ends[self.at - 1]
-        where = "before the text ends" if self.kinds[self.at] == "end" else f"before {self.token_text(self.at)}"
+        where = "before the text ends" if self.kinds[self.at] == "end" else f"before `{self.token_text(self.at)}`"
         self.problem(
-            f"{closing} is missing {where}: {self.kinds[opened]} is in line {self.line_of(opened)}",
+            f"`{closing}` is missing {where}: `{self.kinds[opened]}` is in line {self.line_of(opened)}",
             Span(end, end),
-            f"write {closing} behind what belongs to the block",
+            f"write {closing} at the end of the block",
         )
         if self.kinds[self.at] in BLOCKS.values():
             self.at += 1

@@ -10,13 +10,7 @@ from collections.abc import Sequence
 from sleec_runtime.language.common.formula_printer import print_formula, print_term
 from sleec_runtime.language.common.line_printer import behind, comment_lines, trimmed
 from sleec_runtime.language.english.responses import is_choice
-from sleec_runtime.model import Clause, Comments, Number, Obligation
-
-# As `typing` has it; the values of that module are not needed to print them.
-TYPE_CHECKING = False
-
-if TYPE_CHECKING:
-    from sleec_runtime.model import Length, Window
+from sleec_runtime.model import Clause, Comments, Length, Number, Obligation, Window
 
 _INDENT = "    "
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sleec_runtime.language.common.comparisons import Side
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.english.formulas import FormulaParser
+from sleec_runtime.language.english.formulas import ConditionParser
 from sleec_runtime.language.english.keywords import PHRASE
 from sleec_runtime.model import Agent, Constant, Declaration, Kind, Measure, MeasureKind, Span
 from sleec_runtime.support.suggestions import nearest
@@ -25,7 +25,7 @@ _TYPE_SLIPS = {
 }
 
 
-class DeclarationParser(FormulaParser):
+class DeclarationParser(ConditionParser):
     """Reads declarations. They are global, wherever in the text they stand."""
 
     constants: dict[str, tuple[Side, Constant]]
@@ -69,7 +69,7 @@ class DeclarationParser(FormulaParser):
         if written not in ("system", "environment"):
             near = nearest(written, ("system", "environment"))
             self.expected(
-                "system or environment", f"did you mean {near}?" if near else "as in: EVENT SoundAlarm BY system"
+                "system or environment", f"did you mean {near}?" if near else "for example: EVENT SoundAlarm BY system"
             )
         self.at += 1
         return "system" if written == "system" else "environment"
@@ -101,7 +101,7 @@ class DeclarationParser(FormulaParser):
         if self.kinds[self.at] == ",":
             self.expected("a colon after the name of the measure", "declare each measure by itself")
         if self.kinds[self.at] != ":":
-            self.expected("a colon after the name of the measure", f"as in: MEASURE {name}: number")
+            self.expected("a colon after the name of the measure", f"for example: MEASURE {name}: number")
         self.at += 1
         at_type = self.at
         if self.kinds[at_type] == "number":
@@ -152,9 +152,9 @@ class DeclarationParser(FormulaParser):
         name = self._listed_name("the name of a constant")
         name_span = self.span(at_name)
         if self.kinds[self.at] != "operator" or self.token_text(self.at) not in ("=", "=="):
-            self.expected("= after the name of the constant", f"as in: CONSTANT {name} = 18")
+            self.expected("= after the name of the constant", f"for example: CONSTANT {name} = 18")
         self.at += 1
-        side = self.side("a number or the name of another constant", "as in: CONSTANT LegalAge = 18")
+        side = self.side("a number or the name of another constant", "for example: CONSTANT LegalAge = 18")
         alias = side.written if isinstance(side.written, str) else None
         value = 0 if isinstance(side.written, str) else side.written
         constant = Constant(name, value, alias, self.span(first), self.comments_of(first))

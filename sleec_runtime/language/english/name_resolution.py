@@ -342,7 +342,7 @@ class Names:
         if kinds == {"condition", "measure"}:
             measure = self.measures.get(name)
             example = f">= {measure.values[-1]}" if measure and measure.values else "> 0"
-            return f"a measure is compared wherever it stands, as in: {name} {example}"
+            return f"a measure is compared wherever it stands, for example: {name} {example}"
         if kinds == {"condition", "obligation"}:
             return "a condition says how things are, an obligation what is to be done: give the two different names"
         if kinds in ({"condition", "trigger"}, {"condition", "event"}):

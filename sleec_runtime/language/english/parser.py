@@ -163,7 +163,7 @@ class EnglishParser(RelationParser):
             written = self.token_text(0).upper()
             keyword = written if written in STATEMENTS else near_keyword(written)
             if keyword in STATEMENTS:
-                self.misspelt(0, keyword)
+                self.correct_keyword(0, keyword)
                 return
         if self.kinds[1] == ":":
             self.at = 1
@@ -247,7 +247,7 @@ class EnglishParser(RelationParser):
     def _never(self) -> Never:
         first = self.at
         self.at += 1
-        self.leaf = self.names.forbidden
+        self.resolve = self.names.forbidden
         formula = self.formula()
         span = self.span(first)
         if not any(isinstance(leaf, Atom) and leaf.kind == "obligation" for leaf in leaves(formula)):
@@ -261,6 +261,6 @@ class EnglishParser(RelationParser):
     def _assume(self) -> Assume:
         first = self.at
         self.at += 1
-        self.leaf = self.names.assumed
+        self.resolve = self.names.assumed
         formula = self.formula()
         return Assume(formula, self.domains, self.span(first), self.comments_of(first))

@@ -7,7 +7,7 @@ several obligations behind IN WHICH CASE and a guard with OR, which people read 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Union
+from typing import Union
 
 from sleec_runtime.language.common.formula_printer import guard_text, print_formula, print_number
 from sleec_runtime.language.common.line_printer import behind, comment_lines, split_heading, trimmed
@@ -15,19 +15,18 @@ from sleec_runtime.language.english.chain_printer import ChainPrinter
 from sleec_runtime.model import (
     NO_COMMENTS,
     Assume,
+    Claim,
     Comments,
     Constant,
     Declaration,
     Exclusive,
     Measure,
     Never,
+    Relation,
     Rule,
     Ruleset,
     Statement,
 )
-
-if TYPE_CHECKING:
-    from sleec_runtime.model import Claim, Relation
 
 _BesideRules = Union[Declaration, Measure, Constant, Exclusive, Never, Assume, "Claim", "Relation"]
 

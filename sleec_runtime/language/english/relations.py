@@ -2,28 +2,31 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NoReturn
+from collections.abc import Callable
+from typing import NoReturn
 
-from sleec_runtime.language.english.formulas import Leaf
 from sleec_runtime.language.english.keywords import OCCASION, RELATION_WORDS, STATEMENTS
 from sleec_runtime.language.english.rules import RuleParser
-from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Span
+from sleec_runtime.model import (
+    NO_COMMENTS,
+    NOWHERE,
+    Atom,
+    Claim,
+    ClaimForm,
+    ClaimKind,
+    Clause,
+    Effect,
+    EffectKind,
+    EventRelation,
+    EventRelationKind,
+    Formula,
+    Lasting,
+    MeasureRelation,
+    MeasureRelationKind,
+    Relation,
+    Span,
+)
 from sleec_runtime.support.suggestions import nearest
-
-if TYPE_CHECKING:
-    from sleec_runtime.model import (
-        Claim,
-        ClaimForm,
-        ClaimKind,
-        Effect,
-        EffectKind,
-        EventRelation,
-        EventRelationKind,
-        Lasting,
-        MeasureRelation,
-        MeasureRelationKind,
-        Relation,
-    )
 
 OF_EVENTS: dict[str, EventRelationKind] = {
     "WITNESSES": "witness",
@@ -39,25 +42,27 @@ OF_CONDITIONS: dict[str, MeasureRelationKind] = {
 }
 EFFECTS: dict[str, EffectKind] = {"CAUSES": "causation", "INCLUDES": "includes", "FORBIDS": "forbid"}
 _FORMS = (OCCASION, "WHEN", "IF", "EXISTS")
-_AS_IN = "as in: RELATION OpenDoor EXCLUDES LockDoor"
+_AS_IN = "for example: RELATION OpenDoor EXCLUDES LockDoor"
 
 
 class RelationParser(RuleParser):
     """Reads concerns, purposes and relations. They are for the whole text, wherever they stand."""
 
-    def _occasion(self, what: str, leaf: Leaf) -> tuple[str, Span, Formula | None]:
+    def _occasion(self, what: str, resolve: Callable[[str, Span], Atom]) -> tuple[str, Span, Formula | None]:
         """``Event [AND condition]``."""
         name, span = self._event_named(what)
         if self.kinds[self.at] != "AND":
             return name, span, None
         self.at += 1
-        self.leaf = leaf
+        self.resolve = resolve
         return name, span, self.formula()
 
     def _event_named(self, what: str) -> tuple[str, Span]:
         first = self.at
         if self.kinds[first] != "word":
-            self.no_name(what, "an event is one name, without NOT and parentheses; conditions follow it, behind AND")
+            self.refuse_name(
+                what, "an event is one name, without NOT and parentheses; conditions follow it, behind AND"
+            )
         name = self.name(what) or self.expected(what)
         span = self.span(first)
         if not self.hurt:
@@ -65,7 +70,7 @@ class RelationParser(RuleParser):
         return name, span
 
     def _condition(self) -> Formula:
-        self.leaf = self.names.state
+        self.resolve = self.names.state
         return self.formula()
 
     # Concerns and purposes ------------------------------------------------------------------------------------
@@ -80,13 +85,12 @@ class RelationParser(RuleParser):
         return self._claim(kind, label, label_span, first)
 
     def _claim(self, kind: ClaimKind, label: str, label_span: Span, first: int) -> Claim:
-        from sleec_runtime.model import Claim
 
         at_form = self.at
         if self.kinds[at_form] not in _FORMS:
             where = f"the label of the {kind}" if label else "MEANWHILE ("
             self.expected(
-                f"WHEN or EXISTS after {where}", f"as in: {kind.upper()} c1 WHEN DoorOpened THEN NOT CloseDoor"
+                f"WHEN or EXISTS after {where}", f"for example: {kind.upper()} c1 WHEN DoorOpened THEN NOT CloseDoor"
             )
         form: ClaimForm = "exists" if self.kinds[at_form] == "EXISTS" else "when"
         self.at += 1
@@ -141,13 +145,11 @@ class RelationParser(RuleParser):
         self.at += 1
         opened = self.at
         if self.kinds[opened] != "(":
-            self.expected("a parenthesis after MEANWHILE", "as in: MEANWHILE (EXISTS CloseDoor AND windy)")
+            self.expected("a parenthesis after MEANWHILE", "for example: MEANWHILE (EXISTS CloseDoor AND windy)")
         self.deeper()
         self.at += 1
         claim = self._claim(kind, "", NOWHERE, self.at)
-        if self.kinds[self.at] != ")":
-            self.missing_parenthesis(opened)
-        self.at += 1
+        self.close(")", opened)
         self.depth -= 1
         return claim
 
@@ -193,21 +195,18 @@ class RelationParser(RuleParser):
         return None
 
     def _of_events(self, first: int, event: str, relation: EventRelationKind) -> EventRelation:
-        from sleec_runtime.model import EventRelation
 
         self.at += 1
         other, _ = self._event_named("another event")
         return EventRelation(relation, event, other, self.span(first), self.comments_of(first))
 
     def _effect(self, first: int, event: str, relation: EffectKind) -> Effect:
-        from sleec_runtime.model import Effect
 
         self.at += 1
         formula = self._condition()
         return Effect(relation, event, formula, self.span(first), self.comments_of(first))
 
     def _of_conditions(self, first: int) -> MeasureRelation:
-        from sleec_runtime.model import MeasureRelation
 
         self.at += 1
         left = self._condition()
@@ -217,17 +216,18 @@ class RelationParser(RuleParser):
             self.at += 1
             right = self._condition()
         elif word in RELATION_WORDS:
-            self.expected(f"{_listed(OF_CONDITIONS)} after the condition", "as in: RELATION ALWAYS raining IMPLIES wet")
+            self.expected(
+                f"{_listed(OF_CONDITIONS)} after the condition", "for example: RELATION ALWAYS raining IMPLIES wet"
+            )
         relation: MeasureRelationKind = OF_CONDITIONS[word] if right is not None else "invariant"
         return MeasureRelation(relation, left, right, self.span(first), self.comments_of(first))
 
     def _lasting(self, first: int) -> Lasting:
-        from sleec_runtime.model import Lasting
 
         self.at += 1
         event, _, condition = self._occasion("an event", self.names.state)
         if self.kinds[self.at] != "THEN":
-            self.expected("THEN and a condition", "as in: RELATION WHEN DoorOpened THEN drafty UNTIL CloseDoor")
+            self.expected("THEN and a condition", "for example: RELATION WHEN DoorOpened THEN drafty UNTIL CloseDoor")
         self.at += 1
         formula = self._condition()
         end: str | None = None
@@ -242,7 +242,7 @@ class RelationParser(RuleParser):
         else:
             self.expected(
                 "UNTIL and an event, or FOR and a length of time",
-                "as in: RELATION WHEN DoorOpened THEN drafty FOR 5 minutes",
+                "for example: RELATION WHEN DoorOpened THEN drafty FOR 5 minutes",
             )
         span = self.span(first)
         return Lasting(event, condition, formula, end, end_condition, duration, span, self.comments_of(first))

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from sleec_runtime.language.common.token_cursor import ALTERNATIVE_LEVELS, MAX_DEPTH
 from sleec_runtime.language.english.keywords import ALTERNATIVES, IN_WHICH_CASE, STATEMENTS
-from sleec_runtime.language.english.token_cursor import OBLIGATION
+from sleec_runtime.language.english.phrases import OBLIGATION
 from sleec_runtime.language.english.windows import TimeParser
-from sleec_runtime.model import Clause, Obligation
+from sleec_runtime.model import Clause, Obligation, Timing
 from sleec_runtime.support.suggestions import edit_distance
 
 RULE_STOPS = STATEMENTS | {"UNLESS"}
@@ -24,7 +24,7 @@ class ResponseParser(TimeParser):
         """``UNLESS condition [IN WHICH CASE response]``."""
         first = self.at
         self.at += 1
-        self.leaf = self.names.condition
+        self.resolve = self.names.condition
         condition = self.formula()
         self.comma_before(IN_WHICH_CASE)
         obligations: tuple[Obligation, ...] = ()
@@ -35,7 +35,7 @@ class ResponseParser(TimeParser):
             obligations, hedges = self._response_of_hedge()
         elif kind in ("WHICH", "CASE", "THEN", *ALTERNATIVES):
             self.expected(
-                "IN WHICH CASE after the condition", "as in: UNLESS UserUndressed IN WHICH CASE RefuseRequest"
+                "IN WHICH CASE after the condition", "for example: UNLESS UserUndressed IN WHICH CASE RefuseRequest"
             )
         return Clause(condition, obligations, hedges, self.span(first), self.comments_of(first))
 
@@ -48,7 +48,7 @@ class ResponseParser(TimeParser):
             if self.kinds[at] == keyword:
                 self.at += 1
             elif self.kinds[at] == "word" and edit_distance(self.token_text(at)[:20].upper(), keyword, 3) < 3:
-                self.misspelt(at, keyword)
+                self.correct_keyword(at, keyword)
                 self.at += 1
             else:
                 self.problem(
@@ -142,7 +142,7 @@ class ResponseParser(TimeParser):
                 )
         at_name = self.at
         if self.kinds[at_name] != "word":
-            self.no_name(OBLIGATION, self._hint_at_obligation())
+            self.refuse_name(OBLIGATION, self._hint_at_obligation())
         name = self.name(OBLIGATION)
         if not name:
             return self._literal()
@@ -154,7 +154,6 @@ class ResponseParser(TimeParser):
 
     def _timed(self, name: str, negated: bool, first: int) -> Obligation:
         """The obligation with the time and the alternatives at hand."""
-        from sleec_runtime.model import Timing
 
         window = self.window()
         alternatives: dict[str, Clause] = {}
@@ -173,7 +172,7 @@ class ResponseParser(TimeParser):
         first = self.at
         if self.kinds[first] != "(":
             if self.kinds[first] not in ("word", "NOT"):
-                self.no_name(f"an obligation after {word}", f"say what is due instead: {word} CallForHelp")
+                self.refuse_name(f"an obligation after {word}", f"say what is due instead: {word} CallForHelp")
             obligations: tuple[Obligation, ...] = (self._literal(),)
             hedges: tuple[Clause, ...] = ()
         else:
@@ -200,9 +199,7 @@ class ResponseParser(TimeParser):
     def _close(self, opened: int) -> None:
         if self.kinds[self.at] == "OR":
             self.no_choice()
-        if self.kinds[self.at] != ")":
-            self.missing_parenthesis(opened)
-        self.at += 1
+        self.close(")", opened)
         self.depth -= 1
 
     # Small things ---------------------------------------------------------------------------------------------

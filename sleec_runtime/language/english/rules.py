@@ -68,12 +68,6 @@ class RuleParser(ResponseParser):
             self.comments_of(first),
         )
 
-    def begin_clause(self) -> None:
-        """From here on a problem is a new one."""
-        self.hurt = False
-        self.depth = 0
-        self.deepest = 0
-
     def _recover(self) -> None:
         self._unbalanced = True
         self.skip(RULE_STOPS)
@@ -87,7 +81,9 @@ class RuleParser(ResponseParser):
             label, span = self.label_word("RULE", "dress_assist", ("WHEN", "IF"))
             self.names.label(label, span, "rule")
             if self.kinds[self.at] not in ("WHEN", "IF"):
-                self.expected("WHEN after the label of the rule", "as in: RULE dress_assist WHEN trigger THEN response")
+                self.expected(
+                    "WHEN after the label of the rule", "for example: RULE dress_assist WHEN trigger THEN response"
+                )
             return label, span
         except Abandon:
             self.skip(STATEMENTS)
@@ -100,7 +96,7 @@ class RuleParser(ResponseParser):
             _LABEL.match(self.text, self.starts[at]) if self.kinds[at] in PHRASE or self.kinds[at] == "dotted" else None
         )
         if match is None:
-            self.expected(f"a label after {keyword}", f"a label is one word, as in: {keyword} {example}")
+            self.expected(f"a label after {keyword}", f"a label is one word, for example: {keyword} {example}")
         span = Span(*match.span())
         while self.starts[self.at] < span.end:
             self.at += 1
@@ -108,7 +104,7 @@ class RuleParser(ResponseParser):
             meant = self.keyword_meant(self.at, self.token_text(self.at), at)
             if meant not in behind:
                 self._long_label(at, keyword)
-            self.misspelt(self.at, meant)
+            self.correct_keyword(self.at, meant)
         return match[0], span
 
     def _long_label(self, first: int, keyword: str) -> NoReturn:
@@ -126,7 +122,7 @@ class RuleParser(ResponseParser):
         self.at += 1
         at_trigger = self.at
         if self.kinds[at_trigger] != "word":
-            self.no_name("a trigger", self._hint_at_trigger())
+            self.refuse_name("a trigger", self._hint_at_trigger())
         trigger = self.name("a trigger") or self.expected("a trigger")
         trigger_span = self.span(at_trigger)
         if not self.hurt:
@@ -134,7 +130,7 @@ class RuleParser(ResponseParser):
         guard = None
         if self.kinds[self.at] == "AND":
             self.at += 1
-            self.leaf = self.names.condition
+            self.resolve = self.names.condition
             guard = self.formula()
             if isinstance(guard, Or):
                 self.leave_room(self.deepest)

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, NoReturn, cast
+from typing import NamedTuple
 
 from sleec_runtime.language.common.comparisons import MAX_DIGITS
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.common.token_cursor import MAX_NAME, composed
-from sleec_runtime.language.common.units import UNITS, unit_meant
+from sleec_runtime.language.common.token_cursor import MAX_NAME
+from sleec_runtime.language.common.units import UNITS, WindowParser
 from sleec_runtime.language.english.declarations import DeclarationParser
 from sleec_runtime.language.english.keywords import ALTERNATIVES, PHRASE, TIMES
-from sleec_runtime.model import MeasureRef, Number, Span
+from sleec_runtime.model import Length, MeasureRef, Number, Span, Unit, Window
 
-if TYPE_CHECKING:
-    from sleec_runtime.model import Length, Unit, Window
-
-_AS_IN = "as in: WITHIN 5 minutes"
+_EXAMPLE = "for example: WITHIN 5 minutes"
 _TO = "TO"
 
 
@@ -27,8 +24,11 @@ class _Bound(NamedTuple):
     span: Span
 
 
-class TimeParser(DeclarationParser):
+class TimeParser(DeclarationParser, WindowParser):
     """Reads windows and lengths of time."""
+
+    window_example = "WITHIN 5 minutes"
+    range_example = "WITHIN 1 TO 5 minutes"
 
     def window(self) -> Window | None:
         """The window at hand; None if there is none."""
@@ -36,7 +36,6 @@ class TimeParser(DeclarationParser):
         kind = self.kinds[first]
         if kind not in TIMES:
             return None
-        from sleec_runtime.model import Window
 
         self.at += 1
         if kind == "EVENTUALLY":
@@ -44,34 +43,32 @@ class TimeParser(DeclarationParser):
         else:
             start, end = self._ends()
             window = Window(end, start, self.span(first))
-            self._check_order(window)
+            self.check_window(window)
         behind = self._lower_case(self.at)
         if behind in ALTERNATIVES:
-            self.misspelt(self.at, behind)
+            self.correct_keyword(self.at, behind)
         if self.kinds[self.at] in TIMES:
-            self.expected("the end of the obligation", "an obligation has one time: delete the other")
+            self.expected("the end of the obligation", "an obligation has one time; delete the other")
         return window
 
     def length(self) -> Length:
         """``5 minutes``; the number may be a constant or a measure."""
-        from sleec_runtime.model import Length
 
         bound = self._bound()
-        return Length(bound.amount, bound.unit or self._unit(), bound.span)
+        return Length(bound.amount, bound.unit or self.unit(), bound.span)
 
     def _ends(self) -> tuple[Length | None, Length]:
-        from sleec_runtime.model import Length
 
         if self.token_text(self.at) == "[":
             start, end = self._in_brackets()
-            unit = self._unit() if start.unit is None or end.unit is None else None
+            unit = self.unit() if start.unit is None or end.unit is None else None
         else:
             start = self._bound()
             if not self._is_to():
-                return None, Length(start.amount, start.unit or self._unit(), start.span)
+                return None, Length(start.amount, start.unit or self.unit(), start.span)
             self.at += 1
             end = self._bound()
-            unit = end.unit or self._unit()
+            unit = end.unit or self.unit()
         # A unit behind both is that of each end which has none of its own.
         return (
             Length(start.amount, start.unit or unit or "seconds", start.span),
@@ -83,25 +80,11 @@ class TimeParser(DeclarationParser):
         self.at += 1
         start = self._bound(in_brackets=True)
         if self.kinds[self.at] != ",":
-            self.expected("a comma between the two ends of the window", "as in: WITHIN [1, 5] minutes")
+            self.expected("a comma between the two ends of the window", "for example: WITHIN [1, 5] minutes")
         self.at += 1
         end = self._bound(in_brackets=True)
-        if self.token_text(self.at) != "]":
-            place = self.source.place(self.token_span(opened))
-            self.expected(f"a closing bracket for the one opened in line {place.line}, column {place.column}")
-        self.at += 1
+        self.close("]", opened)
         return start, end
-
-    def _check_order(self, window: Window) -> None:
-        if window.start is None or window.end is None:
-            return
-        begins, ends = window.start.seconds, window.end.seconds
-        if begins is not None and ends is not None and begins > ends:
-            self.problem(
-                f"this window ends, after {window.end}, before it begins, after {window.start}",
-                window.span,
-                "write the earlier end first, as in: WITHIN 1 TO 5 minutes",
-            )
 
     # Amounts and units ----------------------------------------------------------------------------------------
 
@@ -115,13 +98,13 @@ class TimeParser(DeclarationParser):
             amount = self._named_amount()
         elif kind == "digits":
             self.fail(
-                f"{quoted(self.token_text(first))} is no number",
+                f"{quoted(self.token_text(first))} is not a number",
                 self.token_span(first),
-                "write a whole number, a blank and a unit: 5 minutes",
+                "write a whole number, a space and a unit: 5 minutes",
             )
         else:
-            self.expected("a length of time, such as 5 minutes", _AS_IN)
-        unit = self._unit_at_hand()
+            self.expected("a length of time, such as 5 minutes", _EXAMPLE)
+        unit = self.unit_at_hand()
         return _Bound(amount, unit, self.span(first))
 
     def _whole_number(self, in_brackets: bool) -> int:
@@ -134,11 +117,11 @@ class TimeParser(DeclarationParser):
         else:
             self.number()
         if text.startswith("-"):
-            self.fail(f"a time cannot be negative: {text[:20]}", span, "times count from the trigger, onwards")
+            self.fail(f"a time cannot be negative: {text[:20]}", span, "times count from the trigger onwards")
         if "." in text:
-            self.fail(f"{quoted(text)} is no whole number", span, "choose a smaller unit: 90 seconds, not 1.5 minutes")
+            self.fail(f"{quoted(text)} is not a whole number", span, "use a smaller unit: 90 seconds, not 1.5 minutes")
         if len(text) > MAX_DIGITS:
-            self.fail(f"this number has more than {MAX_DIGITS} digits", span, "is a blank missing?")
+            self.fail(f"this number has more than {MAX_DIGITS} digits", span, "is a space missing?")
         return int(text)
 
     def _named_amount(self) -> Number | MeasureRef:
@@ -149,26 +132,22 @@ class TimeParser(DeclarationParser):
             if self._ends_amount(end, first):
                 break
             end += 1
-        known = [at for at in range(first + 1, end + 1) if self.names.has_amount(self._words(first, at))]
+        known = [at for at in range(first + 1, end + 1) if self.names.has_amount(self.joined_name(first, at))]
         if known:
             end = known[-1]
         elif self.token_text(end - 1) in UNITS:
             end -= 1
         if end == first:
-            self.expected("a number before the unit", _AS_IN)
-        name = self._words(first, end)
+            self.expected("a number before the unit", _EXAMPLE)
+        name = self.joined_name(first, end)
         span = Span(self.starts[first], self.ends[end - 1])
         self.at = end
         found = None if self.hurt else self.names.amount(name, span)
         if found is None:
-            # The problem is reported; what comes next can still be read.
+            # The problem is reported; the rest can still be read.
             self.hurt = True
             return Number(0, name)
         return found
-
-    def _words(self, first: int, end: int) -> str:
-        name = " ".join(self.token_text(token) for token in range(first, end))
-        return name if name.isascii() else composed(name)
 
     def _ends_amount(self, token: int, first: int) -> bool:
         """Whether the phrase that names an amount ends before this word of it."""
@@ -176,7 +155,7 @@ class TimeParser(DeclarationParser):
             return True
         keyword = self.keyword_meant(token, self.token_text(token), first) or self._lower_case(token)
         if keyword is not None:
-            self.misspelt(token, keyword)
+            self.correct_keyword(token, keyword)
         return keyword is not None
 
     def _lower_case(self, token: int) -> str | None:
@@ -185,26 +164,3 @@ class TimeParser(DeclarationParser):
 
     def _is_to(self) -> bool:
         return self.kinds[self.at] == "word" and self.token_text(self.at) == _TO
-
-    def _unit_at_hand(self) -> Unit | None:
-        if self.kinds[self.at] != "word" or self.token_text(self.at) not in UNITS:
-            return None
-        unit = self.token_text(self.at)
-        self.at += 1
-        return cast("Unit", unit if unit.endswith("s") else f"{unit}s")
-
-    def _unit(self) -> Unit:
-        """The unit at hand; anything else is a problem."""
-        return self._unit_at_hand() or self._no_unit()
-
-    def _no_unit(self) -> NoReturn:
-        if self.kinds[self.at] != "word" or self.starts_line(self.at):
-            end = self.ends[self.at - 1]
-            self.fail("a unit is missing after the number: seconds, minutes, hours or days", Span(end, end), _AS_IN)
-        written = self.token_text(self.at)
-        meant = unit_meant(written)
-        self.fail(
-            f"there is no unit {quoted(written)}",
-            self.token_span(self.at),
-            f"did you mean {meant}?" if meant else "the units are seconds, minutes, hours and days",
-        )

@@ -37,15 +37,13 @@ def test_each_misspelt_keyword_is_told_and_its_definition_read(word: str, separa
         written = [line.replace(word, misspelling) for line in right]
         wrong = sum(line != other for line, other in zip(right, written))
         problems = problems_of(separator.join(written))
-        assert [message for _, message in problems] == [f"no definition begins with `{misspelling}`"] * wrong
+        message = f"`{misspelling}` is not a keyword; did you mean `{word}`?"
+        assert [found for _, found in problems] == [message] * wrong
 
 
-def test_a_keyword_that_is_left_out_is_told_and_the_definition_read() -> None:
+def test_a_definition_without_a_keyword_is_one_problem() -> None:
     definitions = "event A\nevent B\nm: boolean\nK = 5"
-    assert problems_of(definitions) == [
-        (4, "`m` is defined without a keyword"),
-        (5, "`K` is defined without a keyword"),
-    ]
+    assert problems_of(definitions) == [(4, "expected the next definition, but found `m`")]
 
 
 def test_a_definition_of_several_lines_is_no_misspelt_one() -> None:
@@ -101,5 +99,5 @@ def test_each_misspelt_when_is_told_and_its_rule_read(word: str) -> None:
     rules = f"R1 {word} A then B\nR2 when B then A\n  unless m\nR3 {word} B and m then C"
     with pytest.raises(LanguageError) as caught:
         parse(f"def_start {OTHERS} def_end\nrule_start\n{rules}\nrule_end")
-    said = f"`{word}` is no keyword; did you mean when?"
+    said = f"`{word}` is not a keyword; did you mean `when`?"
     assert [p.message for p in caught.value.problems] == [said, said, "there is no event `C`"]

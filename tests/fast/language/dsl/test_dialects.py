@@ -74,12 +74,12 @@ def test_a_keyword_of_claims_and_relations_may_be_a_name(word: str, text: str) -
 )
 def test_in_a_text_of_legos_it_stays_a_keyword(beside: str) -> None:
     text = f"def_start event A event for measure m: boolean def_end rule_start R1 when A then for rule_end {beside}"
-    with pytest.raises(LanguageError, match="found the keyword for"):
+    with pytest.raises(LanguageError, match="found the keyword `for`"):
         parse(text)
 
 
 @pytest.mark.parametrize("rest", ["until A", "for 5 minutes", "while m", "meanwhile (exists A)"])
 def test_one_without_a_definition_is_no_name(rest: str) -> None:
     text = f"def_start event A measure m: boolean def_end rule_start R1 when A and m then A {rest} rule_end"
-    with pytest.raises(LanguageError, match="expected unless or the next rule"):
+    with pytest.raises(LanguageError, match="expected `within`, `otherwise`, `unless` or the next rule"):
         parse(text)

@@ -156,10 +156,10 @@ def test_where_nothing_is_defined_that_is_one_problem():
     assert problems_of(f"{text}rule_end") == [nothing]
     assert problems_of(f"{text}R3 when A then not\nrule_end") == [
         nothing,
-        (4, "expected the name of an event, but rule_end comes next"),
+        (4, "expected the name of an event, but found `rule_end`"),
     ]
     assert problems_of(f"event A {text}rule_end") == [
-        (1, "expected the start of a block, such as def_start, but event comes next")
+        (1, "expected the start of a block, such as def_start, but found `event`")
     ]
     assert problems_of("rule_start rule_end") == [(1, "there are no rules in this text")]
 
@@ -189,12 +189,12 @@ def test_a_measure_without_a_definition_that_is_compared_with_a_value_of_a_scale
         rules("R1 when A and {m} = low then B unless rism = low unless ({x} = low)")
     assert [(problem.message, problem.hint) for problem in caught.value.problems] == [
         (
-            "`m` is a boolean measure (line 5), true or false, and not compared with `low`",
+            "`m` is a boolean measure (line 5), which cannot be compared with `low`",
             "write m alone, or not m; `risk` can be low < middle < high",
         ),
         ("there is no measure `rism`", "did you mean `risk`?"),
         (
-            "`x` is a numeric measure (line 7), and `low` is a value of `risk` (line 8): they cannot be compared",
+            "`x` is a numeric measure (line 7), and `low` is a value of `risk` (line 8); they cannot be compared",
             SCALE_OR_NUMBER,
         ),
     ]
@@ -234,7 +234,7 @@ def test_a_rule_without_a_name_is_said_to_be_one(response):
     assert found(f"{one}\nwhen C then B\nwhen C then B") == [*UNNAMED, (14, "the rule in line 14 has no name")]
     assert found(f"{one}\nwhen C then not") == [
         *UNNAMED,
-        (13, "expected the name of an event, but rule_end comes next"),
+        (13, "expected the name of an event, but found `rule_end`"),
     ]
     for label in ("\nR2 ", " R2 ", "\nR2\n", "\nminutes ", "\n R2\t"):
         ruleset = rules(f"{one}{label}when C then B")
@@ -246,7 +246,7 @@ def test_an_unfinished_rule_before_one_with_a_name_is_said_to_be_one():
     for unfinished in ("then", "then B within 2", "then B unless", "and", "then B within 2 minutes otherwise"):
         ((line, message),) = problems_of(f"{DEFINITIONS}rule_start R1 when A {unfinished}\nR2 when A then B rule_end")
         assert line == 12
-        assert message.endswith("but here the rule `R2` begins")
+        assert message.endswith("but the rule `R2` starts here") or message.startswith("a unit is missing")
 
 
 def test_names_of_rules_and_claims_have_no_colon():
@@ -255,11 +255,12 @@ def test_names_of_rules_and_claims_have_no_colon():
         "concern_start c1: exists A while B\nexists B\nwhen B then C concern_end purpose_start exists A purpose_end"
     )
     assert problems_of(text + claims) == [
-        (12, "there is no colon behind the name of a rule"),
-        (13, "there is no colon behind the name of a rule"),
+        (12, "unexpected colon after the name of the rule"),
+        (13, "unexpected colon after the name of the rule"),
         (13, "expected a condition, but found `?`"),
-        (14, "exists asks whether something can be, and a rule says what must be"),
-        (15, "there is no colon behind the name of a concern"),
+        (14, "unexpected colon after the name of the rule"),
+        (14, "a rule cannot begin with exists"),
+        (15, "unexpected colon after the name of the concern"),
         (16, "the concern in line 16 has no name"),
         (17, "the concern in line 17 has no name"),
         (17, "the purpose in line 17 has no name"),
@@ -429,10 +430,10 @@ def test_labels_and_values_that_others_read_are_defects():
 @pytest.mark.parametrize(
     ("written", "rank", "said"),
     [
-        ("1", 1, "one is a scale, and 1 a number; it is read as b, which has place 1, counted from 0"),
-        ("K", 20, "one is a scale, and K, which is 20, a number; every value of one lies below it, so"),
-        ("-1", -1, "one is a scale, and -1 a number; every value of one lies above it, so"),
-        ("e", 2, "e is no value of one but of two; every value of one lies below it, so"),
+        ("1", 1, "`one` is a scale, but 1 is a number; it is read as `b`, which has place 1, counted from 0"),
+        ("K", 20, "`one` is a scale, but `K` (= 20) is a number; every value of `one` is below it, so"),
+        ("-1", -1, "`one` is a scale, but -1 is a number; every value of `one` is above it, so"),
+        ("e", 2, "`e` is a value of `two`, not of `one`; every value of `one` is below it, so"),
     ],
 )
 def test_what_is_no_value_of_a_scale_is_read_by_its_place(written, rank, said):
@@ -457,7 +458,7 @@ def test_what_is_no_value_of_a_scale_is_read_by_its_place(written, rank, said):
 
 def test_neither_a_constant_in_braces_nor_a_measure_is_a_place_in_a_scale():
     for written in ("{K}", "{n}", "n"):
-        with pytest.raises(LanguageError, match="no value of `one`"):
+        with pytest.raises(LanguageError, match="not a value of `one`"):
             parse(
                 "def_start\nevent A\nmeasure one: scale(a, b)\nmeasure n: numeric\nconstant K = 1\ndef_end\n"
                 f"rule_start\nR1 when A and ({{one}} > {written}) then A\nrule_end\n"

@@ -25,6 +25,9 @@ rule_end
 """
 
 
+_EXAMPLE = re.compile(r"(?:as in: |for example: |equal, write |write )((?:\(m|[\w]+ [<>=]).*|m)(?= alone|$)")
+
+
 @pytest.mark.parametrize(
     "condition",
     ["K", "n", "s", "lo", "3", "3 = true", "n = true", "s = false", "m > 3", "m = K", "m = n", "m = p", "m > true"],
@@ -34,7 +37,7 @@ def test_a_comparison_is_written_as_the_hint_says(condition: str) -> None:
         parse(TEXT.format(condition))
     (problem,) = caught.value.problems
     assert problem.hint is not None
-    found = re.search(r"(?:as in: |write |alike is )((?:\(m|[\w]+ [<>=]).*|m)(?= alone|$)", problem.hint)
+    found = re.search(_EXAMPLE, problem.hint)
     assert found is not None, problem.hint
     guard = parse(TEXT.format(found[1])).rules[0].guard
     assert guard is not None
