@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.errors import SleecError
 from sleec_verify.query.ruleset_index import RulesetIndex
-from sleec_verify.replay.situations import replays
+from sleec_verify.replay.situations import replay_finding
 from sleec_verify.results.finding import Witness
 from sleec_verify.results.json_values import witness_json
 
@@ -49,7 +49,7 @@ class Replay:
             if not same(claim["witness"], witness_json(witness)):
                 return False
             found = replace(finding, witness=witness)
-            return all(replays(self._in(domain), found) for domain in finding.domains or ("",))
+            return all(replay_finding(self._in(domain), found) for domain in finding.domains or ("",))
         except (KeyError, TypeError, ValueError, ZeroDivisionError, SleecError):
             return False
 

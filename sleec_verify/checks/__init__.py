@@ -32,7 +32,7 @@ from sleec_verify.encoding.solver import Recorder
 from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
 from sleec_verify.query.question import is_possible
 from sleec_verify.query.ruleset_index import RulesetIndex
-from sleec_verify.replay.situations import replays
+from sleec_verify.replay.situations import replay_finding
 from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
 
 __all__ = ["CHECKS", "Check", "Checking", "FindingKind", "checks_for", "run_checks"]
@@ -218,13 +218,13 @@ def _verdict(check: Check, by_domain: Mapping[str, RulesetIndex]) -> tuple[Verdi
     for domain, index in by_domain.items():
         try:
             for finding in check.run(index):
-                if not replays(index, finding):
+                if not replay_finding(index, finding):
                     unknown.append(f"a witness did not replay, which is a bug in sleec-verify: {finding.message}")
                     continue
                 # What covers a redundant rule may be another rule in each domain; it is one finding all the same.
                 rules = finding.rules[:1] if check.scope == "every domain" else finding.rules
                 key: tuple[object, ...] = (finding.code, rules, finding.clauses, finding.obligations, finding.span)
-                if key in found and not replays(index, found[key]):
+                if key in found and not replay_finding(index, found[key]):
                     # The other domain's situation cannot be in this one, by the assumptions of this one.
                     key = (*key, domain)
                 seen = found.setdefault(key, finding)

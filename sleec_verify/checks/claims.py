@@ -20,10 +20,10 @@ def _concerns(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each concern that comes about in some trace that keeps all."""
     from sleec_runtime.model import claims
     from sleec_verify.replay.timeline import timeline_of
-    from sleec_verify.traces.questions import coming_about
+    from sleec_verify.traces.questions import find_claim
 
     def of(claim: Claim) -> Iterator[Finding]:
-        answer = coming_about(trace_index_of(index), claim)
+        answer = find_claim(trace_index_of(index), claim)
         if answer.trace is None:
             return
         timeline = timeline_of(trace_index_of(index), answer.trace)
@@ -44,12 +44,12 @@ def _concerns(index: RulesetIndex) -> Iterator[Finding]:
 def _purposes(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each purpose that comes about in no trace that keeps all."""
     from sleec_runtime.model import claims
-    from sleec_verify.traces.questions import coming_about
+    from sleec_verify.traces.questions import find_claim
 
     traces = trace_index_of(index)
 
     def of(claim: Claim) -> Iterator[Finding]:
-        answer = coming_about(traces, claim)
+        answer = find_claim(traces, claim)
         if answer.trace is not None:
             return
         blocking = in_words(traces, answer.matter)

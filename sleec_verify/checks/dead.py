@@ -56,11 +56,11 @@ def _dead_hedges(index: RulesetIndex) -> Iterator[Finding]:
 def _hedges_in_traces(traces: TraceIndex, dead: Collection[tuple[ClauseRef, ...]]) -> Iterator[Finding]:
     """A finding for each hedge, but for those that are dead already, that decides at no instant that the relations
     allow, whether or not rules are kept."""
-    from sleec_verify.traces.questions import deciding
+    from sleec_verify.traces.questions import find_decision
 
     def of(place: tuple[Rule, int]) -> Iterator[Finding]:
         rule, number = place
-        if (ClauseRef(rule.label, number),) not in dead and deciding(traces, rule, number).trace is None:
+        if (ClauseRef(rule.label, number),) not in dead and find_decision(traces, rule, number).trace is None:
             yield DEAD_HEDGE.finding(
                 f"{clause_name(rule, number)} decides in no situation",
                 list(rule.clauses())[number].span,
@@ -155,7 +155,7 @@ def _hedges_inside(question: Question, guard: int, clause: Clause) -> Iterator[t
 
 
 def _why(index: RulesetIndex, position: int, number: int) -> str:
-    """In words, what kind of thing keeps the hedge from deciding."""
+    """In words, what kind of thing keeps the hedge from find_decision."""
     condition = index.clauses[position][number].condition
     assert condition is not None, "only hedges are asked about"
     with Question(index) as question:

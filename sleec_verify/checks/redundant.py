@@ -48,10 +48,10 @@ def _redundant_rules(index: RulesetIndex) -> Iterator[Finding]:
 
 def _rules_in_traces(traces: TraceIndex) -> Iterator[Finding]:
     """A finding for each rule that no trace breaks which satisfies all the others."""
-    from sleec_verify.traces.questions import breaking
+    from sleec_verify.traces.questions import find_violation
 
     def of(rule: Rule) -> Iterator[Finding]:
-        answer = breaking(traces, rule)
+        answer = find_violation(traces, rule)
         if answer.trace is not None:
             return
         others = in_words(traces, answer.matter)
@@ -139,12 +139,15 @@ def _redundant_hedges(index: RulesetIndex) -> Iterator[Finding]:
 def _hedges_in_traces(traces: TraceIndex) -> Iterator[Finding]:
     """A finding for each hedge without which the same traces satisfy all: none breaks the rule and satisfies it without
     the hedge, and none breaks that and satisfies the rule."""
-    from sleec_verify.traces.questions import exchanging
+    from sleec_verify.traces.questions import find_difference
 
     def of(place: tuple[Rule, int]) -> Iterator[Finding]:
         rule, number = place
         less = without_hedge(rule, number)
-        if exchanging(traces, rule, less).trace is not None or exchanging(traces, less, rule).trace is not None:
+        if (
+            find_difference(traces, rule, less).trace is not None
+            or find_difference(traces, less, rule).trace is not None
+        ):
             return
         hedge = list(rule.clauses())[number]
         yield REDUNDANT_HEDGE.finding(

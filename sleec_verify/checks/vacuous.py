@@ -55,10 +55,10 @@ def _in_situations(index: RulesetIndex) -> Iterator[Finding]:
 
 def _in_traces(index: RulesetIndex, traces: TraceIndex) -> Iterator[Finding]:
     """A finding for each rule that no trace triggers, though its condition can hold."""
-    from sleec_verify.traces.questions import triggering
+    from sleec_verify.traces.questions import find_trigger
 
     def of(rule: Rule) -> Iterator[Finding]:
-        answer = triggering(traces, rule)
+        answer = find_trigger(traces, rule)
         if answer.trace is not None or not _is_triggered_by_itself(index, rule):
             return
         matter = [key for key in answer.matter if key != rule.label]
@@ -172,9 +172,9 @@ class _Kept:
             without = [one for one in needed if one != switch]
             if len(without) < len(needed) and not question.ask(*given, *without):
                 needed = question.core_among(without)
-        with Question(self._index) as triggering:
-            triggered = triggering.encoder.any_of(triggering.guards(position))
-            return [others[switch] for switch in needed] if triggering.ask(triggered) else None
+        with Question(self._index) as find_trigger:
+            triggered = find_trigger.encoder.any_of(find_trigger.guards(position))
+            return [others[switch] for switch in needed] if find_trigger.ask(triggered) else None
 
 
 VACUOUS_CONFLICT = Check(

@@ -20,9 +20,9 @@ def calculations(ruleset: Ruleset) -> list[Calculation]:
     formulas: list[Formula] = [formula for rule in ruleset.rules for formula in formulas_of(rule)]
     formulas += [c.formula for c in ruleset.constraints if isinstance(c, (Never, Assume))]
     if ruleset.is_timed:
-        from sleec_verify.encoding.mentioned_names import beside_rules
+        from sleec_verify.encoding.mentioned_names import names_beside_rules
 
-        formulas += beside_rules(ruleset)[1]
+        formulas += names_beside_rules(ruleset)[1]
     return list(dict.fromkeys(one for formula in formulas for one in calculations_in(formula)))
 
 
@@ -30,9 +30,9 @@ def calculated_lengths(ruleset: Ruleset) -> list[Calculation]:
     """What a ruleset calculates how long something takes by, in the order of the text."""
     if not ruleset.is_timed:
         return []
-    from sleec_verify.encoding.mentioned_names import beside_rules
+    from sleec_verify.encoding.mentioned_names import names_beside_rules
 
-    return [length.amount for length in beside_rules(ruleset)[2] if isinstance(length.amount, Calculation)]
+    return [length.amount for length in names_beside_rules(ruleset)[2] if isinstance(length.amount, Calculation)]
 
 
 def named(found: Iterable[Calculation]) -> str:

@@ -35,7 +35,7 @@ class _Range:
         return self.high if self.high is not None and number > self.high else number
 
 
-def nearby(
+def search_nearby(
     values: Mapping[str, Rational],
     cuts: Iterable[tuple[str, Rational, bool, int]],
     orders: Sequence[tuple[str, str, int]],

@@ -277,7 +277,7 @@ class Measures:
         """Values, near `values` if such are found, for the measures that calculations are made of and those that are
         tied to them; or literals of the model that none go with."""
         from sleec_verify.encoding.arithmetic import values_for
-        from sleec_verify.encoding.local_search import nearby
+        from sleec_verify.encoding.local_search import search_nearby
 
         names = {name for one in self.calculations.values() for name in one.measures}
         names.update(name for pair in self.orders for name in pair)
@@ -291,7 +291,7 @@ class Measures:
             ]
             here = {name: value for name in sorted(names) if not isinstance(value := values[name], str)}
             integral = {name: self._declared[name].kind == "integer" for name in here}
-            found = nearby(here, cuts, orders, results) if all(integral.values()) else None
+            found = search_nearby(here, cuts, orders, results) if all(integral.values()) else None
             self._decoded[asked] = found or values_for(integral, cuts, orders, results)
         return self._decoded[asked]
 

@@ -20,7 +20,7 @@ from sleec_runtime.model import (
 from sleec_verify.encoding.relations import events_of, formulas_of_relation
 
 
-def beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Length]]:
+def names_beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Length]]:
     """The events and formulas of concerns, purposes and relations, and all lengths of time."""
     events: set[str] = set()
     formulas: list[Formula] = []

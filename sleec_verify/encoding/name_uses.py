@@ -54,9 +54,9 @@ def _beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Lengt
     """The events and formulas of concerns, purposes and relations, and what the lengths of all windows are."""
     if not ruleset.is_timed:
         return set(), [], []
-    from sleec_verify.encoding.mentioned_names import beside_rules
+    from sleec_verify.encoding.mentioned_names import names_beside_rules
 
-    return beside_rules(ruleset)
+    return names_beside_rules(ruleset)
 
 
 def names_used(ruleset: Ruleset) -> dict[DeclaredKind, set[str]]:

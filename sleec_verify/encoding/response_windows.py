@@ -13,7 +13,7 @@ from sleec_verify.encoding.trace_scope import Untimed
 
 
 @dataclass(frozen=True)
-class Windowed:
+class WindowedResponse:
     """One response with its window, in seconds from the trigger. No `end`: at some time. `unknown` is a length that a
     measure says which is not given; then there are no times.
 
@@ -24,7 +24,7 @@ class Windowed:
     start: int | None
     end: int | None
     unknown: str | None = None
-    instead: Windowed | None = None
+    instead: WindowedResponse | None = None
     overdue: bool = False
 
 
@@ -34,11 +34,11 @@ class _Since:
 
     time: int = 0
     unknown: str | None = None
-    instead: Windowed | None = None
+    instead: WindowedResponse | None = None
     overdue: bool = False
 
 
-class Windows:
+class ResponseWindows:
     """The windows of responses in one situation, which decides hedges of what is due in place of others."""
 
     def __init__(self, ruleset: Ruleset, context: Context, untimed: Untimed) -> None:
@@ -46,12 +46,12 @@ class Windows:
         self._context = context
         self._untimed = untimed
 
-    def of(self, clause: Clause) -> Iterator[Windowed]:
+    def of(self, clause: Clause) -> Iterator[WindowedResponse]:
         """The responses of a clause that decides, each before those in its place."""
         for obligation in clause.obligations:
             yield from self._obligation(obligation, _Since())
 
-    def _obligation(self, obligation: Obligation, since: _Since) -> Iterator[Windowed]:
+    def _obligation(self, obligation: Obligation, since: _Since) -> Iterator[WindowedResponse]:
         timing = obligation.timing
         window = None if timing is None else timing.window
         start, end, unknown = since.time, None, since.unknown
@@ -65,7 +65,7 @@ class Windows:
             if unknown is None:
                 start += ceil(self._seconds(window.start) or 0) if window.start is not None else 0
                 end = None if window.end is None else since.time + floor(self._seconds(window.end) or 0)
-        itself = Windowed(
+        itself = WindowedResponse(
             obligation,
             start if unknown is None else None,
             end if unknown is None else None,
@@ -82,7 +82,7 @@ class Windows:
         if timing.instead is not None:
             yield from self._clause(timing.instead, _Since(since.time, None, itself))
 
-    def _clause(self, clause: Clause, since: _Since) -> Iterator[Windowed]:
+    def _clause(self, clause: Clause, since: _Since) -> Iterator[WindowedResponse]:
         for obligation in self._deciding(clause).obligations:
             yield from self._obligation(obligation, since)
 

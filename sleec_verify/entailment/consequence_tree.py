@@ -12,7 +12,7 @@ from itertools import takewhile
 from typing import NamedTuple
 
 from sleec_runtime.model import Context, Ruleset
-from sleec_verify.encoding.response_windows import Windowed, Windows
+from sleec_verify.encoding.response_windows import ResponseWindows, WindowedResponse
 from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
 from sleec_verify.entailment.answer import ActiveClause, ConsequenceStep, Entailment
 from sleec_verify.entailment.entailment import entail
@@ -96,7 +96,7 @@ class _Tree:
     def __init__(self, ruleset: Ruleset, context: Context, untimed: Untimed) -> None:
         self._ruleset = ruleset
         self._context = context
-        self._windows = Windows(ruleset, context, untimed)
+        self._windows = ResponseWindows(ruleset, context, untimed)
         self._triggers = {rule.trigger for rule in ruleset.rules}
         self._shown: dict[tuple[str, bool], bool] = {}
         self._prohibitions: dict[str, list[_Forbids]] = {}
@@ -158,7 +158,7 @@ class _Tree:
         return tuple(dict.fromkeys(one.by for one in found))
 
 
-def _has_alternative(response: Windowed) -> bool:
+def _has_alternative(response: WindowedResponse) -> bool:
     timing = response.obligation.timing
     return timing is not None and (timing.otherwise is not None or timing.instead is not None)
 

@@ -16,7 +16,7 @@ from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.entailment.answer import ActiveClause, ConditionValue, Consequence, Entailment
 from sleec_verify.entailment.definition1 import Definition1
-from sleec_verify.entailment.situation_feasibility import Law, settled
+from sleec_verify.entailment.situation_feasibility import SituationLaw, check_feasibility
 from sleec_verify.query.names import names_in, names_of_rule, obligations_in
 from sleec_verify.query.prime_implicates import inconsistent_sets
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
@@ -59,7 +59,9 @@ def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Ent
     come_true = {label for label in labels if truth[id(label)]}
 
     laws = [*((one, one.formula) for one in index.assumptions), *related]
-    situation = settled([Law(law, formula, truth[id(formula)]) for law, formula in laws], context, ruleset.measures)
+    situation = check_feasibility(
+        [SituationLaw(law, formula, truth[id(formula)]) for law, formula in laws], context, ruleset.measures
+    )
 
     position = {rule.label: p for p, rule in enumerate(index.rules)}
     active = [

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from sleec_runtime.model import Context, Ruleset
-from sleec_verify.encoding.response_windows import Windows
+from sleec_verify.encoding.response_windows import ResponseWindows
 from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
 from sleec_verify.entailment.answer import ActiveClause, ConsequenceStep, Entailment, ScheduledResponse
 
@@ -36,7 +36,7 @@ def _of_steps(writer: _Writer, steps: Sequence[ConsequenceStep]) -> Iterator[Sch
 class _Writer:
     def __init__(self, ruleset: Ruleset, context: Context, untimed: Untimed) -> None:
         self._ruleset = ruleset
-        self._windows = Windows(ruleset, context, untimed)
+        self._windows = ResponseWindows(ruleset, context, untimed)
 
     def of(self, because: ActiveClause, after: str | None) -> Iterator[ScheduledResponse]:
         clause = list(self._ruleset.by_label[because.rule].clauses())[because.clause]

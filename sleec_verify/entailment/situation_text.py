@@ -52,9 +52,9 @@ def _triggers(ruleset: Ruleset) -> frozenset[str]:
     if not ruleset.is_timed:
         return ruleset.triggers
     from sleec_runtime.model import Atom, leaves
-    from sleec_verify.encoding.mentioned_names import beside_rules
+    from sleec_verify.encoding.mentioned_names import names_beside_rules
 
-    events, formulas, _ = beside_rules(ruleset)
+    events, formulas, _ = names_beside_rules(ruleset)
     named = (leaf for formula in formulas for leaf in leaves(formula))
     of_claims = {leaf.name for leaf in named if isinstance(leaf, Atom) and leaf.kind == "trigger"}
     return ruleset.triggers | ruleset.obligations | events | of_claims
@@ -64,9 +64,9 @@ def _conditions(ruleset: Ruleset) -> frozenset[str]:
     if not ruleset.is_timed:
         return ruleset.conditions
     from sleec_runtime.model import Atom, leaves
-    from sleec_verify.encoding.mentioned_names import beside_rules
+    from sleec_verify.encoding.mentioned_names import names_beside_rules
 
-    named = (leaf for formula in beside_rules(ruleset)[1] for leaf in leaves(formula))
+    named = (leaf for formula in names_beside_rules(ruleset)[1] for leaf in leaves(formula))
     return ruleset.conditions | {leaf.name for leaf in named if isinstance(leaf, Atom) and leaf.kind == "condition"}
 
 

@@ -16,7 +16,7 @@ class Impossible(Exception):
     """No situation makes the formula true."""
 
 
-class Forced(NamedTuple):
+class Propagation(NamedTuple):
     """The literals that each situation must name in which a formula is known to be true, and the parts of the formula
     that they leave open: disjunctions, and comparisons of measures."""
 
@@ -34,7 +34,7 @@ class Forced(NamedTuple):
         return len(self.literals) + parts
 
 
-def forced(formula: Formula) -> Forced:
+def propagate_units(formula: Formula) -> Propagation:
     """What the formula forces. Raises Impossible for one that is never true. O(size of the formula) for each round of
     propagation."""
     known: Literals = {}
@@ -51,7 +51,7 @@ def forced(formula: Formula) -> Forced:
             elif left or isinstance(part, Comparison):
                 still.append((part, value))
         waiting = still
-    return Forced(known, [part for part, _ in waiting])
+    return Propagation(known, [part for part, _ in waiting])
 
 
 def _split(open_: list[_Part], known: Literals) -> list[_Part]:

@@ -16,7 +16,7 @@ from sleec_verify.encoding.solver import MiniSat, Solver, Undecided
 from sleec_verify.query.assumption_slicing import slicing_of
 from sleec_verify.query.names import Name, names_in
 from sleec_verify.query.ruleset_index import RulesetIndex
-from sleec_verify.query.unit_propagation import Impossible, Literals, forced
+from sleec_verify.query.unit_propagation import Impossible, Literals, propagate_units
 from sleec_verify.results.finding import Witness
 
 
@@ -32,7 +32,7 @@ def smallest_situation(index: RulesetIndex, formula: Formula, valued: Iterable[s
     least = 0
     if not assumed and not valued:
         try:
-            found = forced(formula)
+            found = propagate_units(formula)
         except Impossible:
             return None
         if not found.open_parts:

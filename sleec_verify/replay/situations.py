@@ -15,20 +15,20 @@ from sleec_verify.traces.index import trace_index_of
 from sleec_verify.traces.partition import partition_of
 
 
-def replays(index: RulesetIndex, finding: Finding) -> bool:
+def replay_finding(index: RulesetIndex, finding: Finding) -> bool:
     """Whether the evaluator agrees. A finding without a witness has nothing to replay."""
     if finding.witness is None:
         return True
     if finding.check == "concern" or (
         finding.check == "conflict" and any(map(partition_of(index).needs_traces, finding.rules))
     ):
-        from sleec_verify.replay.traces import replays as is_lawful_trace
+        from sleec_verify.replay.traces import replay_trace
 
-        return is_lawful_trace(index, finding)
+        return replay_trace(index, finding)
     if finding.strategy is not None:
-        from sleec_verify.replay.strategies import plays as is_lawful
+        from sleec_verify.replay.strategies import replay_strategy
 
-        return is_lawful(trace_index_of(index), finding)
+        return replay_strategy(trace_index_of(index), finding)
     context = finding.witness.context()
     assumed = index.assumptions_that_may_break(context)
     possible = all(holds(assumption.formula, context, index.ruleset.measures) for assumption in assumed)

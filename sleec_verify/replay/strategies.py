@@ -15,7 +15,7 @@ from sleec_verify.results.strategy import Act, Strategy
 from sleec_verify.traces.index import TraceIndex
 
 
-def plays(index: TraceIndex, finding: Finding) -> bool:
+def replay_strategy(index: TraceIndex, finding: Finding) -> bool:
     """Whether the evaluator agrees with a strategy."""
     assert finding.strategy is not None, "only strategies are replayed here"
     whole = index.ruleset

@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterator, Sequence
 
 from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import Context, Rule, formulas_of, names_of, obligation_text
-from sleec_verify.encoding.response_windows import Windowed, Windows
+from sleec_verify.encoding.response_windows import ResponseWindows, WindowedResponse
 from sleec_verify.results import timeline
 from sleec_verify.results.timeline import Due, Timeline
 from sleec_verify.traces.index import TraceIndex
@@ -42,7 +42,7 @@ def _due(
 ) -> Iterator[Due]:
     """What the rules that speak at a moment require. If all is `over`, nothing happens after the last moment."""
     context = Context(moment.events, moment.conditions)
-    windows = Windows(index.ruleset, context, index.untimed)
+    windows = ResponseWindows(index.ruleset, context, index.untimed)
     for rule in rules:
         decision = decide(rule, context, index.ruleset.reading, index.ruleset.measures)
         if decision is None:
@@ -65,14 +65,14 @@ def _due(
             )
 
 
-def _replaced(one: Windowed) -> Iterator[Windowed]:
+def _replaced(one: WindowedResponse) -> Iterator[WindowedResponse]:
     """What a response is due in place of, and what that is."""
     while one.instead is not None:
         one = one.instead
         yield one
 
 
-def _is_met(one: Windowed, triggered: int, course: Sequence[TraceInstant], over: bool) -> bool:
+def _is_met(one: WindowedResponse, triggered: int, course: Sequence[TraceInstant], over: bool) -> bool:
     """Whether a response is met for certain, so that nothing is due in its place any more."""
     assert one.start is not None, "the engine refuses windows whose length a measure gives"
     start, end = triggered + one.start, None if one.end is None else triggered + one.end

@@ -19,7 +19,7 @@ from sleec_verify.traces.index import trace_index_of
 from sleec_verify.traces.relations import names_of_relation
 
 
-def replays(index: RulesetIndex, finding: Finding) -> bool:
+def replay_trace(index: RulesetIndex, finding: Finding) -> bool:
     """Whether the evaluator finds what a finding claims: a trace in which a concern comes about, or a conflict after a
     lawful history in which the named clauses decide. That no response complies with them is a claim about all
     responses, which no replay can show."""

@@ -16,10 +16,10 @@ from typing import NamedTuple
 from sleec_verify.encoding.relations import events_of
 from sleec_verify.traces.demands import Demand, Every, Occurs, conjuncts
 from sleec_verify.traces.pending_demands import Slot
-from sleec_verify.traces.relation_violations import BrokenRelations, Point, within
+from sleec_verify.traces.relation_violations import Point, RelationViolations, within
 from sleec_verify.traces.situations import Situations
 from sleec_verify.traces.templates import Later, Template
-from sleec_verify.traces.trivial_responses import contested
+from sleec_verify.traces.trivial_responses import contested_obligations
 
 
 class _Plan(NamedTuple):
@@ -44,7 +44,7 @@ class Defeat:
         self._s = situations
         self._formula = situations.formula
         self._true = situations.true
-        self._relations = BrokenRelations(situations)
+        self._relations = RelationViolations(situations)
 
     def add(self, template: Template, slots: Collection[Slot]) -> int:
         """A literal that leaves only the situations that the template does not fit, because of these slots."""
@@ -85,7 +85,7 @@ class Defeat:
             (rule.trigger, what.event, self._s.instant.both(self._s.selected[rule.label], guard))
             for rule in index.ruleset.rules
             for clause, guard in zip(rule.clauses(), self._s.guards[rule.label])
-            for what in conjuncts(index.responses.of(contested(index, clause), self._chain))
+            for what in conjuncts(index.responses.of(contested_obligations(index, clause), self._chain))
             if what.is_immediate and not what.negated and what.event not in index.mere_inputs
         ]
         # A chain of requirements is at most as long as there are requirements; most end after one or two rounds.
@@ -147,7 +147,7 @@ class Defeat:
             if trigger == -self._true:
                 continue
             for clause, guard in zip(rule.clauses(), s.guards[rule.label]):
-                obligations = contested(s.index, clause)
+                obligations = contested_obligations(s.index, clause)
                 if obligations:
                     broken = s.index.responses.of(obligations, self._chain, kept=False)
                     fails = self._holds(timeline, fixed[0], broken)

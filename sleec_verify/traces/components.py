@@ -16,7 +16,7 @@ from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.traces.event_conditions import is_of_state
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.trivial_responses import contested
+from sleec_verify.traces.trivial_responses import contested_obligations
 
 
 def components(index: TraceIndex) -> list[TraceIndex]:
@@ -73,7 +73,7 @@ def _contested(index: TraceIndex, rule: Rule) -> Iterator[Obligation]:
     """The responses at any depth that a conflict can be about."""
     for clause in rule.clauses():
         try:
-            obligations = contested(index, clause)
+            obligations = contested_obligations(index, clause)
         except Undecided:
             obligations = clause.obligations
         yield from literals(replace(clause, obligations=obligations))

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from sleec_runtime.model import Rule
 from sleec_verify.encoding.budget import OutOfBudget, Undecided
 from sleec_verify.traces.continuations import Continuations
-from sleec_verify.traces.cores import minimal_rules, weakest, without_slots
+from sleec_verify.traces.cores import drop_slots, minimal_rules, weakest_facts
 from sleec_verify.traces.event_conditions import event_of, is_of_state, named_atoms
 from sleec_verify.traces.histories import Histories
 from sleec_verify.traces.index import TraceIndex
@@ -129,7 +129,7 @@ class ConflictSearch:
         s = self._situations
         rules = minimal_rules(continuations, rules)
         if not rules:
-            s.exclude(weakest(continuations, continuations.core(), s))
+            s.exclude(weakest_facts(continuations, continuations.core(), s))
             return None
         core = continuations.core()
         given = {str(fact[1]) for fact in facts if fact[0] == "input" and fact[-1]}
@@ -144,14 +144,14 @@ class ConflictSearch:
                 fewer_rules = minimal_rules(without, rules)
                 if not any(fact[0] == "input" and fact[1] in foreign for fact in without.core()):
                     return self._stuck(without, fewer_rules, fewer)
-            core = weakest(continuations, core, s)
+            core = weakest_facts(continuations, core, s)
             for event in sorted(foreign):
                 s.exclude(dict.fromkeys([*core, ("input", event, True)]))
             return None
         if not any(self._decides(label, given) for label in rules):
-            return self._doomed(weakest(continuations, core, s), rules)
+            return self._doomed(weakest_facts(continuations, core, s), rules)
         facts, continuations, given = self._with_fewer_inputs(rules, facts, continuations, given)
-        core = without_slots(continuations, rules, facts)
+        core = drop_slots(continuations, rules, facts)
         slots = {int(str(f[1])) for f in core if f[0] == "slot"}
         pairs = self._pairs(continuations, rules, given, slots)
         return self._confirmed(rules, core, given, pairs, continuations)
@@ -213,12 +213,15 @@ class ConflictSearch:
             # A history may leave more pending of these rules; then the situation has to say so.
             own = {n for n, slot in enumerate(s.slots) if slot.rule.label in rules and s.holds(slot.active)}
             if not histories.exist(strict=False):
-                s.exclude(weakest(histories, histories.refuted(), s))
+                s.exclude(weakest_facts(histories, histories.refuted(), s))
                 return None
             histories = Histories(s, self._about_past(core, slots | own), rules)
             if not histories.exist():
                 others = [slot for n, slot in enumerate(s.slots) if slot.rule.label in rules and n not in own]
-                needed = [*weakest(histories, histories.refuted(), s), *(("rule", label, True) for label in rules)]
+                needed = [
+                    *weakest_facts(histories, histories.refuted(), s),
+                    *(("rule", label, True) for label in rules),
+                ]
                 s.add([*(-s.literal(fact) for fact in needed), *(slot.active for slot in others), s.more])
                 return None
         moments, time = histories.history()

@@ -11,14 +11,14 @@ from sleec_verify.traces.induction import InductiveModel
 from sleec_verify.traces.pending_demands import Slot
 from sleec_verify.traces.relations import relation_key
 from sleec_verify.traces.situations import Fact, Situations, state_formulas
-from sleec_verify.traces.trivial_responses import contested
+from sleec_verify.traces.trivial_responses import contested_obligations
 
 
 class _Contested(InductiveModel):
     """Traces in which what can always be met is left out."""
 
     def obligations(self, clause: Clause) -> tuple[Obligation, ...]:
-        return contested(self.index, clause)
+        return contested_obligations(self.index, clause)
 
 
 class Continuations:

@@ -14,7 +14,7 @@ from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.situations import Fact, Situations
 
 
-class Question(Protocol):
+class SituationQuestion(Protocol):
     """A question about a situation."""
 
     def refutes(self, facts: Collection[Fact]) -> bool:
@@ -40,7 +40,7 @@ def minimal_rules(continuations: Continuations, rules: list[str]) -> list[str]:
     return kept
 
 
-def without_slots(continuations: Continuations, rules: list[str], facts: list[Fact]) -> list[Fact]:
+def drop_slots(continuations: Continuations, rules: list[str], facts: list[Fact]) -> list[Fact]:
     """A core with as few slots as can be."""
     core = continuations.core()
     left_out: list[Fact] = []
@@ -56,7 +56,7 @@ def without_slots(continuations: Continuations, rules: list[str], facts: list[Fa
     return continuations.core()
 
 
-def weakest(question: Question, core: Collection[Fact], situations: Situations) -> list[Fact]:
+def weakest_facts(question: SituationQuestion, core: Collection[Fact], situations: Situations) -> list[Fact]:
     """Facts that imply less than those of a core, and are still refuted: as few as can be besides the rules, and the
     bounds on times as weak as can be. It stops where that is not decided."""
     # A bound on the time of what is pending says nothing unless it is pending.
@@ -81,8 +81,8 @@ def weakest(question: Question, core: Collection[Fact], situations: Situations) 
     return facts
 
 
-def _weakened(question: Question, others: Collection[Fact], bound: Fact) -> Fact:
-    """The weakest bound with which the facts are still refuted; without it, the last answer was yes."""
+def _weakened(question: SituationQuestion, others: Collection[Fact], bound: Fact) -> Fact:
+    """The weakest_facts bound with which the facts are still refuted; without it, the last answer was yes."""
     _, a, b, least, _ = bound
     assert isinstance(a, int), "a node"
     assert isinstance(b, int), "a node"

@@ -16,7 +16,7 @@ from sleec_verify.traces.model import TraceModel
 from sleec_verify.traces.pending_demands import Slot
 from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.trace import TraceInstant
-from sleec_verify.traces.trivial_responses import contested
+from sleec_verify.traces.trivial_responses import contested_obligations
 
 
 class Histories(TraceModel):
@@ -126,7 +126,7 @@ class Histories(TraceModel):
         if rule.label not in self._of:
             return
         for number, (clause, guard) in enumerate(self.guards(at, rule)):
-            for obligation in contested(self.index, clause):
+            for obligation in contested_obligations(self.index, clause):
                 demand = self.due(at, (obligation,))
                 settled = self.formula.any_of([self._settled(at, demand), *self._dominated(at, rule, number, demand)])
                 self.add([-self.strict, -guard, settled])

@@ -8,7 +8,7 @@ from sleec_runtime.model import Measure, Value
 from sleec_verify.encoding.cnf import Encoder, Key
 
 
-class Formula:
+class SharedClauses:
     """The clauses that the instants of one trace share, and the numbers of its variables."""
 
     def __init__(self) -> None:
@@ -52,7 +52,7 @@ class Instant(Encoder):
 
     def __init__(
         self,
-        formula: Formula,
+        formula: SharedClauses,
         measures: Mapping[str, Measure],
         used: int,
     ) -> None:

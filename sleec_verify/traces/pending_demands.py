@@ -14,7 +14,7 @@ from functools import cached_property
 from sleec_runtime.model import Obligation, Rule
 from sleec_verify.traces.demands import Demand, Every, Occurs, occurrences
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.trivial_responses import contested
+from sleec_verify.traces.trivial_responses import contested_obligations
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +82,7 @@ def pending_of(index: TraceIndex) -> Iterator[Pending]:
 def _demands(index: TraceIndex) -> Iterator[Pending]:
     for rule in index.ruleset.rules:
         for number, clause in enumerate(rule.clauses()):
-            for obligation in contested(index, clause):
+            for obligation in contested_obligations(index, clause):
                 for demand, choices in index.responses.variants(obligation):
                     yield Pending(rule, number, obligation, demand, tuple(choices))
 

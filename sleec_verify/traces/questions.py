@@ -29,12 +29,12 @@ class Answer(NamedTuple):
     matter: tuple[str, ...] = ()
 
 
-def breaking(index: TraceIndex, rule: Rule) -> Answer:
+def find_violation(index: TraceIndex, rule: Rule) -> Answer:
     """A trace that satisfies all else and breaks `rule`. Without one, the rule is redundant."""
     return _ask(_about(index, [rule]), lambda model, at: [_broken(model, at, rule)], but=rule)
 
 
-def exchanging(index: TraceIndex, rule: Rule, other: Rule) -> Answer:
+def find_difference(index: TraceIndex, rule: Rule, other: Rule) -> Answer:
     """A trace that satisfies all with `other`, of the same trigger and label, in the place of `rule`, and breaks
     `rule`."""
     part = _about(index, [rule, other])
@@ -43,7 +43,7 @@ def exchanging(index: TraceIndex, rule: Rule, other: Rule) -> Answer:
     return _ask(part, lambda model, at: [_broken(model, at, rule)], rules=rules)
 
 
-def triggering(index: TraceIndex, rule: Rule) -> Answer:
+def find_trigger(index: TraceIndex, rule: Rule) -> Answer:
     """A trace in which `rule` is triggered and its guard holds. Without one, the rule is vacuous."""
     return _ask(
         _about(index, [rule]),
@@ -51,12 +51,12 @@ def triggering(index: TraceIndex, rule: Rule) -> Answer:
     )
 
 
-def deciding(index: TraceIndex, rule: Rule, clause: int) -> Answer:
+def find_decision(index: TraceIndex, rule: Rule, clause: int) -> Answer:
     """An instant at which a clause of `rule` decides, that the relations allow, whether or not rules are satisfied."""
     return _ask(_about(index, [rule]), lambda model, at: [model.guards(at, rule)[clause][1]], rules={})
 
 
-def coming_about(index: TraceIndex, claim: Claim) -> Answer:
+def find_claim(index: TraceIndex, claim: Claim) -> Answer:
     """A trace in which a concern or purpose comes about. Its `meanwhile` may come about at any other instant."""
 
     def at_instant(model: TraceModel, at: int, part: Claim) -> list[int]:

@@ -32,7 +32,7 @@ def within(situations: Situations, a: Point, b: Point, start: int | None, end: i
     )
 
 
-class BrokenRelations:
+class RelationViolations:
     """The literals that imply that a template breaks a relation."""
 
     def __init__(self, situations: Situations) -> None:

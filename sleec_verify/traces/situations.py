@@ -18,7 +18,7 @@ from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
 from sleec_verify.traces.difference import Differences
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.instant import Formula, Instant
+from sleec_verify.traces.instant import Instant, SharedClauses
 from sleec_verify.traces.pending_demands import Pending, Slot, alternatives, pending_of
 from sleec_verify.traces.relations import relation_key
 
@@ -34,7 +34,7 @@ class Situations:
     def __init__(self, index: TraceIndex) -> None:
         self.index = index
         self.reading = index.ruleset.reading
-        self.formula = Formula()
+        self.formula = SharedClauses()
         self.true = self.formula.true
         self.add = self.formula.clauses.append
         self.times = Differences(self.formula.fresh, self.add, self.true)

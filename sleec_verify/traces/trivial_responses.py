@@ -22,7 +22,7 @@ def free_events(index: TraceIndex) -> frozenset[str]:
     return free_events(index.whole) if index.whole is not None else index.once(_free_events)
 
 
-def contested(index: TraceIndex, clause: Clause) -> tuple[Obligation, ...]:
+def contested_obligations(index: TraceIndex, clause: Clause) -> tuple[Obligation, ...]:
     """The obligations of a clause that cannot always be met, whatever the hedges inside them decide.
 
     Raises Undecided for a window whose length a measure gives.

@@ -21,7 +21,7 @@ from sleec_runtime.model import Value
 from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.traces.difference import Differences
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.instant import Formula, Instant
+from sleec_verify.traces.instant import Instant, SharedClauses
 from sleec_verify.traces.trace import TraceInstant
 
 MOST = 30
@@ -58,7 +58,7 @@ class Unrolling(ABC):
 
     def __init__(self, index: TraceIndex) -> None:
         self.index = index
-        self.formula = Formula()
+        self.formula = SharedClauses()
         self.add = self.formula.clauses.append
         self.times = Differences(self.formula.fresh, self.add, self.formula.true)
         self.nodes = 0

@@ -12,7 +12,7 @@ from sleec_verify.encoding.formula_truth import truth_in
 from sleec_verify.encoding.relations import events_of, formula_at_one_instant
 from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.traces.continuations import Continuations
-from sleec_verify.traces.instant import Formula, Instant
+from sleec_verify.traces.instant import Instant, SharedClauses
 from sleec_verify.traces.situations import Fact, Situations
 
 
@@ -41,7 +41,7 @@ def needed_values(
     clauses `deciding` decide. All that is not given may as well be false."""
     index = situations.index
     facts = [fact for fact in continuations.facts if fact[0] == "state"]
-    formula = Formula()
+    formula = SharedClauses()
     instant = Instant(formula, index.ruleset.measures, formula.true)
     guards = [
         instant.guards(index.ruleset.by_label[label], index.ruleset.reading, formula.true)[number]

@@ -19,7 +19,7 @@ from sleec_verify.checks import run_checks
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.results.finding import Unknown
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.questions import breaking, coming_about, triggering
+from sleec_verify.traces.questions import find_claim, find_trigger, find_violation
 from tests.support import z3_oracle as oracle
 from tests.support.timed_english import timed_english
 from tests.support.timed_strategies import timed_ruleset
@@ -45,7 +45,7 @@ def compare(ruleset, untimed):
     index = TraceIndex(ruleset, untimed)
     count = 0
     for rule in ruleset.rules:
-        answer = answered(lambda: breaking(index, rule))  # noqa: B023
+        answer = answered(lambda: find_violation(index, rule))  # noqa: B023
         if answer is not None:
             count += 1
             if answer.trace is not None:
@@ -53,7 +53,7 @@ def compare(ruleset, untimed):
                 assert found, "the trace breaks the rule"
                 assert {b.statement for b in found} == {rule}
             assert_same(answer.trace is None, lambda n: oracle.redundant(ruleset, rule.label, n, untimed))  # noqa: B023
-        answer = answered(lambda: triggering(index, rule))  # noqa: B023
+        answer = answered(lambda: find_trigger(index, rule))  # noqa: B023
         if answer is not None:
             count += 1
             if answer.trace is not None:
@@ -64,7 +64,7 @@ def compare(ruleset, untimed):
             assert answer.trace is not None or theirs.moments is None
     for kind in ("concern", "purpose"):
         for claim in claims(ruleset, kind):
-            answer = answered(lambda: coming_about(index, claim))  # noqa: B023
+            answer = answered(lambda: find_claim(index, claim))  # noqa: B023
             if answer is not None:
                 count += 1
                 if answer.trace is not None:

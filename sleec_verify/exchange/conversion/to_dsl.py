@@ -31,7 +31,7 @@ from sleec_runtime.model import (
     formulas_of,
     leaves,
 )
-from sleec_verify.encoding.mentioned_names import beside_rules
+from sleec_verify.encoding.mentioned_names import names_beside_rules
 from sleec_verify.encoding.statement_parts import with_formulas
 from sleec_verify.exchange.conversion.refusals import defined_names, refuse
 from sleec_verify.exchange.conversion.rules import narrow, split
@@ -74,7 +74,7 @@ def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
     defined: set[str] = set()
     declared = {name for names in ruleset.declared.values() for name in names}
     agents = {name: s.agent for s in ruleset.statements if isinstance(s, Declaration) for name in s.names if s.agent}
-    events, formulas, _ = beside_rules(ruleset)
+    events, formulas, _ = names_beside_rules(ruleset)
     for name in _undeclared(ruleset.triggers | ruleset.obligations | events, declared):
         defined.add(_name(ruleset, name))
         yield Declaration("event", (name,))
@@ -113,7 +113,7 @@ def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
 
 
 def _of_events_in_conditions(ruleset: Ruleset) -> Iterator[str]:
-    formulas = [formula for rule in ruleset.rules for formula in formulas_of(rule)] + beside_rules(ruleset)[1]
+    formulas = [formula for rule in ruleset.rules for formula in formulas_of(rule)] + names_beside_rules(ruleset)[1]
     atoms = (leaf for formula in formulas for leaf in leaves(formula) if isinstance(leaf, Atom))
     named = sorted({atom.name for atom in atoms if atom.kind == "trigger"})
     if named:

@@ -13,7 +13,7 @@ from sleec_runtime.language import load
 from sleec_runtime.model import Ruleset
 from sleec_verify.checks import run_checks
 from sleec_verify.query.ruleset_index import RulesetIndex
-from sleec_verify.replay.situations import replays
+from sleec_verify.replay.situations import replay_finding
 from sleec_verify.results.finding import CheckResult, Unknown
 from tests.support.studies import PUBLISHED, each_study, published_only
 
@@ -64,7 +64,9 @@ def test_every_timeline_is_replayed(path: Path) -> None:
     ruleset, results = checked(path)
     for check in {"conflict", "concern"} & set(results):
         for finding in results[check].findings:
-            assert replays(RulesetIndex(ruleset.in_domain(finding.domains[0]) if finding.domains else ruleset), finding)
+            assert replay_finding(
+                RulesetIndex(ruleset.in_domain(finding.domains[0]) if finding.domains else ruleset), finding
+            )
 
 
 @published_only

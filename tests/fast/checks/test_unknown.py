@@ -16,7 +16,7 @@ from sleec_verify.replay import situations as replay
 from sleec_verify.results.finding import Proved, Refuted, Unknown
 from sleec_verify.traces import unrolling
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.questions import triggering
+from sleec_verify.traces.questions import find_trigger
 
 # As many minimal inconsistent sets as there are ways to choose one of each pair: 2 to the 14th.
 ENTANGLED = "\n".join(
@@ -120,7 +120,7 @@ def test_an_unknown_check_is_a_key_error():
 def test_a_trace_that_takes_too_much_is_unknown_with_what_it_came_to(monkeypatch, limit):
     text = "RULE a WHEN A THEN B WITHIN 9 seconds\nRULE b WHEN B THEN C WITHIN [2, 5] seconds\nRULE c WHEN C THEN NOT B"
     index = TraceIndex(parse(text))
-    assert triggering(index, index.rules[0]).trace is not None
+    assert find_trigger(index, index.rules[0]).trace is not None
     monkeypatch.setattr(unrolling, limit, 0)
     with pytest.raises(Undecided, match=r"no answer with [1-9] instant"):
-        triggering(index, index.rules[0])
+        find_trigger(index, index.rules[0])

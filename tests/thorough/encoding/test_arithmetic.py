@@ -102,7 +102,7 @@ def test_arithmetic_tells_what_contradicts_what():
 @settings(max_examples=200, deadline=None)
 @given(st.data())
 def test_what_is_found_nearby_makes_all_literals_true(data):
-    from sleec_verify.encoding.local_search import nearby
+    from sleec_verify.encoding.local_search import search_nearby
 
     drawn = data.draw
     terms = [(("x",),), (("y",),), (("x", "y"),), (("x", "x"),), (("y", "z"),)]
@@ -118,7 +118,7 @@ def test_what_is_found_nearby_makes_all_literals_true(data):
     start = dict.fromkeys(NAMES, 0)
     for name, value, inclusive, sign in cuts:
         start[name] = value + (0 if inclusive == (sign > 0) else -sign)
-    found = nearby(start, cuts, orders, compared)
+    found = search_nearby(start, cuts, orders, compared)
     if found is None:
         return
     for side, value, inclusive, sign in [

@@ -16,7 +16,7 @@ from sleec_verify.checks import reading, run_checks
 from sleec_verify.query import witness
 from sleec_verify.query.rule_shape import LARGEST, shape_of
 from sleec_verify.query.ruleset_index import RulesetIndex
-from sleec_verify.query.unit_propagation import Forced, Impossible, forced
+from sleec_verify.query.unit_propagation import Impossible, Propagation, propagate_units
 from sleec_verify.query.witness import smallest_situation
 from tests.support.small_rulesets import small_rulesets
 
@@ -37,11 +37,11 @@ CONES = RulesetIndex(parse("MEASURE x: number\nWHEN t AND x < 3 THEN o\n"))
 @given(FORMULAS)
 def test_forced_literals_are_the_smallest_situation(formula) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(witness, "forced", nothing_forced)
+        patch.setattr(witness, "propagate_units", nothing_forced)
         searched = smallest_situation(CONES, formula)
     assert smallest_situation(CONES, formula) == searched
     try:
-        found = forced(formula)
+        found = propagate_units(formula)
     except Impossible:
         assert searched is None
     else:
@@ -49,12 +49,12 @@ def test_forced_literals_are_the_smallest_situation(formula) -> None:
             assert found.least() <= len(searched.triggers) + len(searched.absent) + len(searched.conditions)
 
 
-class NothingForced(Forced):
+class NothingForced(Propagation):
     def least(self) -> int:
         return 0
 
 
-def nothing_forced(formula) -> Forced:
+def nothing_forced(formula) -> Propagation:
     return NothingForced({}, [formula])
 
 
@@ -73,7 +73,7 @@ def nothing_forced(formula) -> Forced:
     ],
 )
 def test_what_is_forced(formula, literals, least) -> None:
-    assert (forced(formula).literals, forced(formula).least()) == (literals, least)
+    assert (propagate_units(formula).literals, propagate_units(formula).least()) == (literals, least)
 
 
 @settings(max_examples=100)
@@ -119,7 +119,7 @@ def test_random_rules_are_found_the_same_with_and_without(monkeypatch: pytest.Mo
         return [finding for result in run_checks(ruleset) for finding in result.findings]
 
     quick = found()
-    monkeypatch.setattr(witness, "forced", nothing_forced)
+    monkeypatch.setattr(witness, "propagate_units", nothing_forced)
     monkeypatch.setattr("sleec_verify.query.rule_shape.LARGEST", 0)
     assert found() == quick
 
