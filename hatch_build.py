@@ -1,4 +1,4 @@
-"""What the build adds to pyproject.toml: sleec-verify needs sleec-runtime of its own version."""
+"""Add to the metadata that sleec-verify depends on its own version of sleec-runtime."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Measurements that the docs quote, each a module here with a `main`."""
+"""Measurements that the docs quote. Each module with a `main` is one measurement."""

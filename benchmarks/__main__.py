@@ -1,4 +1,4 @@
-"""``python -m benchmarks [NAME…]``: runs the named measurements, or all (the modules here that have a `main`)."""
+"""Run measurements: ``python -m benchmarks [NAME…]``, by default all modules of this package that have a `main`."""
 
 from __future__ import annotations
 

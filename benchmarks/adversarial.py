@@ -1,7 +1,7 @@
-"""How long `check` takes for texts that are small and hard to decide: seconds, and how many checks stay unknown. Each
-takes less than ten seconds, as every file has a budget.
+"""Measure `check` on small texts that are hard to decide: the time, and how many checks are unknown.
 
-``python -m benchmarks.adversarial NAME…`` measures the named ones.
+Each takes less than ten seconds, because every file has a budget. ``python -m benchmarks.adversarial NAME…`` measures
+the named texts.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ BOUND = 10.0
 
 
 def products(rules: int = 24) -> str:
-    """Each rule compares a sum of squares of measures that its neighbours share."""
+    """Rules that each compare a sum of squares of measures, which neighbouring rules share."""
     squares = [f"({{m{n}}} * {{m{n}}})" for n in range(rules)]
     sums = [f"(({squares[n - 2]} + {squares[n - 1]}) + {squares[n]})" for n in range(rules)]
     return _dsl(
@@ -42,7 +42,9 @@ def hedged_products(rules: int = 24) -> str:
 
 
 def pigeonhole(holes: int = 10, rules: int = 50) -> str:
-    """An assumption that one pigeon more than there are holes fits in, and rules hedged by where pigeons are."""
+    """An assumption that there is room for one pigeon more than there are holes, and rules with hedges about the
+    pigeons.
+    """
     pigeons = range(holes + 1)
     somewhere = [" OR ".join(f"p{p}in{h}" for h in range(holes)) for p in pigeons]
     alone = [f"NOT (p{p}in{h} AND p{q}in{h})" for h in range(holes) for p in pigeons for q in range(p)]
@@ -61,7 +63,7 @@ def all_call_all(events: int = 17) -> str:
 
 
 def nevers(count: int = 72, names: int = 24, width: int = 3, seed: int = 1) -> str:
-    """Random NEVERs of `width` obligations, done or not done, all of which rules oblige and forbid."""
+    """Random NEVERs of `width` literals over obligations. Rules oblige and forbid all of these."""
     draw = random.Random(seed)
     every = [f"O{n}" for n in range(names)]
 
@@ -73,17 +75,17 @@ def nevers(count: int = 72, names: int = 24, width: int = 3, seed: int = 1) -> s
 
 
 def exclusive(names: int = 100) -> str:
-    """Each of many exclusive obligations has a trigger of its own, so that any two can be due together."""
+    """Many exclusive obligations, each with its own trigger, so that any two can be due together."""
     return _exclusive(names, [f"WHEN T{n} THEN O{n}" for n in range(names)])
 
 
 def exclusive_at_once(names: int = 100) -> str:
-    """All of many exclusive obligations are due at once."""
+    """Many exclusive obligations that are due at the same instant."""
     return _exclusive(names, [f"WHEN T THEN O{n}" for n in range(names)])
 
 
 def exclusive_in_turn(names: int = 100) -> str:
-    """A measure decides which one of many exclusive obligations is due, so that no two are."""
+    """Many exclusive obligations of which a measure selects one, so that no two are due together."""
     rules = [f"WHEN T AND Level >= {n} AND Level < {n + 1} THEN O{n}" for n in range(names)]
     return _exclusive(names, ["MEASURE Level: integer", *rules])
 
@@ -116,7 +118,7 @@ def many_hedges(hedges: int = 90, rules: int = 4) -> str:
 
 
 def nested_chains(depth: int = 20, rules: int = 12) -> str:
-    """Chains of hedges inside hedges."""
+    """Chains of hedges nested in hedges."""
 
     def inside(n: int, left: int) -> str:
         return f"(O{left % 5} UNLESS c{n}x{left} IN WHICH CASE {inside(n, left - 1)})" if left else f"NOT O{n % 5}"
@@ -129,7 +131,7 @@ def long_chain(events: int = 220) -> str:
 
 
 def forbidding_chain(events: int = 90) -> str:
-    """A chain of responses, each of which another rule forbids for a while."""
+    """A chain of responses, each forbidden for some time by another rule."""
     return _lines(
         f"WHEN E{n} THEN E{n + 1} WITHIN {n % 7 + 1} minutes\nWHEN E{n} THEN NOT E{(n * 7) % events} WITHIN {n} seconds"
         for n in range(events)
@@ -137,7 +139,7 @@ def forbidding_chain(events: int = 90) -> str:
 
 
 def random_clauses(variables: int = 150, ratio: float = 4.26, seed: int = 3) -> str:
-    """A guard that is a random formula where satisfiability is hardest."""
+    """A guard that is a random formula at the threshold where satisfiability is hardest."""
     draw = random.Random(seed)
 
     def literal(n: int) -> str:
@@ -165,7 +167,7 @@ def many_causes(literals: int = 8, clauses: int = 12) -> str:
 
 
 def compared_measures(measures: int = 20, rules: int = 60) -> str:
-    """Whole numbers that are compared with one another and with constants, with little room between them."""
+    """Whole numbers that are compared with each other and with constants, with few solutions."""
     draw = random.Random(5)
     declared = [f"MEASURE m{n}: integer" for n in range(measures)]
 

@@ -1,10 +1,10 @@
-"""What certificates cost on 1,000 rules: writing one at most doubles the time of `check`, checking one takes at most
-five times as long as the check that solved the questions.
+"""Measure certificates of 1,000 rules.
 
-Three rulesets, each with three hedges a rule: random ones, whose conflicts are shown by witnesses; ones that nothing at
-odds ever meets in, where every clash has a refutation; and ones that read alike, where every rule has. Times are
-processor times of one process, the medians of some turns, those of the checker and the oracle that are proved in Coq
-included, if they are built.
+Writing a certificate takes at most twice the time of `check`. Checking one takes at most five times as long as the
+check. There are three rulesets with three hedges for each rule: random rules, with witnesses for their conflicts; rules
+that never conflict, with a refutation for every minimal inconsistent set; and rules that do not depend on the reading,
+with a refutation for every rule. Times are processor times of one process, medians of some rounds. They include the
+checker and the oracle that are proved in Coq, if these are built.
 """
 
 from __future__ import annotations
@@ -34,8 +34,11 @@ WRITING, CHECKING = 2, 5
 
 
 def harmless_rules(count: int, seed: int = 0) -> str:
-    """`count` rules of three hedges, two for each trigger, that oblige and forbid the same where the other does not:
-    every two of a trigger clash but for their conditions, and triggers that share an obligation are kept apart."""
+    """`count` rules with three hedges, two for each trigger, that never conflict.
+
+    Two rules of one trigger oblige and forbid the same under disjoint conditions. Triggers that share an obligation
+    never occur together.
+    """
     draw = random.Random(seed)
     lines = []
     for number in range(count // 2):
@@ -59,7 +62,7 @@ def harmless_rules(count: int, seed: int = 0) -> str:
 
 
 def alike_rules(count: int) -> str:
-    """`count` rules of three hedges, each of which repeats the condition before it."""
+    """`count` rules with three hedges, each of which repeats the condition of the previous one."""
     lines = []
     for number in range(count):
         one, other, third = (f"Condition{number}_{name}" for name in "abc")
@@ -74,7 +77,7 @@ def alike_rules(count: int) -> str:
 
 
 def seconds(work: Callable[[], object]) -> float:
-    """Processor seconds of `work`, children included."""
+    """Processor seconds of `work`, including child processes."""
     before = os.times()
     work()
     after = os.times()
@@ -82,7 +85,7 @@ def seconds(work: Callable[[], object]) -> float:
 
 
 def measure(ruleset: Ruleset, folder: str, turns: int = TURNS) -> tuple[float, float, float]:
-    """Median seconds of the check, of writing its certificate (the check included), and of checking that."""
+    """Median seconds of the check, of the check with its certificate, and of checking that certificate."""
     times: tuple[list[float], ...] = ([], [], [])
     for _ in range(turns):
         works = (

@@ -1,6 +1,7 @@
-"""What `diff` costs beside reading: 10,000 random rules of three hedges, of which one changed.
+"""Compare `diff` with reading: 10,000 random rules with three hedges, with one changed rule.
 
-Both texts must be read in any case; a diff may cost at most 1.5 times that. Processor time, in turns, the medians.
+A diff may take at most 1.5 times as long as reading both texts. Times are processor times, measured alternately, and
+the medians count.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ TURNS = 5
 
 
 def edited(text: str, label: str) -> str:
-    """The rules with another first hedge in the rule of this label."""
+    """The rules with another first hedge in the rule with this label."""
     at = text.index("UNLESS", text.index(f"RULE {label}\n"))
     return f"{text[:at]}UNLESS SomethingNew OR{text[at + len('UNLESS') :]}"
 

@@ -1,7 +1,7 @@
-"""All entailed obligations of a context by one propagation, beside one solver call for a single obligation.
+"""Compare one propagation for all entailed obligations of a context with one solver call for one obligation.
 
-One propagation may cost at most three times one such call. The formula is that of the rules of the paper's size and
-of 1,000 rules; the context triggers every rule.
+A propagation may take at most three times as long as a call. The formulas are those of the paper's rules and of 1,000
+rules. The context triggers every rule.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def median(action: Callable[[], object]) -> float:
 
 
 def compare(count: int) -> tuple[float, float]:
-    """Median seconds of all obligations, and of one."""
+    """Median seconds for all obligations, and for one."""
     ruleset = parse(random_rules(count))
     definition = Definition1(ruleset)
     context = Context(ruleset.triggers, dict.fromkeys(ruleset.measures, 5))

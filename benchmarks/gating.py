@@ -1,7 +1,7 @@
-"""What `gate` costs on 50 rulesets of 20 random rules with one changed, beside `check` of that one file.
+"""Compare `gate` on 50 rulesets of 20 random rules, one of them changed, with `check` of the changed file.
 
-Both as whole processes that decide everything anew, in a git repository made for it, in turns; the medians. At most 1.5
-times is asked for.
+Both are whole processes without a cache, in a git repository, measured alternately. The median ratio may be at most
+1.5.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ TURNS = 11
 
 
 def prepare(folder: Path) -> Path:
-    """A repository of rulesets, committed, with one rule of one of them changed since."""
+    """Create a repository with committed rulesets, and change one rule of one of them."""
     git = ["git", "-C", str(folder), "-c", "user.name=Nobody", "-c", "user.email=nobody@example.org"]
     for number in range(RULESETS):
         (folder / f"rules{number}.sleec").write_text(random_rules(RULES, seed=number), encoding="utf-8")
@@ -35,7 +35,7 @@ def prepare(folder: Path) -> Path:
 
 
 def seconds(arguments: list[str], folder: Path) -> float:
-    """Of one process. What it finds does not matter here."""
+    """The seconds of one process. Its findings do not matter here."""
     command = [sys.executable, "-m", "sleec_verify", *arguments]
     environment = {
         **os.environ,
@@ -49,7 +49,7 @@ def seconds(arguments: list[str], folder: Path) -> float:
 
 
 def measure(turns: int = TURNS) -> tuple[float, float]:
-    """Median seconds of the check and of the gate."""
+    """Median seconds of the check, and of the gate."""
     check, gate = [], []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

@@ -1,4 +1,4 @@
-"""Random rulesets of the DSL as text: hedges, prohibitions, and responses that trigger other rules."""
+"""Random rulesets of the DSL as text, with hedges, prohibitions and responses that trigger other rules."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ import random
 
 
 def random_dsl(count: int, hedges: int = 2, seed: int = 0, windows: tuple[str, ...] = ("",)) -> str:
-    """`count` rules of `hedges` hedges at most. There are as many events as rules, half of them responses, a tenth of
-    which trigger rules too; a tenth of the responses forbid. `windows` are what stands behind a response."""
+    """`count` rules with at most `hedges` hedges.
+
+    There are as many events as rules. Half of them are responses, and a tenth of these also trigger rules. A tenth of
+    the responses are prohibitions. `windows` are texts that follow a response.
+    """
     draw = random.Random(seed)
     half = max(5, count // 2)
     causes, effects = [f"E{n}" for n in range(half)], [f"F{n}" for n in range(half)]

@@ -1,4 +1,4 @@
-"""Random rulesets of a given size, as text: three hedges a rule, names drawn from vocabularies that grow with it."""
+"""Random rulesets of a given size as text, with three hedges for each rule and vocabularies that grow with the size."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ import random
 
 
 def random_rules(count: int, hedges: int = 3, seed: int = 0, names_per_rule: float = 1.0) -> str:
-    """`count` rules of `hedges` hedges. There are ``count * names_per_rule`` triggers, conditions and obligations to
-    draw from (ten at least), and a tenth of the responses forbid."""
+    """`count` rules with `hedges` hedges.
+
+    There are ``count * names_per_rule`` triggers, conditions and obligations, at least ten. A tenth of the responses
+    are prohibitions.
+    """
     draw = random.Random(seed)
     names = max(10, int(count * names_per_rule))
 
@@ -35,7 +38,7 @@ def random_rules(count: int, hedges: int = 3, seed: int = 0, names_per_rule: flo
 
 
 def assuming_rules(count: int) -> str:
-    """`random_rules` of two hedges, with an assumption for every third that two conditions exclude one another."""
+    """`random_rules` with two hedges. For every third rule, an assumption makes two conditions exclude each other."""
     draw = random.Random(count)
     names = max(10, count)
     pairs = ((draw.randrange(names), draw.randrange(names)) for _ in range(count // 3))

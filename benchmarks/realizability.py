@@ -1,4 +1,4 @@
-"""How the game between robot and environment grows: random rulesets with windows, an environment that acts twice."""
+"""Measure how games grow: random rulesets with windows, and an environment that acts twice."""
 
 from __future__ import annotations
 

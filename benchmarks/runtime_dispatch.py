@@ -1,10 +1,9 @@
-"""What a dispatch and a change of context cost, and how that grows with the rules.
+"""Measure a dispatch and a change of context, and how they grow with the number of rules.
 
     python -m benchmarks.runtime_dispatch [--quick] [--json]
 
-Each figure is of single calls, with the cost of the clock taken off; the bounds that issue 3 sets are printed beside
-the ratios that they are for. Calls to be compared take turns within one run, so that what else the machine does
-slows all of them alike.
+Each figure is for single calls, without the cost of the clock. Ratios are printed with their bounds. Calls that are
+compared alternate within one run, so that a load on the machine affects all of them.
 """
 
 # ruff: noqa: F811 - the variants of a method share its name
@@ -41,7 +40,7 @@ class Timing(NamedTuple):
 
 
 class Bound(NamedTuple):
-    """A ratio, and what it must not exceed (or fall below)."""
+    """A ratio and its upper (or lower) bound."""
 
     what: str
     ratio: float
@@ -54,7 +53,7 @@ class Bound(NamedTuple):
 
 
 def measured(calls: dict[str, Callable[[], object]], rounds: int, batch: int = 20) -> dict[str, Timing]:
-    """Each of `calls`, in turn, a batch at a time; `rounds` batches of each."""
+    """Measure each of `calls` alternately, in `rounds` batches."""
     samples: dict[str, list[int]] = {name: [] for name in calls}
     gc.disable()
     for _ in range(rounds):
@@ -88,7 +87,7 @@ def _timing(nanoseconds: Sequence[int], clock: int) -> Timing:
 
 
 def rules(size: int, mentioning: int = 1) -> Ruleset:
-    """`size` rules, each with a trigger of its own and two hedges; the first `mentioning` rules mention c0."""
+    """`size` rules, each with its own trigger and two hedges. The first `mentioning` rules mention c0."""
 
     def clause(condition: str | None, obligation: str) -> Clause:
         return Clause(None if condition is None else Atom("condition", condition), (Obligation(obligation),))
@@ -132,7 +131,7 @@ def running(size: int, mentioning: int = 1) -> tuple[Sleec, Any]:
 
 
 def by_size(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
-    """One dispatch among 1 to 10,000 rules, beside a bare ContextPy3 call with no layer active."""
+    """One dispatch with 1 to 10,000 rules, compared with a ContextPy3 call without an active layer."""
     calls: dict[str, Callable[[], object]] = {}
     _, bare = running(1)
     calls["ContextPy3 call, no layer active"] = partial(bare.m0, None)
@@ -150,7 +149,7 @@ def by_size(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
 
 
 def against_global_activation(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
-    """1,000 rules with a hedge active: a dispatch, and a call of the same method with all layers globally active."""
+    """A dispatch with 1,000 rules whose hedges are active, compared with a call with all layers globally active."""
     sleec, instance = running(1_000, mentioning=1_000)
     sleec.update({"c0": True})
     with sleec.activate_globally():
@@ -166,7 +165,7 @@ def against_global_activation(rounds: int) -> tuple[dict[str, Timing], list[Boun
 
 
 def changes(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
-    """A change of one condition that 1 to 1,000 of 10,000 rules mention; and that 1 rule mentions, of 1 to 10,000."""
+    """A change of one condition that 1 to 1,000 of 10,000 rules mention, and that 1 rule of 1 to 10,000 mentions."""
     calls: dict[str, Callable[[], object]] = {}
 
     def toggling(sleec: Sleec) -> Callable[[], object]:
@@ -192,7 +191,7 @@ def changes(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
 
 
 def monitored(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
-    """What the monitor adds to a dispatch that executes one obligation."""
+    """The cost of the monitor in a dispatch that executes one obligation."""
     sleec = Sleec(rules(1))
     sleec.implement({name: lambda message: None for name in ("base", "one", "two")})
     watched = Sleec(rules(1))
@@ -209,7 +208,7 @@ def monitored(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
 
 
 def with_times(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
-    """What a window costs: an obligation that is watched, and done at once."""
+    """The cost of a window: an obligation that is watched, and met at once."""
     calls: dict[str, Callable[[], object]] = {}
     for what, window in (("no window in the ruleset", ""), ("done at once in a window", " WITHIN 5 minutes")):
         sleec = Sleec(parse(f"RULE r WHEN A THEN X{window}"), clock=VirtualClock())

@@ -1,9 +1,8 @@
-"""What a check of the paper's eight rules costs as a whole process, beside an empty Python process; and what the cache
-costs at first and saves then.
+"""Compare a check of the paper's eight rules with an empty Python process, and measure the cache.
 
-The bounds are ten times ``python3 -c pass`` without the cache, and 1.1 times that where the cache is filled. All are
-timed in turns and the medians compared, so that a load on the machine meets each. The modules are compiled first, as
-pip does when it installs a package.
+The bounds are ten times ``python3 -c pass`` without the cache, and 1.1 times that while the cache is filled. Runs
+alternate, and the medians count, so that a load on the machine affects all of them. Modules are compiled first, as pip
+does when it installs a package.
 """
 
 from __future__ import annotations
@@ -36,7 +35,7 @@ def seconds(command: list[str], cache: str) -> float:
 
 
 def measure(turns: int = TURNS) -> tuple[float, float, float, float]:
-    """Median seconds of an empty process, of the check, and of one that fills the cache and one that finds it so."""
+    """Median seconds of an empty process, of the check, of a check that fills the cache, and of one that uses it."""
     command = [str(Path(sys.executable).with_name("sleec-verify")), "check", str(RULES)]
     empty, check, first, second = [], [], [], []
     for _ in range(turns):

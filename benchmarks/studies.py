@@ -1,8 +1,8 @@
-"""All checks of our studies, whole processes included, beside empty Python processes; and the published case studies.
+"""Compare all checks of our studies, in whole processes, with empty Python processes; measure the published studies.
 
-The published files are not part of this project: ``python -m benchmarks.studies FOLDER`` is told where they are.
-LEGOS-SLEEC takes about 225 s for five questions on ten of them (two a study), on a machine of two cores, one question
-at a time; a hundredth of that is asked for.
+The published files are not part of this project: give their folder with ``python -m benchmarks.studies FOLDER``.
+LEGOS-SLEEC takes about 225 s for five questions on ten of them (two for each study), on a machine with two cores, one
+question at a time. We must take at most a hundredth of that.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def seconds(*arguments: str) -> float:
 
 
 def total(paths: Iterable[Path]) -> float:
-    """Seconds of a check of each file, by a process of its own. Each is printed."""
+    """The seconds of checks of all files, each in its own process. Prints each of them."""
     spent = 0.0
     for path in paths:
         one = seconds("-m", "sleec_verify", "check", "--no-cache", "--format", "json", str(path))

@@ -1,4 +1,4 @@
-"""Writes a CycloneDX SBOM for each distribution in a folder: what an installation from its lock consists of.
+"""Write a CycloneDX SBOM for each distribution in a folder: the packages that its lock installs.
 
 python release/sbom.py dist
 """
@@ -21,7 +21,7 @@ LOCKS = {"sleec-runtime": "runtime.lock", "sleec-verify": "verify.lock"}
 
 
 def sbom(name: str, lock: Path, dist: Path) -> dict[str, Any]:
-    """The SBOM of an environment that holds the distribution `name` of the folder `dist`, and what `lock` pins."""
+    """The SBOM of an environment with the distribution `name` of the folder `dist` and everything that `lock` pins."""
     with TemporaryDirectory() as folder:
         wheels, environment = Path(folder, "wheels"), Path(folder, "environment")
         _run(

@@ -1,4 +1,4 @@
-"""The site of docs/: what mkdocs asks for while it builds, and the pages that are made and not written.
+"""The site of docs/: hooks for mkdocs, and generated pages.
 
-Nothing but `hooks` knows of mkdocs, so that the tests need none.
+Only `hooks` imports mkdocs, so the tests do not need it.
 """
