@@ -51,15 +51,15 @@ def _parted_by_shape(
     """Where the readings part, asked once for all rules of one shape."""
     shape = shape_at(index, position)
     if shape is None:
-        return _parted(index, position)
+        return where_readings_differ(index, position)
     found = known.get(shape.key)
     if found is None:
-        found = known[shape.key] = shape, _parted(index, position)
+        found = known[shape.key] = shape, where_readings_differ(index, position)
     one, parted = found
     return None if parted is None else parted._replace(witness=shape.renamed(parted.witness, one.names))
 
 
-def _parted(index: RulesetIndex, position: int) -> _Parted | None:
+def where_readings_differ(index: RulesetIndex, position: int) -> _Parted | None:
     situations = _parting(index, position)
     if situations is None:
         return None

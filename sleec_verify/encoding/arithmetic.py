@@ -67,7 +67,7 @@ def values_for(
     )
     try:
         budget = current()
-        found = _answer("\n".join((*sorts, *assumed)), len(formulas), None if budget is None else budget.whole)
+        found = answer("\n".join((*sorts, *assumed)), len(formulas), None if budget is None else budget.whole)
     except ImportError:
         raise _unknown(compared, "what {} can be is for z3, which is not installed (" + INSTALL + ")") from None
     if found is None:
@@ -84,7 +84,7 @@ def _unknown(compared: Iterable[Compared], message: str) -> NotCalculated:
 
 
 @lru_cache(maxsize=10_000)
-def _answer(question: str, assumed: int, asked_for: Budget | None) -> dict[str, Rational] | list[int] | None:
+def answer(question: str, assumed: int, asked_for: Budget | None) -> dict[str, Rational] | list[int] | None:
     """Values of ``m0``, ``m1``, … in a model of a text in SMT-LIB in which so many of ``a0``, ``a1``, … are true; or
     the numbers of some of these that contradict one another; None if z3 does not decide it.
 

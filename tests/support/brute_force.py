@@ -112,13 +112,13 @@ def clash(ruleset: Ruleset, context: Context, literals) -> bool:
     for chosen in product((False, True), repeat=len(names)):
         done = frozenset(name for name, yes in zip(names, chosen) if yes)
         if all((o.name in done) != o.negated for o in literals) and all(
-            _kept(constraint, ruleset, context, done) for constraint in ruleset.constraints
+            is_satisfied(constraint, ruleset, context, done) for constraint in ruleset.constraints
         ):
             return False
     return True
 
 
-def _kept(constraint, ruleset, context, done) -> bool:
+def is_satisfied(constraint, ruleset, context, done) -> bool:
     if isinstance(constraint, Exclusive):
         return sum(name in done for name in set(constraint.names)) <= 1
     if isinstance(constraint, Never):

@@ -133,11 +133,11 @@ def test_what_is_too_hard_is_unknown(monkeypatch):
     pytest.importorskip("z3")
     from sleec_verify.encoding import arithmetic
 
-    arithmetic._answer.cache_clear()
+    arithmetic.answer.cache_clear()
     monkeypatch.setattr(arithmetic, "RESOURCES", 1)
     (calculated,) = calculations_in(guard_of("(({x} * {y}) > 3)"))
     compared = [(calculated, 7, True, -1), (calculated, 8, True, 2)]
     with pytest.raises(NotCalculated, match=r"z3 does not decide what `x \* y` in line 11 can be") as caught:
         arithmetic.values_for({"x": True, "y": True}, [], [], compared)
-    arithmetic._answer.cache_clear()
+    arithmetic.answer.cache_clear()
     assert caught.value.lines == (11,)

@@ -15,10 +15,10 @@ from tests.support.calculations import NEEDS_Z3, TEXT, results
 def no_z3(monkeypatch):
     from sleec_verify.encoding import arithmetic
 
-    arithmetic._answer.cache_clear()
+    arithmetic.answer.cache_clear()
     monkeypatch.setitem(sys.modules, "z3", None)
     yield
-    arithmetic._answer.cache_clear()
+    arithmetic.answer.cache_clear()
 
 
 def test_without_z3_the_answer_is_unknown_and_says_of_what(no_z3):

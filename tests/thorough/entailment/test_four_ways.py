@@ -151,7 +151,7 @@ def test_the_linear_clauses_say_what_the_written_out_formulas_say(ruleset):
                     or all((o.name in done) != o.negated for o in clause.obligations)
                     for rule in ruleset.rules
                     for _, guard, clause in implications(rule, ruleset.reading)
-                ) and all(brute._kept(c, ruleset, context, done) for c in ruleset.constraints)
+                ) and all(brute.is_satisfied(c, ruleset, context, done) for c in ruleset.constraints)
                 assert solver.solve([*fixed, *literals]) == written_out
 
 

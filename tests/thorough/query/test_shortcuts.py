@@ -90,13 +90,13 @@ def test_the_readings_of_rules_of_one_shape_part_as_those_of_each_alone(ruleset)
 
 def test_rules_of_one_shape_are_asked_about_once(monkeypatch: pytest.MonkeyPatch) -> None:
     asked = []
-    parted = reading._parted
+    parted = reading.where_readings_differ
 
     def counted(index: RulesetIndex, position: int):
         asked.append(position)
         return parted(index, position)
 
-    monkeypatch.setattr(reading, "_parted", counted)
+    monkeypatch.setattr(reading, "where_readings_differ", counted)
     rules = "WHEN t{0} THEN o{0} UNLESS a{0} IN WHICH CASE p{0} UNLESS {1}{0} IN WHICH CASE q{0}\n"
     ruleset = parse("".join(rules.format(number, "zZ"[number % 2]) for number in range(1, 9)))
     (result,) = run_checks(ruleset, ["reading"])
