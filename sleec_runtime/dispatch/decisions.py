@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from sleec_runtime.dispatch.snapshot import Cell, Snapshot
+from sleec_runtime.dispatch.snapshot import Snapshot, TriggerOutcomes
 from sleec_runtime.errors import ConflictInContext, UndeterminedDecision, UnknownTrigger
 from sleec_runtime.evaluation.conflicts import find_conflict, missing_for
 from sleec_runtime.evaluation.due import Due
@@ -13,27 +13,28 @@ from sleec_runtime.evaluation.hedge_chain import Decision, Outcome, Undetermined
 from sleec_runtime.model import Obligation, Rule
 
 
-def cell_of(snapshot: Snapshot, trigger: str) -> Cell:
+def trigger_outcomes(snapshot: Snapshot, trigger: str) -> TriggerOutcomes:
     """The outcomes of the rules of `trigger` in this context. Raises UnknownTrigger."""
     try:
-        number = snapshot.program.number_of.get(trigger)
+        number = snapshot.index.number_of.get(trigger)
     except TypeError:  # not hashable
         number = None
     if number is None:
-        raise UnknownTrigger(trigger, snapshot.program.number_of)
-    return snapshot.cell(number)
+        raise UnknownTrigger(trigger, snapshot.index.number_of)
+    return snapshot.of_trigger(number)
 
 
 def outcomes_of(snapshot: Snapshot, triggers: Sequence[str], others: Iterable[str] = ()) -> list[tuple[Rule, Outcome]]:
     """The outcome of each rule of `triggers`, in rule order, if `others` occur too. Raises UnknownTrigger."""
-    program = snapshot.program
+    index = snapshot.index
     occurring = frozenset(triggers).union(others)
     pairs = [
-        (rule, outcome if rule.label not in program.tied else snapshot.outcome(rule, occurring))
+        (rule, outcome if rule.label not in index.trigger_dependent else snapshot.outcome(rule, occurring))
         for trigger in dict.fromkeys(triggers)
-        for rule, outcome in zip(program.cells[program.number_of[trigger]], cell_of(snapshot, trigger).outcomes)
+        for number in [index.number_of[trigger]]
+        for rule, outcome in zip(index.by_trigger[number], snapshot.of_trigger(number).outcomes)
     ]
-    return sorted(pairs, key=lambda pair: program.order[pair[0].label]) if len(triggers) > 1 else pairs
+    return sorted(pairs, key=lambda pair: index.order[pair[0].label]) if len(triggers) > 1 else pairs
 
 
 def decisions_of(snapshot: Snapshot, triggers: Sequence[str], others: Iterable[str] = ()) -> tuple[Decision, ...]:
@@ -42,7 +43,7 @@ def decisions_of(snapshot: Snapshot, triggers: Sequence[str], others: Iterable[s
     O(rules of the triggers). Raises UnknownTrigger, and UndeterminedDecision in strict mode.
     """
     for trigger in triggers:
-        cell_of(snapshot, trigger)
+        trigger_outcomes(snapshot, trigger)
     outcomes = [outcome for _, outcome in outcomes_of(snapshot, triggers, others)]
     missing = [name for outcome in outcomes if isinstance(outcome, Undetermined) for name in outcome.missing]
     if missing:
@@ -68,18 +69,18 @@ def refuse_conflict(
 
     Raises UndeterminedDecision if, in strict mode, this depends on unreported conditions.
     """
-    program = snapshot.program
+    index = snapshot.index
     literals = (*due.literals, *happening)
-    constraints = program.constraints_on(literals)
-    closed = Situation(snapshot.context(triggers), program.measures)
+    constraints = index.constraints_on(literals)
+    closed = Situation(snapshot.context(triggers), index.measures)
     cause = find_conflict(literals, constraints, closed)
     if cause is not None:
         # Imported here because it prints formulas, which few dispatches need.
         from sleec_runtime.evaluation.explanation import conflict_in_words
 
         raise ConflictInContext(conflict_in_words(cause, due.decisions), cause)
-    if program.strict:
-        open_world = Situation(closed.context, program.measures, absent=None)
+    if index.strict:
+        open_world = Situation(closed.context, index.measures, absent=None)
         possible = find_conflict(literals, constraints, open_world)
         if possible is not None:
             raise UndeterminedDecision(triggers, missing_for(possible.constraints, open_world))

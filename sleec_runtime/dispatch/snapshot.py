@@ -1,11 +1,11 @@
-"""One whole context, and what every rule says in it. A change makes a new one; who holds the old one keeps it."""
+"""Snapshots: a context with the outcomes of all rules. A change makes a new snapshot and leaves the old one."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from sleec_runtime.dispatch.plan import Plan
-from sleec_runtime.dispatch.program import Program
+from sleec_runtime.dispatch.rule_index import RuleIndex
 from sleec_runtime.evaluation.formula_truth import Situation
 from sleec_runtime.evaluation.hedge_chain import Outcome, walk
 from sleec_runtime.model import Context, Rule, Value
@@ -13,7 +13,7 @@ from sleec_runtime.support.chunked_sequence import Chunks
 
 
 class Conditions(Mapping[str, Value]):
-    """What is known in one context: conditions and measures by name. Immutable."""
+    """The reported conditions and measures of a context, by name. Immutable."""
 
     __slots__ = ("_numbers", "_values")
 
@@ -42,8 +42,8 @@ class Conditions(Mapping[str, Value]):
         return f"Conditions({dict(self)})"
 
 
-class Cell:
-    """What the rules of one trigger say in one context, and the plan made of it when it was first asked for."""
+class TriggerOutcomes:
+    """The outcomes of the rules of one trigger in one context, and its plan once it is made."""
 
     __slots__ = ("outcomes", "plan")
 
@@ -53,88 +53,93 @@ class Cell:
 
 
 class Snapshot:
-    """A context χ without triggers, with the outcome of every rule for the case that its trigger occurs.
+    """A context χ without triggers, with the outcome of each rule if its trigger occurs.
 
-    `number` counts the changes. `mark` is another object whenever something changed that a `NEVER` mentions: a plan
-    checked under one mark is good under it. `rows` are the rows of the cells, for dispatch.
+    `number` counts the changes. `mark` is a new object if a change concerns a name in a `NEVER`: a plan is valid as
+    long as the mark is the same. `rows` are the rows of `TriggerOutcomes`, for fast dispatch.
     """
 
-    __slots__ = ("_cells", "_values", "mark", "number", "program", "rows")
+    __slots__ = ("_outcomes", "_values", "index", "mark", "number", "rows")
 
     def __init__(
-        self, program: Program, values: Chunks[Value | None], cells: Chunks[Cell], mark: object, number: int
+        self,
+        index: RuleIndex,
+        values: Chunks[Value | None],
+        outcomes: Chunks[TriggerOutcomes],
+        mark: object,
+        number: int,
     ) -> None:
-        self.program = program
+        self.index = index
         self._values = values
-        self._cells = cells
-        self.rows = cells.rows
+        self._outcomes = outcomes
+        self.rows = outcomes.rows
         self.mark = mark
         self.number = number
 
     @classmethod
-    def first(cls, program: Program, known: Mapping[str, object], number: int = 0) -> Snapshot:
-        """The context in which only `known` is reported. O(size of the rules). Raises as `Program.checked` does."""
-        initial: Chunks[Value | None] = Chunks.of([None] * len(program.numbers))
-        values = initial.replaced(program.checked(known))
-        reading = program.ruleset.reading
-        cells = []
-        for trigger, rules in zip(program.number_of, program.cells):
-            situation = _situation(program, values, (trigger,))
-            cells.append(Cell(tuple(walk(rule, situation, reading) for rule in rules)))
-        return cls(program, values, Chunks.of(cells), object(), number)
+    def first(cls, index: RuleIndex, known: Mapping[str, object], number: int = 0) -> Snapshot:
+        """The snapshot in which only `known` is reported. O(size of the rules). Raises as `RuleIndex.checked`."""
+        initial: Chunks[Value | None] = Chunks.of([None] * len(index.numbers))
+        values = initial.replaced(index.checked(known))
+        reading = index.ruleset.reading
+        by_trigger = []
+        for trigger, rules in zip(index.number_of, index.by_trigger):
+            situation = _situation(index, values, (trigger,))
+            by_trigger.append(TriggerOutcomes(tuple(walk(rule, situation, reading) for rule in rules)))
+        return cls(index, values, Chunks.of(by_trigger), object(), number)
 
     @property
     def conditions(self) -> Conditions:
-        return Conditions(self.program.numbers, self._values)
+        return Conditions(self.index.numbers, self._values)
 
     def context(self, triggers: Iterable[str] = ()) -> Context:
         """This context, with `triggers` occurring in it."""
         return Context(frozenset(triggers), self.conditions)
 
-    def cell(self, number: int) -> Cell:
-        return self._cells[number]
+    def of_trigger(self, number: int) -> TriggerOutcomes:
+        """The outcomes of the trigger with this number in the index."""
+        return self._outcomes[number]
 
     def outcome(self, rule: Rule, triggers: Collection[str] = ()) -> Outcome:
-        """What a rule of the program says here if its trigger occurs, alone or together with other `triggers`."""
-        program = self.program
-        if len(triggers) > 1 and rule.label in program.tied:
-            return walk(rule, _situation(program, self._values, triggers), program.ruleset.reading)
-        cell, position = program.place_of[rule.label]
-        return self._cells[cell].outcomes[position]
+        """The outcome of a rule if its trigger occurs, alone or together with other `triggers`."""
+        index = self.index
+        if len(triggers) > 1 and rule.label in index.trigger_dependent:
+            return walk(rule, _situation(index, self._values, triggers), index.ruleset.reading)
+        number, position = index.place_of[rule.label]
+        return self._outcomes[number].outcomes[position]
 
     def changed(self, changes: Mapping[str, object]) -> tuple[Snapshot, tuple[Rule, ...]]:
-        """The context after `changes`, and the rules that were decided anew.
+        """The snapshot after `changes`, and the rules whose outcomes were computed again.
 
-        O(changes + the size of the rules that mention a changed name). Raises as `Program.checked` does; nothing is
-        changed then, nor is this snapshot ever.
+        O(changes + size of the rules that mention a changed name). Raises as `RuleIndex.checked`.
         """
-        program = self.program
-        checked = program.checked(changes)
+        index = self.index
+        checked = index.checked(changes)
         values = {number: value for number, value in checked.items() if self._values[number] != value}
         if not values:
             return self, ()
         after = self._values.replaced(values)
-        names = [name for name in changes if program.numbers[name] in values]
-        concerned = dict.fromkeys(place for name in names for place in program.mentions.get(name, ()))
-        outcomes: dict[int, list[Outcome]] = {}
-        for cell, position in concerned:
-            if cell not in outcomes:
-                outcomes[cell] = list(self._cells[cell].outcomes)
-            rule = program.cells[cell][position]
-            outcomes[cell][position] = walk(rule, _situation(program, after, (rule.trigger,)), program.ruleset.reading)
-        cells = self._cells.replaced({cell: Cell(tuple(of_cell)) for cell, of_cell in outcomes.items()})
-        mark = self.mark if program.situational.isdisjoint(names) else object()
-        rules = tuple(program.cells[cell][position] for cell, position in concerned)
-        return Snapshot(program, after, cells, mark, self.number + 1), rules
+        names = [name for name in changes if index.numbers[name] in values]
+        concerned = dict.fromkeys(place for name in names for place in index.mentions.get(name, ()))
+        changed: dict[int, list[Outcome]] = {}
+        for number, position in concerned:
+            if number not in changed:
+                changed[number] = list(self._outcomes[number].outcomes)
+            rule = index.by_trigger[number][position]
+            changed[number][position] = walk(rule, _situation(index, after, (rule.trigger,)), index.ruleset.reading)
+        outcomes = self._outcomes.replaced({n: TriggerOutcomes(tuple(found)) for n, found in changed.items()})
+        mark = self.mark if index.situational.isdisjoint(names) else object()
+        rules = tuple(index.by_trigger[number][position] for number, position in concerned)
+        return Snapshot(index, after, outcomes, mark, self.number + 1), rules
 
     def without_plans(self, triggers: Iterable[str]) -> Snapshot:
-        """The same context, with the plans of `triggers` to be made anew: something else is bound to their rules."""
-        numbers = [self.program.number_of[trigger] for trigger in triggers if trigger in self.program.number_of]
-        cells = self._cells.replaced({number: Cell(self._cells[number].outcomes) for number in numbers})
-        return Snapshot(self.program, self._values, cells, self.mark, self.number)
+        """The same context without the plans of `triggers`, because the code of their rules changed."""
+        numbers = [self.index.number_of[trigger] for trigger in triggers if trigger in self.index.number_of]
+        outcomes = self._outcomes.replaced({n: TriggerOutcomes(self._outcomes[n].outcomes) for n in numbers})
+        return Snapshot(self.index, self._values, outcomes, self.mark, self.number)
 
 
-def _situation(program: Program, values: Chunks[Value | None], triggers: Iterable[str]) -> Situation:
-    """What rules are decided in if `triggers` occur."""
-    context = Context(frozenset(triggers), Conditions(program.numbers, values))
-    return Situation(context, program.measures, None if program.strict else False)
+def _situation(index: RuleIndex, values: Chunks[Value | None], triggers: Iterable[str]) -> Situation:
+    """The situation if `triggers` occur."""
+    context = Context(frozenset(triggers), Conditions(index.numbers, values))
+    return Situation(context, index.measures, None if index.strict else False)

@@ -76,11 +76,11 @@ class ImmediateDispatcher:
         if len(names) != 1:
             return plan(snapshot, names, self._state()[1])
         try:
-            place = snapshot.program.places.get(names[0])
+            place = snapshot.index.places.get(names[0])
         except TypeError:  # not hashable
             place = None
         if place is None:
-            raise UnknownTrigger(names[0], snapshot.program.places)
+            raise UnknownTrigger(names[0], snapshot.index.places)
         outcomes = snapshot.rows[place[0]][place[1]]
         known = outcomes.plan
         if known is None or known.mark is not snapshot.mark:
@@ -119,7 +119,7 @@ class ImmediateDispatcher:
         return due_in(snapshot, names)
 
     def completed(self, obligation: str) -> tuple[Pending, ...]:
-        known = self._state()[0].program.whole.obligations
+        known = self._state()[0].index.whole.obligations
         if obligation not in known:
             raise UnknownObligation(obligation, known)
         return ()
@@ -133,13 +133,13 @@ class ImmediateDispatcher:
     def pending_snapshot(self, saved_at: Time) -> dict[str, Any]:
         from sleec_runtime.timed.checkpoint import checkpoint
 
-        return checkpoint((), self._state()[0].program, False, 0, saved_at)
+        return checkpoint((), self._state()[0].index, False, 0, saved_at)
 
     def restore(self, data: Mapping[str, Any], world: Time) -> tuple[Pending, ...]:
         from sleec_runtime.timed.recovery import Heir, recover
 
         snapshot, instance = self._state()
-        recover(data, Heir(snapshot.program, instance, False, 0, world))
+        recover(data, Heir(snapshot.index, instance, False, 0, world))
         return ()
 
     def tick(self) -> None:

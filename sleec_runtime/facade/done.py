@@ -85,13 +85,13 @@ class Done:
         text."""
         from sleec_runtime.evaluation.explanation import outcome_in_words
 
-        program = self._snapshot.program
+        index = self._snapshot.index
         lines = [f"{' and '.join(self.triggers)}, in the context of change {self.change}:"]
         for rule, outcome in outcomes_of(self._snapshot, self.triggers):
             assert not isinstance(outcome, Undetermined), "refused before anything ran"
             lines.append(outcome_in_words(rule, outcome, self.context))
         if len(lines) == 1:
-            where = "" if program.domain is None else f" in the domain {program.domain}"
+            where = "" if index.domain is None else f" in the domain {index.domain}"
             lines.append(f"no rule has this trigger{where}")
         return "\n".join([*lines, *map(str, self.due)])
 

@@ -77,9 +77,9 @@ class GlobalActivation:
         if self._sleec.activated_globally:
             raise SleecError("global activation is on already", "stop() it first")
         self._sleec.allow_calls()
-        for trigger in snapshot.program.number_of:
+        for trigger in snapshot.index.number_of:
             due_in(snapshot, (trigger,))
-        layers = self._due_layers(snapshot, snapshot.program.ruleset.rules)
+        layers = self._due_layers(snapshot, snapshot.index.ruleset.rules)
         self._refuse_active(layers)
         self._renew(layers)
         self._end = self._sleec.listen(self._changed, self._refuse)
@@ -106,7 +106,7 @@ class GlobalActivation:
         _refuse_times(after)
         # What a NEVER says of the context may be at odds with rules that do not mention what changed.
         everything = before.mark is not after.mark
-        for trigger in after.program.number_of if everything else dict.fromkeys(rule.trigger for rule in rules):
+        for trigger in after.index.number_of if everything else dict.fromkeys(rule.trigger for rule in rules):
             due_in(after, (trigger,))
         self._refuse_active(self._due_layers(after, rules))
 
@@ -117,7 +117,7 @@ class GlobalActivation:
 
     def _changed(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         layers = self._due_layers(after, rules)
-        if before.program is not after.program:
+        if before.index is not after.index:
             layers = {**dict.fromkeys(self._active), **layers}
         _GLOBAL_LAYERS.run(partial(self._renew, layers))
 
@@ -149,4 +149,4 @@ class GlobalActivation:
 
 
 def _refuse_times(snapshot: Snapshot) -> None:
-    require_untimed(snapshot.program.ruleset, "global activation, where nothing is watched,")
+    require_untimed(snapshot.index.ruleset, "global activation, where nothing is watched,")

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from sleec_runtime.concurrency.critical_section import CriticalSection, exclusive
-from sleec_runtime.dispatch.decisions import cell_of
+from sleec_runtime.dispatch.decisions import trigger_outcomes
 from sleec_runtime.dispatch.instance import Instance
 from sleec_runtime.dispatch.layers import Layers
-from sleec_runtime.dispatch.program import Program
 from sleec_runtime.dispatch.required_code import missing
+from sleec_runtime.dispatch.rule_index import RuleIndex
 from sleec_runtime.dispatch.snapshot import Conditions, Snapshot
 from sleec_runtime.errors import NotBound, SleecError, UnknownObligation
 from sleec_runtime.evaluation.due import Due, broken_assumptions
@@ -72,7 +72,7 @@ class Sleec:
         whole = arguments.ruleset(ruleset, reading)
         required = {"require_proved": require_proved, "require_tied": require_tied}
         arguments.check_choices(strict=strict, chains=chains, strict_times=strict_times, **required)
-        program = Program(whole, domain, strict)
+        index = RuleIndex(whole, domain, strict)
         self._demand = arguments.demand(certificate, chains, key, **required)
         if self._demand is not None:
             self._demand.check(whole, domain)
@@ -87,21 +87,21 @@ class Sleec:
         self._listeners: list[Listener] = []
         self._objections: list[Listener] = []
         self._monitor: Monitor | None = None
-        self._snapshot = Snapshot.first(program, {})
+        self._snapshot = Snapshot.first(index, {})
         self._instance = Instance(whole)
-        self._dispatcher = self._dispatcher_for(program, ImmediateDispatcher(self._state))
+        self._dispatcher = self._dispatcher_for(index, ImmediateDispatcher(self._state))
 
     # State --------------------------------------------------------------------------------------
 
     @property
     def ruleset(self) -> Ruleset:
         """The rules in force: those of the domain, with their reading."""
-        return self._snapshot.program.ruleset
+        return self._snapshot.index.ruleset
 
     @property
     def domain(self) -> str | None:
         """The domain of the rules in force; None for all domains."""
-        return self._snapshot.program.domain
+        return self._snapshot.index.domain
 
     @property
     def layers(self) -> Layers:
@@ -116,7 +116,7 @@ class Sleec:
     @property
     def vocabulary(self) -> Mapping[str, Measure | None]:
         """The names that `update` accepts: conditions, with None, and measures, with their declarations."""
-        return self._snapshot.program.vocabulary
+        return self._snapshot.index.vocabulary
 
     # Code for the rules ---------------------------------------------------------------------------------
 
@@ -134,7 +134,7 @@ class Sleec:
         """
         with self._instance.kept_on_failure():
             labels = self._instance.bind(targets, self.ruleset.rules if self.activated_globally else ())
-            self._watch_bound(self._instance, self._snapshot.program)
+            self._watch_bound(self._instance, self._snapshot.index)
             self._plan_anew(labels)
 
     @exclusive
@@ -153,7 +153,7 @@ class Sleec:
         Raises UnknownObligation, and Unbindable for a value that is not callable or a target that implements nothing.
         """
         with self._instance.kept_on_failure():
-            self._instance.implement(target, self._snapshot.program.whole.obligations)
+            self._instance.implement(target, self._snapshot.index.whole.obligations)
             self._plan_anew(rule.label for rule in self.ruleset.rules)
 
     def missing(self) -> Mapping[str, NotBound]:
@@ -185,8 +185,8 @@ class Sleec:
         """
         snapshot = self._snapshot
         for trigger in triggers:
-            cell_of(snapshot, trigger)
-        return broken_assumptions(snapshot.program.ruleset, snapshot.context(triggers))
+            trigger_outcomes(snapshot, trigger)
+        return broken_assumptions(snapshot.index.ruleset, snapshot.context(triggers))
 
     # Triggers -------------------------------------------------------------------------------------------
 
@@ -233,7 +233,7 @@ class Sleec:
         Raises UnknownObligation; Prohibited if a rule forbids it now, although it is done; and as `trigger`.
         """
         if not isinstance(obligation, str):
-            raise UnknownObligation(obligation, self._snapshot.program.whole.obligations)
+            raise UnknownObligation(obligation, self._snapshot.index.whole.obligations)
         return self._dispatcher.completed(obligation)
 
     def pending(self) -> tuple[Pending, ...]:
@@ -324,14 +324,14 @@ class Sleec:
         instance.bind(bind)
         if implement is not None:
             instance.implement(implement, whole.obligations)
-        self._install(Program(whole, self.domain, self._strict), instance, demand)
+        self._install(RuleIndex(whole, self.domain, self._strict), instance, demand)
 
     @exclusive
     def enter_domain(self, domain: str | None) -> None:
         """Puts the rules of another domain in force, as `replace` does. Raises UnknownDomain, and CertificateRefused if
         the certificate does not cover the domain."""
-        program = Program(self._snapshot.program.whole, domain, self._strict)
-        self._install(program, self._instance, self._demand)
+        index = RuleIndex(self._snapshot.index.whole, domain, self._strict)
+        self._install(index, self._instance, self._demand)
 
     def activate_globally(self) -> GlobalActivation:
         """Starts the mode of the paper (Section 4): the layers of the active clauses are globally active, so that
@@ -386,15 +386,15 @@ class Sleec:
         """The objects whose methods are bound to rules."""
         return self._instance.objects()
 
-    def _dispatcher_for(self, program: Program, current: Dispatcher) -> Dispatcher:
-        """The dispatcher for `program`: the `current` one, or a timed one from the first rules with times on. Raises
+    def _dispatcher_for(self, index: RuleIndex, current: Dispatcher) -> Dispatcher:
+        """The dispatcher for `index`: the `current` one, or a timed one from the first rules with times on. Raises
         UnsupportedTimes."""
-        if not program.ruleset.is_timed and not self._chains:
+        if not index.ruleset.is_timed and not self._chains:
             return current
         from sleec_runtime.timed.unenforced_constructs import has_times, name_limits
 
-        name_limits(program.ruleset, self._chains, self._strict_times)
-        if not isinstance(current, ImmediateDispatcher) or not (self._chains or has_times(program.ruleset)):
+        name_limits(index.ruleset, self._chains, self._strict_times)
+        if not isinstance(current, ImmediateDispatcher) or not (self._chains or has_times(index.ruleset)):
             return current
         from sleec_runtime.facade.timed_dispatcher import TimedDispatcher
 
@@ -408,13 +408,13 @@ class Sleec:
         triggers = dict.fromkeys(by_label[label].trigger for label in labels if label in by_label)
         self._snapshot = self._snapshot.without_plans(triggers)
 
-    def _install(self, program: Program, instance: Instance, demand: Demand | None) -> None:
+    def _install(self, index: RuleIndex, instance: Instance, demand: Demand | None) -> None:
         if demand is not None:
-            demand.check(program.whole, program.domain)
+            demand.check(index.whole, index.domain)
         before = self._snapshot
-        were_missing = missing(before.program.ruleset.rules, self._instance)
+        were_missing = missing(before.index.ruleset.rules, self._instance)
         problems = [
-            problem for label, problem in missing(program.ruleset.rules, instance).items() if label not in were_missing
+            problem for label, problem in missing(index.ruleset.rules, instance).items() if label not in were_missing
         ]
         if problems:
             labels = [label for problem in problems for label in problem.rules]
@@ -423,21 +423,21 @@ class Sleec:
                 labels,
                 "bring the code with replace(…, bind=…, implement=…)",
             )
-        known = {name: value for name, value in before.conditions.items() if name in program.vocabulary}
-        after = Snapshot.first(program, known, before.number + 1)
+        known = {name: value for name, value in before.conditions.items() if name in index.vocabulary}
+        after = Snapshot.first(index, known, before.number + 1)
         if self.activated_globally:
-            instance.allow_calls(program.ruleset.rules)
-        self._object(before, after, program.ruleset.rules)
-        self._watch_bound(instance, program)
-        dispatcher = self._dispatcher_for(program, self._dispatcher)
+            instance.allow_calls(index.ruleset.rules)
+        self._object(before, after, index.ruleset.rules)
+        self._watch_bound(instance, index)
+        dispatcher = self._dispatcher_for(index, self._dispatcher)
         # In one step, so that a signal handler sees all of it or nothing. A dispatch reads `_snapshot` before
         # `_dispatcher`, so that an immediate dispatcher never gets rules with times.
         vars(self).update(_snapshot=after, _instance=instance, _demand=demand, _dispatcher=dispatcher)
-        self._tell(before, after, program.ruleset.rules)
+        self._tell(before, after, index.ruleset.rules)
 
-    def _watch_bound(self, instance: Instance, program: Program) -> None:
+    def _watch_bound(self, instance: Instance, index: RuleIndex) -> None:
         if self._monitor is not None:
-            self._monitor.watch(instance.objects(), program.whole.obligations)
+            self._monitor.watch(instance.objects(), index.whole.obligations)
 
     def _object(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         for objection in self._objections:

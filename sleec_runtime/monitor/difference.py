@@ -88,14 +88,14 @@ def _decided(
 ) -> Iterator[Decision]:
     """The decisions of the rules of `triggers` if `others` occur too, in rule order, without what is due later or is
     `fulfilled`."""
-    program = snapshot.program
+    index = snapshot.index
     context = snapshot.context((*triggers, *others))
     rules = sorted(
-        (rule for trigger in triggers for rule in program.cells[program.number_of[trigger]]),
-        key=lambda rule: program.order[rule.label],
+        (rule for trigger in triggers for rule in index.by_trigger[index.number_of[trigger]]),
+        key=lambda rule: index.order[rule.label],
     )
     for rule in rules:
-        decision = decide(rule, context, program.ruleset.reading, program.measures)
+        decision = decide(rule, context, index.ruleset.reading, index.measures)
         if decision is not None:
             at_once = tuple(o for o in decision.obligations if _counts_at_once(o, snapshot.conditions))
             own = [(rule.label, o) for o in at_once]

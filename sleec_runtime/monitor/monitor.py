@@ -69,7 +69,7 @@ class Monitor:
         with ExitStack() as undo:
             self._sleec.attach(self)
             undo.callback(self._sleec.detach, self)
-            self._watch_with(undo, (*self._sleec.bound_objects(), *self._watch), snapshot.program.whole.obligations)
+            self._watch_with(undo, (*self._sleec.bound_objects(), *self._watch), snapshot.index.whole.obligations)
             self._on = undo.pop_all()
 
     def watch(self, robots: Iterable[object], obligations: Iterable[str]) -> None:

@@ -105,7 +105,7 @@ def opening_stage(unit: Unit, snapshot: Snapshot) -> Stage:
 
 def _own(origin: Origin, snapshot: Snapshot) -> Snapshot:
     """The current context; if other rules are in force now, that of the trigger."""
-    return snapshot if snapshot.program is origin.snapshot.program else origin.snapshot
+    return snapshot if snapshot.index is origin.snapshot.index else origin.snapshot
 
 
 def with_chains(first: Stage, moment: Moment) -> list[Stage]:
@@ -114,7 +114,7 @@ def with_chains(first: Stage, moment: Moment) -> list[Stage]:
     O(rules of all these events). Raises as `triggered_stage`.
     """
     stages = [first]
-    triggers, begun_only = moment.snapshot.program.number_of, moment.instance.takes_time
+    triggers, begun_only = moment.snapshot.index.number_of, moment.instance.takes_time
     seen = set(first.triggers)
     for stage in stages:
         for task in stage.starting(moment.now):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from sleec_runtime.dispatch.program import Program
+from sleec_runtime.dispatch.rule_index import RuleIndex
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import SnapshotRefused, WrongType
 from sleec_runtime.timed.clock import Time
@@ -16,9 +16,9 @@ FORMAT = 1
 """The version of the format. Other versions are refused."""
 
 
-def identity(program: Program, chains: bool) -> dict[str, object]:
+def identity(index: RuleIndex, chains: bool) -> dict[str, object]:
     """The rules in force, and how they are used. Raises SnapshotRefused for rules without a text."""
-    source = program.whole.source
+    source = index.whole.source
     if not source.text:
         raise SnapshotRefused("the rules were not read from a text, so no other process can tell them", "parse() them")
     sha256 = source.sha256
@@ -26,15 +26,15 @@ def identity(program: Program, chains: bool) -> dict[str, object]:
         import hashlib
 
         sha256 = hashlib.sha256(source.text.encode("utf-8", "surrogatepass")).hexdigest()
-    return {"sha256": sha256, "reading": program.whole.reading, "domain": program.domain, "chains": chains}
+    return {"sha256": sha256, "reading": index.whole.reading, "domain": index.domain, "chains": chains}
 
 
-def checkpoint(tasks: Iterable[Task], program: Program, chains: bool, now: Time, saved_at: Time) -> dict[str, Any]:
+def checkpoint(tasks: Iterable[Task], index: RuleIndex, chains: bool, now: Time, saved_at: Time) -> dict[str, Any]:
     """The open ones of `tasks`, at the time `now` of the clock and `saved_at` of the world, in seconds. O(pending).
 
     Raises WrongType for an argument that is not plain data and that code may still get; SnapshotRefused as `identity`.
     """
-    whole = identity(program, chains)
+    whole = identity(index, chains)
     contexts: dict[int, tuple[int, Snapshot]] = {}
     decisions: dict[int, tuple[int, dict[str, Any]]] = {}
     pending = []
@@ -43,7 +43,7 @@ def checkpoint(tasks: Iterable[Task], program: Program, chains: bool, now: Time,
         if not task.is_open or task.conditional:
             continue
         origin = task.origin
-        if not _is_of(origin.snapshot.program, program):
+        if not _is_of(origin.snapshot.index, index):
             left_out.append({"rule": origin.rule.label, "obligation": str(task.literal)})
             continue
         context, _ = contexts.setdefault(id(origin.snapshot), (len(contexts), origin.snapshot))
@@ -71,9 +71,9 @@ def checkpoint(tasks: Iterable[Task], program: Program, chains: bool, now: Time,
     }
 
 
-def _is_of(own: Program, program: Program) -> bool:
-    """Whether both programs are of one ruleset, perhaps in different domains."""
-    one, other = own.whole, program.whole
+def _is_of(own: RuleIndex, index: RuleIndex) -> bool:
+    """Whether both indices are of one ruleset, perhaps in different domains."""
+    one, other = own.whole, index.whole
     return one is other or (one.source.text, one.reading) == (other.source.text, other.reading)
 
 
@@ -82,11 +82,11 @@ def _context(snapshot: Snapshot) -> dict[str, Any]:
         name: value if isinstance(value, (bool, str)) else number_to_plain(value)
         for name, value in snapshot.conditions.items()
     }
-    return {"domain": snapshot.program.domain, "conditions": conditions}
+    return {"domain": snapshot.index.domain, "conditions": conditions}
 
 
 def _decision(origin: Origin, context: int, now: Time) -> dict[str, Any]:
-    tied = origin.rule.label in origin.snapshot.program.tied
+    tied = origin.rule.label in origin.snapshot.index.trigger_dependent
     return {
         "rule": origin.rule.label,
         "clause": origin.decision.clause,

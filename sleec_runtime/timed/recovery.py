@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
 from sleec_runtime.dispatch.instance import Instance
-from sleec_runtime.dispatch.program import Program
+from sleec_runtime.dispatch.rule_index import RuleIndex
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import SleecError, SnapshotRefused
 from sleec_runtime.evaluation.hedge_chain import Decision
@@ -29,7 +29,7 @@ class Heir:
     """The instance that goes on with what is pending: its rules and code, and what time it is, on its `clock` and in
     the `world`."""
 
-    program: Program
+    index: RuleIndex
     instance: Instance
     chains: bool
     clock: Time
@@ -72,7 +72,7 @@ def recover(data: object, heir: Heir) -> Recovered:
 
 
 def _refuse_other_rules(data: object, heir: Heir) -> None:
-    own = identity(heir.program, heir.chains)
+    own = identity(heir.index, heir.chains)
     theirs = _record(data, "ruleset", *own)
     for name, value in own.items():
         if type(theirs[name]) is not type(value) or theirs[name] != value:
@@ -98,16 +98,16 @@ def _context(data: object, where: str, heir: Heir) -> Snapshot:
     if type(conditions) is not dict:
         _refuse(f"{where}.conditions", conditions, "a dict")
     try:
-        program = heir.program
-        if domain != program.domain:
-            program = Program(program.whole, domain, program.strict)
-        return Snapshot.first(program, {name: _value(name, value, program) for name, value in conditions.items()})
+        index = heir.index
+        if domain != index.domain:
+            index = RuleIndex(index.whole, domain, index.strict)
+        return Snapshot.first(index, {name: _value(name, value, index) for name, value in conditions.items()})
     except SleecError as error:
         raise SnapshotRefused(f"the snapshot is malformed at {where}: {error.message}", error.hint) from None
 
 
-def _value(name: str, data: object, program: Program) -> object:
-    measure = program.vocabulary.get(name)
+def _value(name: str, data: object, index: RuleIndex) -> object:
+    measure = index.vocabulary.get(name)
     value = data if measure is None or measure.kind == "scale" else number_from_plain(data)
     return _refuse(name, data, "a value") if value is None else value
 
@@ -155,8 +155,8 @@ def _dispatch(data: object, where: str, contexts: Sequence[Snapshot], then: Time
     if triggered > 0:
         _refuse(f"{where}.triggered", triggered, "a number up to 0")
     label = decision["rule"]
-    rule = snapshot.program.ruleset.by_label.get(label) if type(label) is str else None
-    triggers = _triggers(decision.get("triggers", []), f"{where}.triggers", snapshot.program)
+    rule = snapshot.index.ruleset.by_label.get(label) if type(label) is str else None
+    triggers = _triggers(decision.get("triggers", []), f"{where}.triggers", snapshot.index)
     outcome = None
     if rule is not None:
         triggers |= {rule.trigger}
@@ -174,8 +174,8 @@ def _dispatch(data: object, where: str, contexts: Sequence[Snapshot], then: Time
     return _Dispatch(origin, roots, None if decision["arguments"] is None else units_of(origin, roots))
 
 
-def _triggers(data: object, where: str, program: Program) -> frozenset[str]:
-    if type(data) is not list or not all(type(name) is str and name in program.number_of for name in data):
+def _triggers(data: object, where: str, index: RuleIndex) -> frozenset[str]:
+    if type(data) is not list or not all(type(name) is str and name in index.number_of for name in data):
         _refuse(where, data, "a list of triggers")
     return frozenset(data)
 

@@ -37,7 +37,7 @@ def refuse(
     )
     happening = tuple(Obligation(name) for name in events)
     decided = [stage.decided_for(now, starting) for stage in stages]
-    for stage in {id(stage.snapshot.program): stage for stage in reversed(stages)}.values():
+    for stage in {id(stage.snapshot.index): stage for stage in reversed(stages)}.values():
         due = Due((*(d for decisions in decided for d in decisions), *in_force))
         refuse_conflict(stage.snapshot, stages[0].triggers, due, happening)
 

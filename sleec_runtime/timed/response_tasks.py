@@ -57,9 +57,9 @@ def _task(obligation: Obligation, due: Time, origin: Origin, path: Path) -> Task
 
 def _active(clause: Clause, origin: Origin) -> tuple[Obligation, ...]:
     """The obligations of the active clause of an alternative, decided as the chain of a rule."""
-    program = origin.snapshot.program
-    situation = Situation(origin.snapshot.context(origin.triggers), program.measures, None if program.strict else False)
-    outcome = walk(Rule("", "", None, clause, ()), situation, program.ruleset.reading)
+    index = origin.snapshot.index
+    situation = Situation(origin.snapshot.context(origin.triggers), index.measures, None if index.strict else False)
+    outcome = walk(Rule("", "", None, clause, ()), situation, index.ruleset.reading)
     if isinstance(outcome, Undetermined):
         raise UndeterminedDecision((origin.rule.trigger,), outcome.missing)
     assert outcome is not None, "a rule without a guard always decides"

@@ -12,8 +12,8 @@ from typing import Any
 
 from sleec_runtime.dispatch.execution import one_of
 from sleec_runtime.dispatch.instance import Instance
-from sleec_runtime.dispatch.program import Program
 from sleec_runtime.dispatch.recording import recording
+from sleec_runtime.dispatch.rule_index import RuleIndex
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import SleecError, SnapshotRefused, UnknownObligation
 from sleec_runtime.evaluation.due import Due
@@ -92,7 +92,7 @@ class Scheduler:
 
     def chained_events(self, snapshot: Snapshot) -> Collection[str]:
         """The obligations that trigger rules when their callables return."""
-        return snapshot.program.number_of.keys() - self._state()[1].takes_time if self._chains else ()
+        return snapshot.index.number_of.keys() - self._state()[1].takes_time if self._chains else ()
 
     def due(self, names: tuple[str, ...]) -> Due:
         """`Sleec.due`: the decisions. Raises if they are refused now."""
@@ -109,10 +109,10 @@ class Scheduler:
         if task is not None and task.literal.negated:
             raise SleecError(f"{name} is forbidden here, so that it cannot be completed", "complete what is to be done")
         snapshot, _ = self._state()
-        program = snapshot.program
-        discharged, broken, waiting, now = self._ledger.change(partial(self._discharge, name, task, program))
+        index = snapshot.index
+        discharged, broken, waiting, now = self._ledger.change(partial(self._discharge, name, task, index))
         origin = next(iter(discharged or waiting), task)
-        if self._chains and name in program.number_of:
+        if self._chains and name in index.number_of:
             args, kwargs = _NO_ARGUMENTS if origin is None else (origin.origin.args, origin.origin.kwargs)
             # A prohibition does not undo it, so the rules that it triggers apply.
             run, _ = self.decide((name,), args, kwargs, settled=True)
@@ -124,11 +124,11 @@ class Scheduler:
         return self.view_all(discharged)
 
     def _discharge(
-        self, name: str, task: Task | None, program: Program
+        self, name: str, task: Task | None, index: RuleIndex
     ) -> tuple[list[Task], list[Task], tuple[Task, ...], Time]:
         waiting = self._ledger.agenda.to_do(name)
-        if task is None and not waiting and name not in program.whole.obligations:
-            raise UnknownObligation(name, program.whole.obligations)
+        if task is None and not waiting and name not in index.whole.obligations:
+            raise UnknownObligation(name, index.whole.obligations)
         discharged, broken = self._ledger.note(name)
         return discharged, broken, waiting, self.clock.now()
 
@@ -162,7 +162,7 @@ class Scheduler:
         from sleec_runtime.timed.checkpoint import checkpoint
 
         snapshot, _ = self._state()
-        return checkpoint(self._ledger.agenda, snapshot.program, self._chains, self.clock.now(), saved_at)
+        return checkpoint(self._ledger.agenda, snapshot.index, self._chains, self.clock.now(), saved_at)
 
     def restore(self, data: object, world: Time) -> tuple[Pending, ...]:
         """`Sleec.restore`."""
@@ -179,7 +179,7 @@ class Scheduler:
             raise SnapshotRefused("a snapshot is restored once, and before the first trigger", "load the rules anew")
         snapshot, instance = self._state()
         now = self.clock.now()
-        recovered = recover(data, Heir(snapshot.program, instance, self._chains, now, world))
+        recovered = recover(data, Heir(snapshot.index, instance, self._chains, now, world))
         self._ledger.set(self, "_restored", True)
         for task in recovered.tasks:
             last = task.last

@@ -189,7 +189,7 @@ def whole_ruleset(subject: Subject) -> Ruleset:
     if hold is None:
         return subject.ruleset
     found: list[Ruleset] = []
-    hold(lambda snapshot: found.append(snapshot.program.whole))
+    hold(lambda snapshot: found.append(snapshot.index.whole))
     return found[0]
 
 

@@ -118,15 +118,15 @@ class ClauseCoverage:
     def note(self, plan: Plan, snapshot: Snapshot) -> None:
         if _paused:
             return
-        program = snapshot.program
-        covered = self.about(program.whole)
+        index = snapshot.index
+        covered = self.about(index.whole)
         covered.active.update(ClauseRef(*clause) for clause in plan.clauses)
         if self.mcdc:
             deciding = dict(plan.clauses)
             context = snapshot.context(plan.triggers)
             for trigger in plan.triggers:
-                for rule in program.cells[program.number_of[trigger]]:
-                    vector = tuple(holds(leaf, context, program.measures) for leaf in conditions_of(rule))
+                for rule in index.by_trigger[index.number_of[trigger]]:
+                    vector = tuple(holds(leaf, context, index.measures) for leaf in conditions_of(rule))
                     covered.vectors.setdefault(rule.label, {})[vector] = deciding.get(rule.label)
 
 

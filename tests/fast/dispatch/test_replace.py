@@ -8,7 +8,7 @@ import sleec_runtime
 from sleec_runtime import Sleec, errors
 from sleec_runtime.dispatch.execution import plan, run
 from sleec_runtime.dispatch.instance import Instance
-from sleec_runtime.dispatch.program import Program
+from sleec_runtime.dispatch.rule_index import RuleIndex
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.language import parse
 from tests.support.robots import CURTAINS, Log, listing_2, running
@@ -101,9 +101,9 @@ def test_new_rules_come_with_their_code() -> None:
 def test_a_late_plan_of_the_old_rules_leaves_nothing_to_the_new_ones() -> None:
     """A thread may have read the old context, and make its plan when the new rules are in force."""
     log = Log()
-    old, new = (Snapshot.first(Program(parse(f"RULE r1 WHEN a THEN {name}")), {}) for name in ("First", "Second"))
-    code = Instance(old.program.whole)
-    code.admit(new.program.whole)
+    old, new = (Snapshot.first(RuleIndex(parse(f"RULE r1 WHEN a THEN {name}")), {}) for name in ("First", "Second"))
+    code = Instance(old.index.whole)
+    code.admit(new.index.whole)
     code.implement(
         {name: lambda name=name: log.do(name) for name in ("First", "Second")}, frozenset({"First", "Second"})
     )

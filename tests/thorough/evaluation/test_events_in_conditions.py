@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sleec_runtime import Sleec
-from sleec_runtime.dispatch.decisions import cell_of
+from sleec_runtime.dispatch.decisions import trigger_outcomes
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import NotEnforced, SnapshotRefused
 from sleec_runtime.evaluation.hedge_chain import Decision
@@ -81,7 +81,7 @@ def test_dispatches_agree_with_brute_force(data: st.DataObject) -> None:
     for trigger in context.triggers:
         alone = brute.active_clauses(ruleset, type(context)(frozenset({trigger}), context.conditions))
         outcomes = [(label, number) for label, number, _ in alone]
-        cell = cell_of(taken[0], trigger)
+        cell = trigger_outcomes(taken[0], trigger)
         assert [(o.rule.label, o.clause) for o in cell.outcomes if isinstance(o, Decision)] == outcomes
 
 

@@ -1,4 +1,4 @@
-"""A ruleset made ready to run: which rules mention what, and where each thing has its place in a snapshot."""
+"""The index of a ruleset: the rules of each trigger, the rules that mention each name, and groups of constraints."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from sleec_runtime.support.chunked_sequence import Chunks
 from sleec_runtime.support.messages import represent
 
 
-class Program:
-    """The rules of one domain, indexed. Immutable once built, in O(size of the rules).
+class RuleIndex:
+    """The index of the rules of one domain. Immutable, and built in O(size of the rules).
 
-    `whole` is the ruleset with all domains: what it names can be reported and triggered in any of them. `cells` has,
-    for each trigger, its rules in their order; `places` says where a snapshot has the cell of a trigger. `mentions`
-    leads from a condition or measure to the rules that mention it, as places in `cells`. `tied` are the labels of the
-    rules whose guards or hedges name triggers. `situational` are the conditions and measures that `NEVER` constraints
-    mention.
+    `whole` is the ruleset with all domains, whose names can be reported and triggered in each domain. `by_trigger` has
+    the rules of each trigger, in rule order, and `places` the place of its outcomes in a snapshot. `mentions` maps a
+    condition or measure to the rules that mention it, as positions in `by_trigger`. `trigger_dependent` are the labels
+    of the rules whose guards or hedges name triggers. `situational` are the conditions and measures in `NEVER`
+    constraints.
     """
 
     def __init__(self, whole: Ruleset, domain: str | None = None, strict: bool = False) -> None:
@@ -37,23 +37,23 @@ class Program:
         by_trigger: dict[str, list[Rule]] = {trigger: [] for trigger in sorted(whole.triggers)}
         for rule in ruleset.rules:
             by_trigger[rule.trigger].append(rule)
-        self.cells = tuple(tuple(rules) for rules in by_trigger.values())
+        self.by_trigger = tuple(tuple(rules) for rules in by_trigger.values())
         self.number_of = {trigger: number for number, trigger in enumerate(by_trigger)}
         layout = Chunks.of(by_trigger)
         self.places = {trigger: layout.place(number) for trigger, number in self.number_of.items()}
 
         self.place_of: dict[str, tuple[int, int]] = {}
         mentions: defaultdict[str, list[tuple[int, int]]] = defaultdict(list)
-        for cell, rules in enumerate(self.cells):
+        for number, rules in enumerate(self.by_trigger):
             for position, rule in enumerate(rules):
-                self.place_of[rule.label] = cell, position
+                self.place_of[rule.label] = number, position
                 for name in {name for formula in formulas_of(rule) for name in names_of(formula)}:
-                    mentions[name].append((cell, position))
+                    mentions[name].append((number, position))
         self.mentions: Mapping[str, list[tuple[int, int]]] = dict(mentions)
-        self.tied = frozenset(
-            self.cells[cell][position].label
+        self.trigger_dependent = frozenset(
+            self.by_trigger[number][position].label
             for trigger in self.number_of.keys() & mentions.keys()
-            for cell, position in mentions[trigger]
+            for number, position in mentions[trigger]
         )
 
         constraints = forbidding(ruleset)
@@ -63,9 +63,9 @@ class Program:
         self._always = tuple(c for group in self._groups if any(isinstance(c, Never) for c in group) for c in group)
 
     def checked(self, changes: Mapping[str, object]) -> dict[int, Value | None]:
-        """The changes by number, each value as the rules compare it; None says that a value is no longer known.
+        """The changes by number, each value as the rules compare it; None for a value that is no longer known.
 
-        Raises UnknownCondition or WrongType for the first that cannot be.
+        Raises UnknownCondition or WrongType for the first invalid change.
         """
         if not isinstance(changes, Mapping):
             raise WrongType(
@@ -81,8 +81,8 @@ class Program:
         return checked
 
     def constraints_on(self, literals: Iterable[Obligation]) -> tuple[Forbidding, ...]:
-        """The constraints that may be at odds with `literals`: those connected to them through obligations, and those
-        that a situation may break by itself."""
+        """The constraints that may contradict `literals`: those that share obligations with them, directly or not, and
+        those that a situation may break by itself."""
         if not self._groups:
             return ()
         groups = dict.fromkeys(self._group_of[o.name] for o in literals if o.name in self._group_of)
