@@ -20,8 +20,8 @@ from sleec_runtime.model import (
 )
 from sleec_verify.changes.assertions.assertion import Assertion, AssertionResult, Violation
 from sleec_verify.changes.assertions.vocabulary import Vocabulary
+from sleec_verify.changes.compare.relations import relations_at_one_instant
 from sleec_verify.changes.compare.result import Deciding
-from sleec_verify.changes.compare.sides import instants
 from sleec_verify.encoding.equation import conjunction, disjunction, implications
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.question import is_possible
@@ -76,7 +76,7 @@ def _read_otherwise(ruleset: Ruleset, assertion: Assertion, known: Vocabulary) -
 
 def _broken(ruleset: Ruleset, assertion: Assertion, measures: Mapping[str, Measure]) -> Violation | None:
     given = [c.formula for c in ruleset.constraints if isinstance(c, Assume)]
-    given += [formula for _, formula in instants(ruleset)] if ruleset.is_timed else []
+    given += [formula for _, formula in relations_at_one_instant(ruleset)] if ruleset.is_timed else []
     index = RulesetIndex(Ruleset((*measures.values(), *map(Assume, given), *ruleset.rules)))
     if not is_possible(index):
         return None

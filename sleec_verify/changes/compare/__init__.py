@@ -16,6 +16,7 @@ from sleec_verify.changes.compare.comparison import SIDES, Which, World, other
 from sleec_verify.changes.compare.conflicts import conflict_changes
 from sleec_verify.changes.compare.inferred_kinds import with_kinds_of
 from sleec_verify.changes.compare.obligations import changes
+from sleec_verify.changes.compare.relations import relations_over_time
 from sleec_verify.changes.compare.result import (
     Change,
     ConflictChange,
@@ -29,7 +30,7 @@ from sleec_verify.changes.compare.result import (
     by_obligation,
     relation,
 )
-from sleec_verify.changes.compare.sides import condition_names, over_time
+from sleec_verify.changes.compare.sides import condition_names
 from sleec_verify.changes.compare.situations import situation_changes
 from sleec_verify.changes.compare.vocabulary import name_changes
 from sleec_verify.encoding.budget import Undecided, for_file
@@ -176,7 +177,7 @@ def _not_comparable(old: Ruleset, new: Ruleset) -> Iterator[Undecidable]:
         return
     from sleec_runtime.model import relation_name
 
-    mine, theirs = over_time(old), over_time(new)
+    mine, theirs = relations_over_time(old), relations_over_time(new)
     for one, others, word in ((mine, theirs, "gone"), (theirs, mine, "new")):
         for relation_ in one:
             if relation_ not in others:

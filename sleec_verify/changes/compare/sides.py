@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 from sleec_runtime.model import (
     And,
@@ -26,12 +25,10 @@ from sleec_runtime.model import (
     leaves,
     measures_of,
 )
+from sleec_verify.changes.compare.relations import relations_at_one_instant
 from sleec_verify.changes.compare.result import Undecidable
 from sleec_verify.changes.diagram.formulas import compares
 from sleec_verify.encoding.equation import conjunction, disjunction
-
-if TYPE_CHECKING:
-    from sleec_runtime.model import Relation
 
 
 @dataclass(frozen=True)
@@ -171,7 +168,7 @@ def side(ruleset: Ruleset, vocabulary: Vocabulary) -> Side:
         else:
             found.constraints.append(constraint)
     if ruleset.is_timed:
-        for relation, formula in instants(ruleset):
+        for relation, formula in relations_at_one_instant(ruleset):
             found.given.append(_assumed(found, formula, f"the relation {relation}"))
     found.given += found.valid_scales()
     return found
@@ -181,77 +178,6 @@ def _assumed(of: Side, formula: Formula, by: str) -> Given:
     from sleec_runtime.language import print_formula
 
     return Given(of.formula(formula), formula, f"{by} {print_formula(formula)}" if by == "ASSUME" else by)
-
-
-# Relations ------------------------------------------------------------------------------------------------
-
-
-def instants(ruleset: Ruleset) -> Iterator[tuple[str, Formula]]:
-    """What the relations say of every single instant, each with its words. What they say of several instants
-    (`happenBefore`, ``when … until``) rules out no instant by itself."""
-    from sleec_runtime.model import Effect, EventRelation, MeasureRelation, relation_name
-
-    for statement in ruleset.statements:
-        if isinstance(statement, EventRelation):
-            formula = _of_events(statement.relation, _event(statement.left), _event(statement.right))
-            words = f"{relation_name(statement)} {statement.left} {statement.right}"
-        elif isinstance(statement, MeasureRelation):
-            formula = _of_measures(statement.relation, statement.left, statement.right)
-            words = _in_words(statement)
-        elif isinstance(statement, Effect):
-            event, formula = _event(statement.event), statement.formula
-            if statement.relation == "causation":
-                formula = Or((Not(formula), event))
-            else:
-                formula = Or((Not(event), formula if statement.relation == "includes" else Not(formula)))
-            words = _in_words(statement)
-        else:
-            continue
-        if formula is not None:
-            yield words, formula
-
-
-def _in_words(relation: Relation) -> str:
-    from sleec_runtime.language.english.relations_printer import print_beside_rules
-
-    return next(iter(print_beside_rules(relation))).removeprefix("RELATION ").partition("  //")[0]
-
-
-def _event(name: str) -> Atom:
-    return Atom("trigger", name)
-
-
-def _of_events(relation: str, left: Formula, right: Formula) -> Formula | None:
-    if relation == "witness":
-        return Or((Not(left), right))
-    if relation == "equal":
-        return _same(left, right)
-    return Not(And((left, right))) if relation == "mutualExclusive" else None
-
-
-def _of_measures(relation: str, left: Formula, right: Formula | None) -> Formula:
-    if right is None:
-        return left
-    if relation == "imply":
-        return Or((Not(left), right))
-    return _same(left, right) if relation == "iff" else Not(And((left, right)))
-
-
-def _same(left: Formula, right: Formula) -> Formula:
-    return Or((And((left, right)), And((Not(left), Not(right)))))
-
-
-def over_time(ruleset: Ruleset) -> list[Relation]:
-    """The relations that speak of several instants."""
-    if not ruleset.is_timed:
-        return []
-    from sleec_runtime.model import EventRelation, Lasting
-
-    return [
-        s
-        for s in ruleset.statements
-        if isinstance(s, Lasting) or (isinstance(s, EventRelation) and s.relation == "happenBefore")
-    ]
 
 
 def condition_names(formulas: Iterable[Formula]) -> set[str]:

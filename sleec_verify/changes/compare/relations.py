@@ -1,0 +1,30 @@
+"""The relations of one side: what they say of every instant, and those that speak of several."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sleec_runtime.model import Effect, EventRelation, Formula, Lasting, MeasureRelation, Relation, Ruleset
+from sleec_verify.encoding.relations import formula_at_one_instant
+
+
+def relations_at_one_instant(ruleset: Ruleset) -> Iterator[tuple[str, Formula]]:
+    """Each relation that rules out single instants, in words, with its formula."""
+    for statement in ruleset.statements:
+        if isinstance(statement, (EventRelation, MeasureRelation, Effect)) and not _happens_before(statement):
+            yield _in_words(statement), formula_at_one_instant(statement)
+
+
+def relations_over_time(ruleset: Ruleset) -> list[Relation]:
+    """The relations that speak of several instants."""
+    return [s for s in ruleset.statements if isinstance(s, Lasting) or _happens_before(s)]
+
+
+def _happens_before(statement: object) -> bool:
+    return isinstance(statement, EventRelation) and statement.relation == "happenBefore"
+
+
+def _in_words(relation: Relation) -> str:
+    from sleec_runtime.language.english.relations_printer import print_beside_rules
+
+    return next(iter(print_beside_rules(relation))).removeprefix("RELATION ").partition("  //")[0]
