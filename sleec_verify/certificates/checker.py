@@ -33,7 +33,7 @@ class Checker:
 def _in_python(formula: bytes, proof: bytes) -> str | None:
     try:
         lrat.check(formula.decode("ascii"), proof.decode("ascii"), MOST_SECONDS)
-    except lrat.Refused as refusal:
+    except lrat.InvalidProof as refusal:
         return refusal.message
     except UnicodeDecodeError:
         return "the file is not in its format"

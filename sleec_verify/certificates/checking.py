@@ -14,9 +14,9 @@ from sleec_runtime.certificate.coverage import MANIFEST, SIGNATURE, Use, read_ma
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.support.files import read_file
 from sleec_verify import __version__
-from sleec_verify.certificates.making import NOTHING_REQUIRED, Rebuilt, rebuild
+from sleec_verify.certificates.making import NOTHING_REQUIRED, CheckEvidence, rebuild
 from sleec_verify.certificates.manifest import check_json, manifest
-from sleec_verify.certificates.verdict_binding import NotTied, Tied, tie
+from sleec_verify.certificates.verdict_binding import UnboundVerdict, VerdictBinding, tie
 from sleec_verify.certificates.witnesses import KEYS, Replay, same
 from sleec_verify.encoding.trace_scope import speaks_of_traces
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from sleec_runtime.certificate.manifest import Manifest, Required
     from sleec_runtime.model import Reading, Ruleset
     from sleec_verify.certificates.checker import Checker
-    from sleec_verify.certificates.manifest import Shown
+    from sleec_verify.certificates.manifest import Evidence
     from sleec_verify.encoding.trace_scope import Untimed
 
 
@@ -36,16 +36,16 @@ class Problem(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Confirmed:
+class CheckedCertificate:
     """A certificate that holds: what it says, of the ruleset in its reading; who judged its refutations; whether there
     is a signature; and whether what rests on refutations is `tied` to the rules, check by check."""
 
     ruleset: Ruleset
     manifest: Manifest
-    shown: tuple[Shown, ...]
+    shown: tuple[Evidence, ...]
     checker: Checker
     signed: bool
-    tied: tuple[Tied, ...] = ()
+    tied: tuple[VerdictBinding, ...] = ()
 
 
 def check_certificate(
@@ -58,7 +58,7 @@ def check_certificate(
     key: str | None = None,
     oracle: Path | None = None,
     progress: Callable[[str, int, int], None] | None = None,
-) -> Confirmed:
+) -> CheckedCertificate:
     """Check the certificate in `folder` against a ruleset: its bytes, its verdicts, computed again, the formulas, built
     again, the refutations of these, judged by `judge`, and the witnesses, replayed. It must cover the `use` that is
     made of the rules, by default that of the whole text in its own reading, and be signed by the public `key`, if there
@@ -74,9 +74,9 @@ def check_certificate(
     problems = [*examined.files(), *examined.contents(progress)]
     if (required.proved or claimed.required.proved) and not judge.proved:
         problems.append(Problem("not-proved", f"the proofs are judged by {judge.name}, which is not proved correct"))
-    tied: list[Tied] = []
+    tied: list[VerdictBinding] = []
     for one in () if problems else tie(examined.shown, read, claimed.domain, oracle, claimed.chains):
-        if isinstance(one, NotTied):
+        if isinstance(one, UnboundVerdict):
             problems.append(Problem("theory", str(one)))
         elif not one.proved and (required.tied or claimed.required.tied):
             problems.append(Problem("not-tied", f"the verdict of {one.check} is not tied to the rules: {one.reason}"))
@@ -84,7 +84,9 @@ def check_certificate(
             tied.append(one)
     if problems:
         raise CertificateRefused(problems, _hint(claimed, problems))
-    return Confirmed(read, claimed, tuple(examined.shown), judge, (Path(folder) / SIGNATURE).exists(), tuple(tied))
+    return CheckedCertificate(
+        read, claimed, tuple(examined.shown), judge, (Path(folder) / SIGNATURE).exists(), tuple(tied)
+    )
 
 
 def _check_use(ruleset: Ruleset, claimed: Manifest, use: Use) -> None:
@@ -118,7 +120,7 @@ class _Examined:
         self._folder = folder
         self._judge = judge
         self._replay = Replay(ruleset)
-        self.shown: list[Shown] = []
+        self.shown: list[Evidence] = []
 
     # Files ----------------------------------------------------------------------------------------------------
 
@@ -165,7 +167,7 @@ class _Examined:
         if list(said) != [one.result.name for one in self.shown if one.result.name in said]:
             yield Problem("manifest", f"the {MANIFEST} has checks that there are not, or in another order")
 
-    def _formulas(self, rebuilt: Rebuilt) -> Iterator[Problem]:
+    def _formulas(self, rebuilt: CheckEvidence) -> Iterator[Problem]:
         for name in rebuilt.formulas:
             formula, proof = f"{name}.cnf", f"{name}.lrat"
             if not {formula, proof} <= set(self._claimed.files):
@@ -189,7 +191,7 @@ class _Examined:
                 if reason is not None:
                     yield Problem("proof", f"{proof} does not refute {formula}: {reason}")
 
-    def _entry(self, one: Shown, entry: Mapping[str, Any]) -> Iterator[Problem]:
+    def _entry(self, one: Evidence, entry: Mapping[str, Any]) -> Iterator[Problem]:
         """Whether a check's entry in the manifest is what the rules give, witnesses aside; and these, whether they show
         what they are to show."""
         name = one.result.name

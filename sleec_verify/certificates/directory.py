@@ -11,7 +11,7 @@ from sleec_runtime.errors import CertificateRefused, SleecError
 from sleec_verify.files.temporary import with_temporary
 
 
-class Occupied(SleecError):
+class FolderExists(SleecError):
     """Something is where the certificate is to be written."""
 
 
@@ -24,11 +24,11 @@ def check_free(folder: str, force: bool) -> None:
     if not os.path.lexists(path):
         return
     if path.is_symlink() or not path.is_dir():
-        raise Occupied(f"{folder} exists and is no folder", "choose another name")
+        raise FolderExists(f"{folder} exists and is no folder", "choose another name")
     try:
         names = set(os.listdir(path))
     except OSError as error:
-        raise Occupied(f"the folder {folder} cannot be read: {error.strerror}") from None
+        raise FolderExists(f"the folder {folder} cannot be read: {error.strerror}") from None
     if not names:
         return
     try:
@@ -36,9 +36,9 @@ def check_free(folder: str, force: bool) -> None:
     except CertificateRefused:
         ours = set()
     if not names <= ours:
-        raise Occupied(f"{folder} exists and holds what no certificate has", "choose another folder, or a new one")
+        raise FolderExists(f"{folder} exists and holds what no certificate has", "choose another folder, or a new one")
     if not force:
-        raise Occupied(f"{folder} holds a certificate already", "certify with --force to replace it")
+        raise FolderExists(f"{folder} holds a certificate already", "certify with --force to replace it")
 
 
 def write_folder(

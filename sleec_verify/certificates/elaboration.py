@@ -14,11 +14,11 @@ _ASSUMED = -1
 """Stands in for the clause that made a literal true where it was assumed."""
 
 
-class NotFollowing(Exception):
+class InvalidLemma(Exception):
     """A lemma that unit propagation does not show to follow, or a question that the lemmas do not refute."""
 
 
-class Step(NamedTuple):
+class ProofStep(NamedTuple):
     """A clause that follows. `hints` are numbers of clauses, in the order in which they become units, the last of them
     broken; clauses are numbered from 0, the formula's first and then the steps'."""
 
@@ -26,7 +26,7 @@ class Step(NamedTuple):
     hints: tuple[int, ...]
 
 
-class Learnt(NamedTuple):
+class LearntClause(NamedTuple):
     """A lemma, or (`forgotten`) that the solver goes on without one that it learnt before."""
 
     literals: tuple[int, ...]
@@ -40,10 +40,10 @@ class Answer(NamedTuple):
     hints: tuple[int, ...]
 
 
-class Elaborated(NamedTuple):
+class Elaboration(NamedTuple):
     """The steps, and an answer for each question."""
 
-    steps: list[Step]
+    steps: list[ProofStep]
     answers: list[Answer]
 
 
@@ -204,7 +204,7 @@ class Elaborator:
                     self._answers[place] = found
         return [place for place in range(len(self._questions)) if place not in self._answers]
 
-    def learn(self, lemmas: Iterable[Learnt]) -> None:
+    def learn(self, lemmas: Iterable[LearntClause]) -> None:
         """Take lemmas, each of which follows by propagation from the formula and the lemmas before it."""
         for lemma in lemmas:
             if self._broken is not None:
@@ -241,18 +241,18 @@ class Elaborator:
         for literal in clause[:2]:
             self._watches[literal].append(number)
 
-    def elaborate(self) -> Elaborated:
+    def elaborate(self) -> Elaboration:
         """The refutation of every question. Nothing can be asked afterwards.
 
         Raises NotFollowing for a lemma that does not follow, and for a question that is not refuted.
         """
         if self.open_questions():
-            raise NotFollowing("the lemmas do not refute the question")
+            raise InvalidLemma("the lemmas do not refute the question")
         needed: set[int] = set()
         used: set[int] = set()
         for found in self._answers.values():
             self._note(found, needed, used)
-        made: list[tuple[int, Step]] = []
+        made: list[tuple[int, ProofStep]] = []
         for number, length in reversed(self._learnt):
             if length is None:
                 self._take_back(number)
@@ -265,9 +265,9 @@ class Elaborator:
                 lemma = self._clauses[number]
                 refuted = self._refute([-literal for literal in lemma])
                 if refuted is None:
-                    raise NotFollowing("a lemma does not follow from what came before")
+                    raise InvalidLemma("a lemma does not follow from what came before")
                 self._note(refuted, needed, used)
-                made.append((number, Step(tuple(lemma), _hints_of_lemma(refuted, lemma))))
+                made.append((number, ProofStep(tuple(lemma), _hints_of_lemma(refuted, lemma))))
         made += self._settled_since(0, needed, used)
         return self._numbered(made[::-1])
 
@@ -275,7 +275,7 @@ class Elaborator:
         needed |= found.units
         used.update(hint for hint in found.hints if hint >= self._formula)
 
-    def _settled_since(self, length: int, needed: set[int], used: set[int]) -> list[tuple[int, Step]]:
+    def _settled_since(self, length: int, needed: set[int], used: set[int]) -> list[tuple[int, ProofStep]]:
         """Steps for the needed literals that are true in any case since the trail had this length, the last first. They
         are forgotten."""
         made = []
@@ -287,15 +287,15 @@ class Elaborator:
                 needed.update(others)
                 if because >= self._formula:
                     used.add(because)
-                made.append((-variable, Step((literal,), (*(-other for other in others), because))))
+                made.append((-variable, ProofStep((literal,), (*(-other for other in others), because))))
             del self._settled[variable]
         self._undo(length)
         return made
 
-    def _numbered(self, made: Iterable[tuple[int, Step]]) -> Elaborated:
+    def _numbered(self, made: Iterable[tuple[int, ProofStep]]) -> Elaboration:
         """Number what was made, in its order, and put the numbers into the hints."""
         numbers: dict[int, int] = {}
-        steps: list[Step] = []
+        steps: list[ProofStep] = []
 
         def numbered(hints: Iterable[int]) -> tuple[int, ...]:
             return tuple(numbers.get(hint, hint) for hint in hints)
@@ -305,11 +305,11 @@ class Elaborator:
                 # A part of what it says is a clause already, which serves as well wherever this one would.
                 numbers[name] = numbered(hints)[0]
             else:
-                steps.append(Step(literals, numbered(hints)))
+                steps.append(ProofStep(literals, numbered(hints)))
                 numbers[name] = self._formula + len(steps) - 1
         found = [self._answers[place] for place in range(len(self._questions))]
         answers = [Answer(tuple(one.assumed), numbered([*_named(one.units), *one.hints])) for one in found]
-        return Elaborated(steps, answers)
+        return Elaboration(steps, answers)
 
 
 def _named(units: Iterable[int]) -> list[int]:

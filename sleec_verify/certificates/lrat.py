@@ -18,7 +18,7 @@ LATE = "it was not judged within {:g} s"
 _NUMBER = re.compile(r"-?[0-9]{1,17}")
 
 
-class Refused(SleecError):
+class InvalidProof(SleecError):
     """A refutation that shows nothing, or a file that is not in its format."""
 
 
@@ -31,17 +31,17 @@ def check(formula: str, proof: str, seconds: float = inf) -> None:
     clauses = dict(enumerate(_clauses(formula), 1))
     for number, literals, hints in _steps(proof):
         if monotonic() >= deadline:
-            raise Refused(LATE.format(seconds))
+            raise InvalidProof(LATE.format(seconds))
         if literals is None:
             for name in hints:
                 clauses.pop(name, None)
             continue
         if not _follows(clauses, literals, hints):
-            raise Refused(f"clause {number} does not follow from its hints")
+            raise InvalidProof(f"clause {number} does not follow from its hints")
         if not literals:
             return
         clauses[number] = literals
-    raise Refused("the proof ends before the empty clause")
+    raise InvalidProof("the proof ends before the empty clause")
 
 
 def _follows(clauses: dict[int, list[int]], literals: list[int], hints: list[int]) -> bool:
@@ -63,7 +63,7 @@ def _follows(clauses: dict[int, list[int]], literals: list[int], hints: list[int
 def _numbers(words: list[str], line: int, what: str) -> list[int]:
     for word in words:
         if not _NUMBER.fullmatch(word):
-            raise Refused(f"line {line} of the {what}: {word[:30]!r} is not a number")
+            raise InvalidProof(f"line {line} of the {what}: {word[:30]!r} is not a number")
     return list(map(int, words))
 
 
@@ -80,19 +80,19 @@ def _clauses(text: str) -> list[list[int]]:
     for line, words in _rows(text):
         if words[0] == "p":
             if header is not None or len(words) != 4 or words[1] != "cnf":
-                raise Refused(f'line {line} of the formula is not the one header "p cnf variables clauses"')
+                raise InvalidProof(f'line {line} of the formula is not the one header "p cnf variables clauses"')
             header = _numbers(words[2:], line, "formula")
             continue
         if header is None:
-            raise Refused('the formula has no header "p cnf variables clauses" before its clauses')
+            raise InvalidProof('the formula has no header "p cnf variables clauses" before its clauses')
         row = _numbers(words, line, "formula")
         if row.count(0) != 1 or row[-1] != 0:
-            raise Refused(f"line {line} of the formula is not one clause that ends in 0")
+            raise InvalidProof(f"line {line} of the formula is not one clause that ends in 0")
         if any(abs(literal) > header[0] for literal in row):
-            raise Refused(f"line {line} of the formula has a variable that the header does not count")
+            raise InvalidProof(f"line {line} of the formula has a variable that the header does not count")
         found.append(row[:-1])
     if header is None or header[1] != len(found):
-        raise Refused("the formula does not have the clauses that its header counts")
+        raise InvalidProof("the formula does not have the clauses that its header counts")
     return found
 
 
@@ -103,8 +103,8 @@ def _steps(text: str) -> Iterator[tuple[int, list[int] | None, list[int]]]:
         row = _numbers(words[:1] + words[2:] if forgets else words, line, "proof")
         zeros = [place for place, number in enumerate(row) if number == 0]
         if len(zeros) != (1 if forgets else 2) or zeros[-1] != len(row) - 1 or row[0] <= 0:
-            raise Refused(f"line {line} of the proof is not a whole step")
+            raise InvalidProof(f"line {line} of the proof is not a whole step")
         hints = row[1 if forgets else zeros[0] + 1 : -1]
         if any(hint < 0 for hint in hints):
-            raise Refused(f"line {line} of the proof is a RAT step, which this checker does not know")
+            raise InvalidProof(f"line {line} of the proof is a RAT step, which this checker does not know")
         yield row[0], None if forgets else row[1 : zeros[0]], hints

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.certificate.coverage import Use
 from sleec_runtime.certificate.manifest import Required
-from sleec_verify.certificates.manifest import Shown, manifest
-from sleec_verify.certificates.recording import Asked, Recorder
+from sleec_verify.certificates.manifest import Evidence, manifest
+from sleec_verify.certificates.recording import RecordedQuestion, Recorder
 from sleec_verify.certificates.refutation import Disjunction, disjunctions
 from sleec_verify.certificates.whole import conflict_free
 from sleec_verify.checks import Checking, checks_for
@@ -31,17 +31,17 @@ NOTHING_REQUIRED = Required()
 
 
 @dataclass(frozen=True)
-class Rebuilt:
+class CheckEvidence:
     """A check's verdict, and the formulas whose refutations show it, by the names of their files."""
 
     result: CheckResult
     models: int
     formulas: dict[str, Disjunction]
 
-    def shown(self) -> Shown:
+    def shown(self) -> Evidence:
         refuted = sum(formula.questions for formula in self.formulas.values())
         files = (f"{name}.{kind}" for name in self.formulas for kind in ("cnf", "lrat"))
-        return Shown(self.result, refuted, self.models, tuple(files))
+        return Evidence(self.result, refuted, self.models, tuple(files))
 
     def dimacs(self, name: str) -> str:
         return self.formulas[name].dimacs(f"what sleec-verify refutes for the check {self.result.name}")
@@ -53,7 +53,7 @@ class Certificate:
 
     use: Use
     required: Required
-    shown: tuple[Shown, ...]
+    shown: tuple[Evidence, ...]
     manifest: dict[str, Json]
     files: dict[str, str]
 
@@ -102,7 +102,7 @@ def rebuild(
     progress: Callable[[str, int, int], None] | None = None,
     examining: bool = False,
     chains: bool = True,
-) -> Iterator[Rebuilt]:
+) -> Iterator[CheckEvidence]:
     """The verdicts, computed from the text of the rules, with the formulas to be refuted. `examining` has every model
     that a solver shows looked at."""
     recorder = Recorder(examining)
@@ -122,7 +122,9 @@ def rebuild(
             asked = _conflict(checking, recorder, result, asked)
         if isinstance(result.verdict, Unknown):
             asked = []
-        yield Rebuilt(result, found, _named(name, asked, name == "conflict" and isinstance(result.verdict, Proved)))
+        yield CheckEvidence(
+            result, found, _named(name, asked, name == "conflict" and isinstance(result.verdict, Proved))
+        )
 
 
 def _ask_what_is_possible(index: RulesetIndex) -> bool:
@@ -130,7 +132,9 @@ def _ask_what_is_possible(index: RulesetIndex) -> bool:
     return not index.assumptions or is_possible(index)
 
 
-def _conflict(checking: Checking, recorder: Recorder, result: CheckResult, asked: list[Asked]) -> list[Asked]:
+def _conflict(
+    checking: Checking, recorder: Recorder, result: CheckResult, asked: list[RecordedQuestion]
+) -> list[RecordedQuestion]:
     if not isinstance(result.verdict, Proved):
         # Its findings have witnesses, and that there are no further causes is not claimed.
         return []
@@ -141,7 +145,7 @@ def _conflict(checking: Checking, recorder: Recorder, result: CheckResult, asked
     return recorder.take()[0]
 
 
-def _named(name: str, asked: list[Asked], always: bool) -> dict[str, Disjunction]:
+def _named(name: str, asked: list[RecordedQuestion], always: bool) -> dict[str, Disjunction]:
     """The formulas by the names of their files. `always` where there must be one, though there was nothing to ask."""
     if not asked and not always:
         return {}

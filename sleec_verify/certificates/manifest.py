@@ -21,7 +21,7 @@ LEFT_OUT = ("check", "note", "help", "related")
 """What a finding tells people and no certificate is about."""
 
 
-class Shown(NamedTuple):
+class Evidence(NamedTuple):
     """A verdict, and what shows it: how many questions were refuted, how many answered with a situation (or a trace),
     and the names of the files with the proofs, formula and refutation by turns."""
 
@@ -51,7 +51,7 @@ def manifest(
     untimed: str | None,
     chains: bool,
     required: Required,
-    shown: Sequence[Shown],
+    shown: Sequence[Evidence],
     files: Mapping[str, str],
 ) -> dict[str, Json]:
     """The manifest. `untimed` is None for rules without time. `chains` is whether what is done triggers rules.
@@ -77,7 +77,7 @@ def manifest(
     }
 
 
-def check_json(one: Shown, ruleset: Ruleset) -> dict[str, Json]:
+def check_json(one: Evidence, ruleset: Ruleset) -> dict[str, Json]:
     """What the manifest says of one check."""
     result = one.result
     verdict = result.verdict

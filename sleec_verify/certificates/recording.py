@@ -14,7 +14,7 @@ class NoModel(SleecError):
 
 
 @dataclass
-class Asked:
+class RecordedQuestion:
     """A formula, and the questions of it that were answered no: each says that some literals are true together."""
 
     clauses: Sequence[Sequence[int]]
@@ -29,12 +29,12 @@ class Recorder:
 
     def __init__(self, examining: bool = False) -> None:
         self._examining = examining
-        self._asked: dict[int, Asked] = {}
+        self._asked: dict[int, RecordedQuestion] = {}
         self._models = 0
 
     def refuted(self, clauses: Sequence[Sequence[int]], literals: Sequence[int]) -> None:
         """Told that no model of `clauses` makes all `literals` true."""
-        asked = self._asked.setdefault(id(clauses), Asked(clauses))
+        asked = self._asked.setdefault(id(clauses), RecordedQuestion(clauses))
         asked.questions[tuple(dict.fromkeys(literals))] = None
 
     def satisfied(
@@ -51,7 +51,7 @@ class Recorder:
         if not true.issuperset(literals) or any(map(true.isdisjoint, clauses)):
             raise NoModel("a solver's model does not satisfy the question", "this is a bug; please report it")
 
-    def take(self) -> tuple[list[Asked], int]:
+    def take(self) -> tuple[list[RecordedQuestion], int]:
         """The formulas with refuted questions since the last call, and how many models there were."""
         taken = list(self._asked.values()), self._models
         self._asked, self._models = {}, 0

@@ -12,8 +12,8 @@ import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from threading import current_thread, main_thread
 
-from sleec_verify.certificates.elaboration import Elaborated, Elaborator, Learnt
-from sleec_verify.certificates.recording import Asked
+from sleec_verify.certificates.elaboration import Elaboration, Elaborator, LearntClause
+from sleec_verify.certificates.recording import RecordedQuestion
 
 MOST_LITERALS = 1_000_000
 """Literals after which a further pair of files is begun, as checkers hold a formula in memory. They take less than half
@@ -23,7 +23,7 @@ of the 16 MiB that a file may have (`sleec_runtime.support.files`)."""
 class Disjunction:
     """The formula "some question has a model", question by question. Linear in their size."""
 
-    def __init__(self, asked: Sequence[Asked]) -> None:
+    def __init__(self, asked: Sequence[RecordedQuestion]) -> None:
         self._asked = asked
         self.variables = 0
         self.clauses: list[tuple[int, ...]] = []
@@ -82,9 +82,9 @@ class Disjunction:
         return "\n".join(rows) + "\n"
 
 
-def disjunctions(asked: Iterable[Asked]) -> Iterator[Disjunction]:
+def disjunctions(asked: Iterable[RecordedQuestion]) -> Iterator[Disjunction]:
     """All questions, in as few formulas as their size allows; one if there are none."""
-    part: list[Asked] = []
+    part: list[RecordedQuestion] = []
     size = 0
     for one in asked:
         literals = sum(map(len, one.clauses))
@@ -96,7 +96,7 @@ def disjunctions(asked: Iterable[Asked]) -> Iterator[Disjunction]:
     yield Disjunction(part)
 
 
-def refute(clauses: Sequence[Sequence[int]], questions: Sequence[Sequence[int]]) -> Elaborated:
+def refute(clauses: Sequence[Sequence[int]], questions: Sequence[Sequence[int]]) -> Elaboration:
     """Why none of the questions has a model that satisfies the clauses. Most need unit propagation only; for the rest,
     a solver is asked, and what it learns is elaborated.
 
@@ -109,7 +109,7 @@ def refute(clauses: Sequence[Sequence[int]], questions: Sequence[Sequence[int]])
     return elaborator.elaborate()
 
 
-def _lemmas(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]) -> list[Learnt]:
+def _lemmas(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]) -> list[LearntClause]:
     """What Glucose learns while it refutes these questions, in its order. It is python-sat's C interface again, as in
     `sleec_verify.encoding.solver`."""
     import pysolvers
@@ -134,7 +134,7 @@ def _lemmas(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]
         file.seek(0)
         # Where it comes to an end it writes the empty clause, which does not follow if literals were assumed; where it
         # does, propagation finds it.
-        lemmas = (Learnt(tuple(map(int, row.lstrip(b"d").split()))[:-1], row.startswith(b"d")) for row in file)
+        lemmas = (LearntClause(tuple(map(int, row.lstrip(b"d").split()))[:-1], row.startswith(b"d")) for row in file)
         return [lemma for lemma in lemmas if lemma.literals]
 
 
@@ -142,5 +142,5 @@ def _moved(literals: Iterable[int], offset: int) -> Iterator[int]:
     return (literal + offset if literal > 0 else literal - offset for literal in literals)
 
 
-def _top(one: Asked) -> int:
+def _top(one: RecordedQuestion) -> int:
     return max((abs(literal) for row in (*one.clauses, *one.questions) for literal in row), default=0)

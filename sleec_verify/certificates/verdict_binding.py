@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from sleec_runtime.model import Ruleset
-    from sleec_verify.certificates.manifest import Shown
+    from sleec_verify.certificates.manifest import Evidence
     from sleec_verify.results.finding import CheckResult
 
 MOST_SECONDS = 60.0
@@ -23,7 +23,7 @@ hundreds of hedges."""
 
 
 @dataclass(frozen=True)
-class Tied:
+class VerdictBinding:
     """Whether the verdict of a check, as far as it rests on refutations, is proved from the rules as they are read; if
     not, why that was not looked at."""
 
@@ -32,7 +32,7 @@ class Tied:
     reason: str | None = None
 
 
-class NotTied(Exception):
+class UnboundVerdict(Exception):
     """The verdict of `check` is not what is proved of the rules."""
 
     def __init__(self, check: str, reason: str) -> None:
@@ -58,8 +58,8 @@ so it may rest on some where it is proved. All others say what situations or the
 
 
 def tie(
-    shown: Iterable[Shown], ruleset: Ruleset, domain: str | None, oracle: Path | None, chains: bool = True
-) -> Iterator[Tied | NotTied]:
+    shown: Iterable[Evidence], ruleset: Ruleset, domain: str | None, oracle: Path | None, chains: bool = True
+) -> Iterator[VerdictBinding | UnboundVerdict]:
     """Have the oracle prove the verdicts that rest on refutations, in each domain: for each such check how it went.
     Of verdicts that are refuted, the findings are proved."""
     results = [
@@ -70,7 +70,7 @@ def tie(
         and (one.files or isinstance(one.result.verdict, Refuted))
     ]
     if oracle is None:
-        yield from (Tied(result.name, False, "the oracle is not built (make proofs)") for result in results)
+        yield from (VerdictBinding(result.name, False, "the oracle is not built (make proofs)") for result in results)
         return
     if results:
         domains = ruleset.domains if domain is None else (domain,)
@@ -79,25 +79,27 @@ def tie(
         for result in results:
             # What is refused in one domain is refused, what is not looked at in one is not proved.
             each = [one[result.name] for one in found]
-            yield min(each, key=lambda one: (isinstance(one, Tied), isinstance(one, Tied) and one.proved))
+            yield min(
+                each, key=lambda one: (isinstance(one, VerdictBinding), isinstance(one, VerdictBinding) and one.proved)
+            )
 
 
 def _in_one_domain(
     results: Sequence[CheckResult], domain: str, ruleset: Ruleset, oracle: Path, chains: bool
-) -> dict[str, Tied | NotTied]:
+) -> dict[str, VerdictBinding | UnboundVerdict]:
     from sleec_verify.certificates.theory.findings import FOUND, questions
     from sleec_verify.certificates.theory.proving import Theory, not_modelled
 
     reason = not_modelled(ruleset, chains)
     if reason is not None:
-        return {result.name: Tied(result.name, False, reason) for result in results}
-    found: dict[str, Tied | NotTied] = {}
+        return {result.name: VerdictBinding(result.name, False, reason) for result in results}
+    found: dict[str, VerdictBinding | UnboundVerdict] = {}
     index = RulesetIndex(ruleset)
     with Theory(oracle, ruleset, MOST_SECONDS) as theory:
         for result in results:
             check = result.name
             if check not in FOUND and isinstance(result.verdict, Refuted):
-                found[check] = Tied(check, False, "the theory does not speak of parts of conditions")
+                found[check] = VerdictBinding(check, False, "the theory does not speak of parts of conditions")
                 continue
             try:
                 if check in FOUND:
@@ -106,9 +108,9 @@ def _in_one_domain(
                 else:
                     theory.prove(check)
             except NoAnswer as error:
-                found[check] = Tied(check, False, str(error.message))
+                found[check] = VerdictBinding(check, False, str(error.message))
             except NotRefuted as error:
-                found[check] = NotTied(check, str(error.message))
+                found[check] = UnboundVerdict(check, str(error.message))
             else:
-                found[check] = Tied(check, True)
+                found[check] = VerdictBinding(check, True)
     return found

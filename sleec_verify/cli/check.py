@@ -15,7 +15,7 @@ from sleec_verify.cli.inputs import files, rulesets
 from sleec_verify.cli.output import complain, report
 from sleec_verify.encoding.budget import limited
 from sleec_verify.report import FORMATS
-from sleec_verify.report.outcome import Checked, Outcome, Unusable, checked, tally, told_of
+from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput, checked, deduplicated_findings, tally
 from sleec_verify.results.finding import SEVERITIES, Severity
 from sleec_verify.results.internal_error import InternalError, internal_errors_of
 
@@ -82,7 +82,7 @@ def command(
     if output is not None:
         from sleec_verify.files.placement import require_writable
 
-        require_writable(output, (path for path in files(paths) if not isinstance(path, Unusable)))
+        require_writable(output, (path for path in files(paths) if not isinstance(path, UnusableInput)))
     cache = None if no_cache else cache_of_environment()
 
     if certificate is None and (require_proved or require_tied):
@@ -113,7 +113,7 @@ def command(
 
 
 def _outcomes(
-    found: Sequence[Ruleset | Unusable],
+    found: Sequence[Ruleset | UnusableInput],
     domain: str | None,
     untimed: Untimed,
     chains: bool,
@@ -128,7 +128,7 @@ def _outcomes(
     outcomes: list[Outcome] = []
     with Progress() as progress:
         for ruleset in found:
-            if isinstance(ruleset, Unusable):
+            if isinstance(ruleset, UnusableInput):
                 complain(ruleset.error)
                 outcomes.append(ruleset)
             else:
@@ -142,10 +142,12 @@ def _outcomes(
                         if realizable is not None:
                             # A strategy is no refutation, of which certificates speak.
                             results += _realizability(ruleset, domain, untimed, realizable, progress)
-                        outcomes.append(Checked(ruleset, results, untimed if speaks_of_traces(ruleset) else None))
+                        outcomes.append(
+                            CheckedRuleset(ruleset, results, untimed if speaks_of_traces(ruleset) else None)
+                        )
                 except InternalError as error:
                     complain(error)
-                    outcomes.append(Unusable(path, error))
+                    outcomes.append(UnusableInput(path, error))
     return outcomes
 
 
@@ -176,9 +178,9 @@ def _realizability(
 
 
 def _exit_code(outcomes: Sequence[Outcome], fail_level: Severity) -> int:
-    if any(isinstance(outcome, Unusable) for outcome in outcomes):
+    if any(isinstance(outcome, UnusableInput) for outcome in outcomes):
         return exits.UNUSABLE
-    counts = tally(told_of(outcomes))
+    counts = tally(deduplicated_findings(outcomes))
     if any(counts[severity] for severity in SEVERITIES[: SEVERITIES.index(fail_level) + 1]):
         return exits.FINDINGS
     return exits.UNKNOWN if any(outcome.undecided for outcome in checked(outcomes)) else exits.HOLDS

@@ -10,7 +10,7 @@ from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
 from sleec_verify.cli.output import complain, report
 from sleec_verify.report import FORMATS
-from sleec_verify.report.outcome import Checked, Unusable
+from sleec_verify.report.outcome import CheckedRuleset, UnusableInput
 from sleec_verify.results.finding import SEVERITIES, CheckResult, Severity, Unknown
 from sleec_verify.results.internal_error import InternalError, internal_errors_of
 
@@ -62,9 +62,9 @@ def command(
             result = check_structure(ruleset, python_files(target), domain)
     except InternalError as error:
         complain(error)
-        report([Unusable(error.path, error)], form, output)
+        report([UnusableInput(error.path, error)], form, output)
         return exits.UNUSABLE
-    report([Checked(ruleset, (result,))], form, output)
+    report([CheckedRuleset(ruleset, (result,))], form, output)
     return _exit_code(result, fail_level)
 
 

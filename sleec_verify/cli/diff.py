@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from sleec_verify.changes.compare import Difference
     from sleec_verify.changes.revisions.versions import Version, Versions
     from sleec_verify.encoding.trace_scope import Untimed
-    from sleec_verify.report.difference_report import Compared, Report
+    from sleec_verify.report.difference_report import DifferenceReport, RulesetDifference
 
 FailOn = Literal["change", "loss", "conflict", "nothing"]
 _READINGS = click.Choice(("cascade", "priority"))
@@ -92,7 +92,7 @@ def command(
     clauses that decide, and the number of situations that it concerns.
     """
     from sleec_verify.report.difference import RENDERERS
-    from sleec_verify.report.difference_report import Report
+    from sleec_verify.report.difference_report import DifferenceReport
     from sleec_verify.report.palette import Palette
 
     asserting = bool(assertions or file)
@@ -117,7 +117,7 @@ def command(
     asked = _asked(assertions, said, compared, domain) if asserting else ()
     if asked is None:
         return exits.UNUSABLE
-    report = Report(tuple(compared), len(versions) - len(left), asked)
+    report = DifferenceReport(tuple(compared), len(versions) - len(left), asked)
     write(RENDERERS[form](report, Palette.of(sys.stdout)))
     return _exit_code(report, fail_on)
 
@@ -154,9 +154,9 @@ def _compared(
     missing_as_empty: bool,
     domain: str | None,
     untimed: Untimed,
-) -> Compared:
+) -> RulesetDifference:
     from sleec_verify.changes.compare import compare
-    from sleec_verify.report.difference_report import Compared
+    from sleec_verify.report.difference_report import RulesetDifference
 
     errors: list[SleecError] = []
     one_sided = None if missing_as_empty else versions.one_sided(*names)
@@ -167,7 +167,7 @@ def _compared(
         complain(error)
     old, new = sides
     if errors or (old is None and new is None):
-        return Compared(versions.path, None, tuple(errors))
+        return RulesetDifference(versions.path, None, tuple(errors))
     if old is None:
         assert new is not None
         old = _empty(new, names[0], versions.path)
@@ -175,10 +175,10 @@ def _compared(
         new = _empty(old, names[1], versions.path)
     try:
         with internal_errors_of(versions.path):
-            return Compared(versions.path, compare(old, new, domain, untimed))
+            return RulesetDifference(versions.path, compare(old, new, domain, untimed))
     except InternalError as error:
         complain(error)
-        return Compared(versions.path, None, (error,))
+        return RulesetDifference(versions.path, None, (error,))
 
 
 def _read(place: Version | None, reading: Reading | None, errors: list[SleecError]) -> Ruleset | None:
@@ -214,7 +214,7 @@ def _check_domain(domain: str | None, found: Sequence[Difference]) -> None:
 
 
 def _asked(
-    texts: Sequence[str], said: Source | None, compared: list[Compared], domain: str | None
+    texts: Sequence[str], said: Source | None, compared: list[RulesetDifference], domain: str | None
 ) -> tuple[AssertionResult, ...] | None:
     """The answers to all assertions, of all new rulesets; None where an assertion is wrong, which is reported. Where a
     ruleset cannot be used, an assertion that seems wrong may be about its names, and is only left out."""
@@ -253,7 +253,7 @@ def _asked(
     return tuple(answers)
 
 
-def _exit_code(report: Report, fail_on: FailOn) -> int:
+def _exit_code(report: DifferenceReport, fail_on: FailOn) -> int:
     if any(one.errors for one in report.compared):
         return exits.UNUSABLE
     if any(isinstance(one.answer, tuple) for one in report.asked):

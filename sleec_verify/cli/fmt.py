@@ -12,7 +12,7 @@ from sleec_verify.cli.inputs import files
 from sleec_verify.cli.output import complain, note_link, tell, write_data, write_line
 from sleec_verify.files.placement import write_whole
 from sleec_verify.report.escape import as_line
-from sleec_verify.report.outcome import Unusable
+from sleec_verify.report.outcome import UnusableInput
 from sleec_verify.results.internal_error import internal_errors_of
 from sleec_verify.results.phrases import counted
 
@@ -40,7 +40,7 @@ def command(paths: tuple[str, ...], mode: str | None) -> int:
     changed = unusable = 0
     for path in found:
         try:
-            if isinstance(path, Unusable):
+            if isinstance(path, UnusableInput):
                 raise path.error
             with internal_errors_of(path):
                 ruleset = load(path)

@@ -17,10 +17,10 @@ from sleec_verify.files.folders import SUFFIX
 from sleec_verify.report import FORMATS
 
 if TYPE_CHECKING:
-    from sleec_verify.changes.gate import Asserting, Check
+    from sleec_verify.changes.gate import AssertionSources, Check
     from sleec_verify.changes.gate.config import Config
     from sleec_verify.changes.gate.keys import Target
-    from sleec_verify.changes.gate.result import Gated
+    from sleec_verify.changes.gate.result import GateResult
     from sleec_verify.changes.gate.settings import Settings
     from sleec_verify.changes.revisions.repository import Repository
     from sleec_verify.encoding.trace_scope import Untimed
@@ -158,7 +158,7 @@ def _check(untimed: Untimed, no_cache: bool) -> Check:
     return lambda ruleset: results(ruleset, None, untimed, cache)
 
 
-def _report(found: Gated, form: str, output: str | None) -> None:
+def _report(found: GateResult, form: str, output: str | None) -> None:
     from sleec_verify.report.gate import render, verdict
     from sleec_verify.report.palette import PLAIN, Palette
 
@@ -171,11 +171,13 @@ def _report(found: Gated, form: str, output: str | None) -> None:
     tell(f"{output}: {verdict(found, PLAIN)}")
 
 
-def _asserting(settings: Settings, texts: Sequence[str]) -> Asserting:
-    from sleec_verify.changes.gate import Asserting
+def _asserting(settings: Settings, texts: Sequence[str]) -> AssertionSources:
+    from sleec_verify.changes.gate import AssertionSources
     from sleec_verify.changes.gate.keys import is_assertion
 
-    return Asserting([*texts, *filter(is_assertion, settings.config.assertions)], [*settings.assertions.values()])
+    return AssertionSources(
+        [*texts, *filter(is_assertion, settings.config.assertions)], [*settings.assertions.values()]
+    )
 
 
 def _selected(config: Config) -> Set[str]:
@@ -212,7 +214,7 @@ def _check_files(output: str | None, summary: str | None) -> None:
         raise SleecError(f"{summary} is there already, and is no summary of a gate", "name another file, or remove it")
 
 
-def _summarize(found: Gated, path: str | None) -> None:
+def _summarize(found: GateResult, path: str | None) -> None:
     step = os.environ.get(STEP_SUMMARY)
     if path is None and not step:
         return
@@ -230,7 +232,7 @@ def _summarize(found: Gated, path: str | None) -> None:
             raise SleecError(f"{step}, which ${STEP_SUMMARY} names, cannot be written: {error.strerror}") from None
 
 
-def _exit_code(found: Gated) -> int:
+def _exit_code(found: GateResult) -> int:
     codes = {
         "passed": exits.HOLDS,
         "blocked": exits.FINDINGS,

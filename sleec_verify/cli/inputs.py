@@ -11,7 +11,7 @@ from sleec_runtime.language import load
 from sleec_runtime.support.suggestions import nearest
 from sleec_verify.cli.output import note, note_link
 from sleec_verify.files.folders import SUFFIX, rulesets_below
-from sleec_verify.report.outcome import Unusable
+from sleec_verify.report.outcome import UnusableInput
 from sleec_verify.results.internal_error import internal_errors_of
 from sleec_verify.results.phrases import listed, shortened
 
@@ -23,44 +23,44 @@ class UnknownDomain(SleecError):
     """A domain that no ruleset names."""
 
 
-def files(paths: Iterable[str], skipped: Callable[[str], None] = lambda _: None) -> Iterator[str | Unusable]:
+def files(paths: Iterable[str], skipped: Callable[[str], None] = lambda _: None) -> Iterator[str | UnusableInput]:
     """The files that `paths` mean: a folder stands for every ``*.sleec`` below it, sorted. None comes twice. `skipped`
     is called for each link that is not followed."""
     seen = set()
     for path in paths:
-        closed: list[Unusable] = []
+        closed: list[UnusableInput] = []
         found = _below(path, closed, skipped) if os.path.isdir(path) else [path]
         yield from closed
         if not found and not closed:
-            yield Unusable(path, UnreadableFile(f"there is no {SUFFIX} file below {path}", "name a file"))
+            yield UnusableInput(path, UnreadableFile(f"there is no {SUFFIX} file below {path}", "name a file"))
         for file in found:
             if file not in seen:
                 seen.add(file)
                 yield file
 
 
-def _below(folder: str, closed: list[Unusable], skipped: Callable[[str], None]) -> list[str]:
+def _below(folder: str, closed: list[UnusableInput], skipped: Callable[[str], None]) -> list[str]:
     """The texts of rules below `folder`; the folders that may not be read go to `closed`."""
 
     def tell(error: OSError) -> None:
         place = os.fspath(error.filename)
-        closed.append(Unusable(place, UnreadableFile(f"the folder {place} cannot be read: {error.strerror}")))
+        closed.append(UnusableInput(place, UnreadableFile(f"the folder {place} cannot be read: {error.strerror}")))
 
     return rulesets_below(folder, tell, skipped)
 
 
-def rulesets(paths: Iterable[str], reading: Reading | None, domain: str | None) -> list[Ruleset | Unusable]:
+def rulesets(paths: Iterable[str], reading: Reading | None, domain: str | None) -> list[Ruleset | UnusableInput]:
     """Each ruleset below `paths`, in `reading` if one is asked for, or what is wrong with it.
 
     Raises:
         UnknownDomain: the rulesets have domains, and none of them is `domain`.
     """
-    found = [path if isinstance(path, Unusable) else _load(path, reading) for path in files(paths, note_link)]
+    found = [path if isinstance(path, UnusableInput) else _load(path, reading) for path in files(paths, note_link)]
     if domain is not None:
-        named = {name for one in found if not isinstance(one, Unusable) for name in one.domains}
+        named = {name for one in found if not isinstance(one, UnusableInput) for name in one.domains}
         if named and domain not in named:
             raise unknown_domain(domain, sorted(named))
-        if not named and any(not isinstance(one, Unusable) for one in found):
+        if not named and any(not isinstance(one, UnusableInput) for one in found):
             _note_no_domains(domain)
     return found
 
@@ -91,11 +91,11 @@ def _note_no_domains(domain: str) -> None:
     note(f"no rule has a domain, so all of them count in {shortened(domain)}")
 
 
-def _load(path: str, reading: Reading | None) -> Ruleset | Unusable:
+def _load(path: str, reading: Reading | None) -> Ruleset | UnusableInput:
     try:
         return one_ruleset(path, reading, None)
     except SleecError as error:
-        return Unusable("<stdin>" if path == "-" else path, error)
+        return UnusableInput("<stdin>" if path == "-" else path, error)
 
 
 def unknown_domain(domain: str, named: Sequence[str]) -> UnknownDomain:

@@ -13,7 +13,7 @@ from sleec_runtime.errors import SleecError
 from sleec_verify.cli import exits
 from sleec_verify.cli.inputs import files
 from sleec_verify.cli.output import complain, tell
-from sleec_verify.report.outcome import Unusable
+from sleec_verify.report.outcome import UnusableInput
 
 PAUSE = 0.3
 """Seconds between two looks. A look asks the system for each file's time and size, which any number of rulesets that
@@ -56,7 +56,9 @@ def _tell(once: Callable[[], int]) -> None:
 
 def _state(paths: Sequence[str]) -> list[tuple[object, ...]]:
     """What tells that a file has changed."""
-    return [(path.path, "unusable") if isinstance(path, Unusable) else (path, *_stamp(path)) for path in files(paths)]
+    return [
+        (path.path, "unusable") if isinstance(path, UnusableInput) else (path, *_stamp(path)) for path in files(paths)
+    ]
 
 
 def _stamp(path: str) -> tuple[object, ...]:

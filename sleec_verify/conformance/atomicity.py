@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 
 from sleec_runtime.model import Context
-from sleec_verify.conformance.distinguishing_pairs import Pair, pairs
+from sleec_verify.conformance.distinguishing_pairs import ContextPair, pairs
 from sleec_verify.conformance.exhaustive import tried
 from sleec_verify.conformance.failure import Nonconformance, difference, situation_text
 from sleec_verify.conformance.feasible_contexts import Assumptions
-from sleec_verify.conformance.subject import Bench, Observed, Running
+from sleec_verify.conformance.subject import Bench, Observation, Running
 
 PAIRS = 12
 
@@ -43,7 +43,7 @@ def whole_changes(bench: Bench) -> int:
     return len(found)
 
 
-def justified_by_one(pair: Pair, observed: Observed, running: Running, when: str) -> None:
+def justified_by_one(pair: ContextPair, observed: Observation, running: Running, when: str) -> None:
     """Raises Nonconformance unless what was observed is due in one of the two contexts."""
     whole = running.oracle.whole
     contexts = (pair.before, pair.after)
@@ -61,7 +61,7 @@ def justified_by_one(pair: Pair, observed: Observed, running: Running, when: str
         )
 
 
-def _in_the_midst(running: Running, pair: Pair) -> None:
+def _in_the_midst(running: Running, pair: ContextPair) -> None:
     running.enter(pair.before)
     looking = False
 
@@ -78,7 +78,7 @@ def _in_the_midst(running: Running, pair: Pair) -> None:
     _must_be(running, pair.after, "after that change")
 
 
-def _refused(running: Running, pair: Pair) -> None:
+def _refused(running: Running, pair: ContextPair) -> None:
     """A change one part of which cannot be changes nothing."""
     running.enter(pair.before)
     changes = running.way_to(pair.after)
@@ -89,7 +89,7 @@ def _refused(running: Running, pair: Pair) -> None:
         _must_be(running, pair.before, f"after a change that was refused because of {bad}")
         return
     expected = running.oracle.expected(pair.before)
-    observed = Observed(())
+    observed = Observation(())
     raise Nonconformance(
         pair.before, expected, observed, f"took an object() for the value of {bad}, and did not refuse"
     )

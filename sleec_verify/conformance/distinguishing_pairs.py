@@ -10,7 +10,7 @@ from random import Random
 from sleec_runtime.model import Context, Value, formulas_of
 from sleec_verify.conformance.feasible_contexts import Assumptions
 from sleec_verify.conformance.oracle import Oracle
-from sleec_verify.conformance.regions import Given, context_of, givens
+from sleec_verify.conformance.regions import ValueRegion, context_of, givens
 
 _TRIES = 40
 _MIXTURES = 12
@@ -18,7 +18,7 @@ _SETS = 24
 
 
 @dataclass(frozen=True)
-class Pair:
+class ContextPair:
     """Two contexts, the same triggers in both, and what is due in each. `telling`: a mixture would show."""
 
     before: Context
@@ -31,7 +31,7 @@ class Pair:
         return self.before.triggers
 
 
-def pairs(oracle: Oracle, assumptions: Assumptions) -> list[Pair]:
+def pairs(oracle: Oracle, assumptions: Assumptions) -> list[ContextPair]:
     """Pairs for single triggers and for sets of two, the telling ones first; always the same for the same rules."""
     found = []
     for triggers in _trigger_sets(oracle):
@@ -47,10 +47,10 @@ def _trigger_sets(oracle: Oracle) -> Iterator[frozenset[str]]:
     yield from (frozenset(two) for two in list(combinations(named[:8], 2))[:_SETS])
 
 
-def _pair(oracle: Oracle, assumptions: Assumptions, triggers: frozenset[str], dice: Random) -> Pair | None:
+def _pair(oracle: Oracle, assumptions: Assumptions, triggers: frozenset[str], dice: Random) -> ContextPair | None:
     formulas = [formula for rule in oracle.rules_of(triggers) for formula in formulas_of(rule)]
     given = givens(formulas, oracle.whole.measures, unreported=False)
-    best: Pair | None = None
+    best: ContextPair | None = None
     for _ in range(_TRIES):
         first, second = (_drawn(given, triggers, assumptions, dice) for _ in range(2))
         if first is None or second is None or first.triggers != second.triggers:
@@ -60,12 +60,14 @@ def _pair(oracle: Oracle, assumptions: Assumptions, triggers: frozenset[str], di
             continue
         justified = (here.due, there.due)
         if any(oracle.expected(mixed).due not in justified for mixed in _mixtures(first, second, dice)):
-            return Pair(first, second, justified, True)
-        best = best or Pair(first, second, justified, False)
+            return ContextPair(first, second, justified, True)
+        best = best or ContextPair(first, second, justified, False)
     return best
 
 
-def _drawn(given: Sequence[Given], triggers: frozenset[str], assumptions: Assumptions, dice: Random) -> Context | None:
+def _drawn(
+    given: Sequence[ValueRegion], triggers: frozenset[str], assumptions: Assumptions, dice: Random
+) -> Context | None:
     return assumptions.nearest(context_of(given, [dice.choice(one.values) for one in given], triggers))
 
 

@@ -9,8 +9,8 @@ from typing import NamedTuple
 from sleec_runtime.model import Context, Formula, Never, Rule, formulas_of
 from sleec_verify.conformance.failure import Nonconformance, difference, situation_text
 from sleec_verify.conformance.feasible_contexts import Assumptions
-from sleec_verify.conformance.oracle import Expected, Oracle
-from sleec_verify.conformance.regions import LIMIT, Given, context_of, contexts, givens, size
+from sleec_verify.conformance.oracle import Expectation, Oracle
+from sleec_verify.conformance.regions import LIMIT, ValueRegion, context_of, contexts, givens, size
 from sleec_verify.conformance.subject import Bench, Running
 from sleec_verify.query.inconsistent_sets import Constraint
 
@@ -18,12 +18,12 @@ SAMPLED = 500
 """Contexts of a rule that has too many for all."""
 
 
-class Group(NamedTuple):
+class RuleGroup(NamedTuple):
     """Rules of one trigger that are gone through together, and the values of what decides them."""
 
     trigger: str
     rules: tuple[Rule, ...]
-    given: list[Given]
+    given: list[ValueRegion]
 
     @property
     def whole(self) -> bool:
@@ -31,26 +31,26 @@ class Group(NamedTuple):
         return size(self.given) <= LIMIT
 
 
-def groups(oracle: Oracle, labels: frozenset[str] | None = None, unreported: bool = True) -> list[Group]:
+def groups(oracle: Oracle, labels: frozenset[str] | None = None, unreported: bool = True) -> list[RuleGroup]:
     """The rules (those of `labels`, or all, whatever their domain) by their triggers: together with what constraints on
     them look at, if there are not too many contexts for that; else each rule by itself."""
     by_trigger: dict[str, list[Rule]] = {}
     for rule in oracle.whole.rules:
         if labels is None or rule.label in labels:
             by_trigger.setdefault(rule.trigger, []).append(rule)
-    found: list[Group] = []
+    found: list[RuleGroup] = []
     for trigger, rules in by_trigger.items():
         formulas = [formula for rule in rules for formula in formulas_of(rule)]
         constrained = [*formulas, *_forbidding(oracle, rules)]
         for considered, near in ((constrained, True), (formulas, True), (formulas, False)):
             given = givens(considered, oracle.whole.measures, unreported, near)
             if size(given) <= LIMIT:
-                found.append(Group(trigger, tuple(rules), given))
+                found.append(RuleGroup(trigger, tuple(rules), given))
                 break
         else:
             for rule in rules:
                 given = givens(list(formulas_of(rule)), oracle.whole.measures, unreported)
-                found.append(Group(trigger, (rule,), given))
+                found.append(RuleGroup(trigger, (rule,), given))
     return found
 
 
@@ -61,7 +61,7 @@ def _forbidding(oracle: Oracle, rules: Sequence[Rule]) -> list[Formula]:
     return [origin.formula for origin in origins if isinstance(origin, Never)]
 
 
-def situations(group: Group, oracle: Oracle, assumptions: Assumptions) -> Iterator[tuple[Context, Expected]]:
+def situations(group: RuleGroup, oracle: Oracle, assumptions: Assumptions) -> Iterator[tuple[Context, Expectation]]:
     """The contexts of a group that the assumptions allow, smallest first, and what is due in each. Where there are too
     many, some of them, at random but always the same."""
     names = {group.trigger, *(one.name for one in group.given)}
@@ -75,7 +75,7 @@ def situations(group: Group, oracle: Oracle, assumptions: Assumptions) -> Iterat
         yield context, expected
 
 
-def _chosen(group: Group) -> Iterator[Context]:
+def _chosen(group: RuleGroup) -> Iterator[Context]:
     triggers = frozenset({group.trigger})
     if group.whole:
         return contexts(group.given, triggers)
@@ -105,7 +105,7 @@ def each_rule(bench: Bench, labels: frozenset[str] | None = None) -> int:
     return count
 
 
-def tried(running: Running, context: Context, expected: Expected | None = None) -> Nonconformance | None:
+def tried(running: Running, context: Context, expected: Expectation | None = None) -> Nonconformance | None:
     """Leads the subject into `context` and lets its triggers occur; what is wrong with what it did."""
     if expected is None:
         expected = running.oracle.expected(context)
@@ -115,10 +115,10 @@ def tried(running: Running, context: Context, expected: Expected | None = None) 
     return None if what is None else Nonconformance(context, expected, observed, what)
 
 
-def first_contexts(oracle: Oracle, assumptions: Assumptions, most: int) -> Iterator[list[tuple[Context, Expected]]]:
+def first_contexts(oracle: Oracle, assumptions: Assumptions, most: int) -> Iterator[list[tuple[Context, Expectation]]]:
     """For each group, some contexts in which it does something: the smallest for each set of active clauses."""
     for group in groups(oracle, unreported=False):
-        seen: dict[tuple[object, ...], tuple[Context, Expected]] = {}
+        seen: dict[tuple[object, ...], tuple[Context, Expectation]] = {}
         for context, expected in islice(situations(group, oracle, assumptions), 4 * SAMPLED):
             if expected.due and not expected.conflict:
                 seen.setdefault(expected.active, (context, expected))

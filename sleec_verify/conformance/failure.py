@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from sleec_runtime.errors import ConflictInContext, UndeterminedDecision
 from sleec_runtime.model import Context, Ruleset
-from sleec_verify.conformance.oracle import Expected
-from sleec_verify.conformance.subject import Observed
+from sleec_verify.conformance.oracle import Expectation
+from sleec_verify.conformance.subject import Observation
 from sleec_verify.results.phrases import context_text
 
 
@@ -15,7 +15,7 @@ class Nonconformance(AssertionError):
     """The subject did not do what the rules oblige. Its text is a report; the parts are there for programs."""
 
     def __init__(
-        self, context: Context, expected: Expected, observed: Observed, what: str, before: Sequence[str] = ()
+        self, context: Context, expected: Expectation, observed: Observation, what: str, before: Sequence[str] = ()
     ) -> None:
         self.context = context
         self.expected = expected
@@ -29,7 +29,7 @@ class Nonconformance(AssertionError):
         return Nonconformance(self.context, self.expected, self.observed, self.what, before)
 
 
-def difference(context: Context, expected: Expected, observed: Observed, ruleset: Ruleset) -> str | None:
+def difference(context: Context, expected: Expectation, observed: Observation, ruleset: Ruleset) -> str | None:
     """What is wrong with what was observed, or None. A context that breaks an assumption does not count."""
     executed, error = observed.executed, observed.error
     if not expected.possible:

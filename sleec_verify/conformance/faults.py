@@ -9,14 +9,14 @@ from sleec_runtime.model import Context
 from sleec_verify.conformance.exhaustive import first_contexts, tried
 from sleec_verify.conformance.failure import Nonconformance
 from sleec_verify.conformance.feasible_contexts import Assumptions
-from sleec_verify.conformance.oracle import Expected
+from sleec_verify.conformance.oracle import Expectation
 from sleec_verify.conformance.subject import Bench, Running
 
 MOST = 8
 """Contexts a group of rules: one for each set of active clauses, which is one a clause where a trigger has one rule."""
 
 
-class Provoked(Exception):
+class InjectedFault(Exception):
     """What the test has an implementation raise."""
 
 
@@ -34,8 +34,8 @@ def raised_on(bench: Bench) -> int:
     return count
 
 
-def _provoke(running: Running, context: Context, expected: Expected, place: int) -> None:
-    provoked = Provoked(f"raised by the conformance test in {expected.due[place]}")
+def _provoke(running: Running, context: Context, expected: Expectation, place: int) -> None:
+    provoked = InjectedFault(f"raised by the conformance test in {expected.due[place]}")
     begun = 0
 
     def on_execution(name: str) -> None:
@@ -59,13 +59,13 @@ def _provoke(running: Running, context: Context, expected: Expected, place: int)
         raise failure.after([f"the same, where {expected.due[place]} raised an exception"])
 
 
-def _came_out(provoked: Provoked, error: BaseException | None) -> bool:
+def _came_out(provoked: InjectedFault, error: BaseException | None) -> bool:
     if isinstance(error, VariantsFailed):
         return any(each is provoked for _, each in error.errors)
     return error is provoked
 
 
-def _still_due(expected: Expected, place: int) -> tuple[str, ...]:
+def _still_due(expected: Expectation, place: int) -> tuple[str, ...]:
     """What is executed if the execution at `place` raises: the rest of its own rule is not, all other rules are."""
     due: list[str] = []
     position = 0

@@ -13,7 +13,7 @@ from hypothesis.stateful import RuleBasedStateMachine, rule
 from sleec_runtime.model import Context, Value
 from sleec_verify.conformance import strategies
 from sleec_verify.conformance.failure import Nonconformance, difference, situation_text
-from sleec_verify.conformance.subject import Bench, Observed
+from sleec_verify.conformance.subject import Bench, Observation
 from sleec_verify.results.phrases import value_text
 
 
@@ -82,7 +82,9 @@ def state_machine(bench: Bench, *, threads: bool = False) -> type[RuleBasedState
                 raise failure
             self._steps.append(f"trigger {', '.join(names)}")
 
-        def _compared(self, names: Sequence[str], context: Context, observed: Observed | None) -> list[Nonconformance]:
+        def _compared(
+            self, names: Sequence[str], context: Context, observed: Observation | None
+        ) -> list[Nonconformance]:
             """What is wrong with what was observed; if nothing was yet, the triggers occur now."""
             if observed is None:
                 observed = self._running.observe(names)
@@ -109,7 +111,7 @@ def state_machine(bench: Bench, *, threads: bool = False) -> type[RuleBasedState
         @rule(names=some, new=st.booleans())
         def trigger_elsewhere(self, names: Sequence[str], new: bool) -> None:
             """One or several triggers occur in another thread."""
-            observed: list[Observed] = []
+            observed: list[Observation] = []
             self._elsewhere(new, lambda: observed.append(self._running.observe(names)))
             self._steps.append(f"{_thread(new)}: trigger {', '.join(names)}")
             # The solver is this thread's.

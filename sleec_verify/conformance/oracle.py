@@ -16,7 +16,7 @@ _KEPT = 512
 
 
 @dataclass(frozen=True)
-class Active:
+class ActiveClause:
     """A clause that is active, with its layer (None is the rule's ε) and all that it obliges."""
 
     rule: str
@@ -26,14 +26,14 @@ class Active:
 
 
 @dataclass(frozen=True)
-class Expected:
+class Expectation:
     """What Definition 1 says of one context.
 
     `due` is in the order of the rules and of their clauses, a name once for each rule that asks for it. In a
     `conflict` nothing is due. `possible` is False where the context breaks an assumption: it does not count.
     """
 
-    active: tuple[Active, ...]
+    active: tuple[ActiveClause, ...]
     due: tuple[str, ...]
     prohibited: tuple[str, ...]
     conflict: bool
@@ -71,7 +71,7 @@ class Oracle:
         """The clashes that can come of these literals, with those that a situation makes by itself."""
         return list(self.clashes.among(frozenset(literals)))
 
-    def expected(self, context: Context) -> Expected:
+    def expected(self, context: Context) -> Expectation:
         """Definition 1 in `context`; two propagations."""
         return self._ready(context).expected(context)
 
@@ -99,12 +99,12 @@ class _Compiled:
         self._assumed = len(oracle.assumptions)
         self._definition = Definition1(oracle.ruleset, rules, [*oracle.assumptions, *labels], missing)
 
-    def expected(self, context: Context) -> Expected:
+    def expected(self, context: Context) -> Expectation:
         definition = self._definition
         true = definition.facts(context)
         truths = [true(literal) for literal in definition.formulas]
         active = tuple(
-            Active(rule.label, number, rule.layer(number), self._clauses[rule.label][number].obligations)
+            ActiveClause(rule.label, number, rule.layer(number), self._clauses[rule.label][number].obligations)
             for rule, guards in definition.guards
             if rule.label in self._clauses
             for number, guard in enumerate(guards)
@@ -113,11 +113,11 @@ class _Compiled:
         possible = all(truths[: self._assumed])
         entailed = definition.entailed(context)
         if entailed is None or self._clash(entailed, iter(truths[self._assumed :])):
-            return Expected(active, (), (), True, possible)
+            return Expectation(active, (), (), True, possible)
         due = tuple(o.name for one in active for o in one.obligations if not o.negated)
         if set(due) != {o.name for o in entailed if not o.negated}:
             raise AssertionError(f"the guards and Equation 1 disagree in {context}: a bug in sleec-verify")
-        return Expected(active, due, tuple(sorted(o.name for o in entailed if o.negated)), False, possible)
+        return Expectation(active, due, tuple(sorted(o.name for o in entailed if o.negated)), False, possible)
 
     def _clash(self, entailed: frozenset[Obligation], truths: Iterator[bool]) -> bool:
         """Whether some clash is all due here; `truths` are those of its labels and of the next ones', in order."""

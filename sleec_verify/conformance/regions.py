@@ -33,7 +33,7 @@ LIMIT = 2**16
 BESIDE = Fraction(1, 1000)
 
 
-class Given(NamedTuple):
+class ValueRegion(NamedTuple):
     """A condition, a measure or a trigger and its values, the plainest first: False, or None for "not reported". An
     `event` is a trigger that a condition names: True says that it occurs."""
 
@@ -109,7 +109,7 @@ def beside(measure: Measure, formulas: Sequence[Formula]) -> tuple[Rational, ...
 
 def givens(
     formulas: Sequence[Formula], measures: Mapping[str, Measure], unreported: bool = True, near: bool = False
-) -> list[Given]:
+) -> list[ValueRegion]:
     """What `formulas` speak of, with the values to try: triggers, conditions, then measures, each by name.
 
     Raises UnsupportedCalculations: no values of single measures tell apart what is calculated from several.
@@ -124,10 +124,10 @@ def givens(
     compared = sorted({name for comparison in _comparisons(formulas) for name in measures_of(comparison)})
     none: tuple[None, ...] = (None,) if unreported else ()
     return [
-        *(Given(name, (False, True), event=True) for kind, name in sorted(atoms) if kind == "trigger"),
-        *(Given(name, (False, True)) for kind, name in sorted(atoms) if kind == "condition"),
+        *(ValueRegion(name, (False, True), event=True) for kind, name in sorted(atoms) if kind == "trigger"),
+        *(ValueRegion(name, (False, True)) for kind, name in sorted(atoms) if kind == "condition"),
         *(
-            Given(
+            ValueRegion(
                 name, (*none, *values_of(measures[name], formulas), *(beside(measures[name], formulas) if near else ()))
             )
             for name in compared
@@ -135,12 +135,12 @@ def givens(
     ]
 
 
-def size(given: Sequence[Given]) -> int:
+def size(given: Sequence[ValueRegion]) -> int:
     """How many contexts there are over these values."""
     return prod(len(one.values) for one in given)
 
 
-def contexts(given: Sequence[Given], triggers: frozenset[str]) -> Iterator[Context]:
+def contexts(given: Sequence[ValueRegion], triggers: frozenset[str]) -> Iterator[Context]:
     """Every context over these values, those with the fewest facts first, so that what fails first is smallest."""
     places = sorted(
         product(*(range(len(one.values)) for one in given)), key=lambda chosen: len(chosen) - chosen.count(0)
@@ -149,7 +149,7 @@ def contexts(given: Sequence[Given], triggers: frozenset[str]) -> Iterator[Conte
         yield context_of(given, [one.values[place] for one, place in zip(given, chosen)], triggers)
 
 
-def context_of(given: Sequence[Given], chosen: Sequence[Value | None], triggers: frozenset[str]) -> Context:
+def context_of(given: Sequence[ValueRegion], chosen: Sequence[Value | None], triggers: frozenset[str]) -> Context:
     """The context of the values that are `chosen`, one of each, in which `triggers` occur in any case."""
     pairs = list(zip(given, chosen))
     occurring = (one.name for one, value in pairs if one.event and value)

@@ -46,7 +46,7 @@ class NotASubject(SleecError):
 
 
 @dataclass(frozen=True)
-class Observed:
+class Observation:
     """What one dispatch did: what was executed, in order, and what it raised."""
 
     executed: tuple[str, ...]
@@ -142,7 +142,7 @@ class Running:
         """The context of now, with `triggers` occurring in it."""
         return Context(frozenset(triggers), dict(self.known))
 
-    def observe(self, triggers: Iterable[str], on_execution: Callable[[str], object] | None = None) -> Observed:
+    def observe(self, triggers: Iterable[str], on_execution: Callable[[str], object] | None = None) -> Observation:
         """What the subject does if these occur now. `on_execution` is called as each obligation begins."""
         names = tuple(sorted(triggers))
         arguments = self._arguments(names) if callable(self._arguments) else self._arguments
@@ -166,7 +166,7 @@ class Running:
                 self._dispatch(names, arguments)
             except Exception as raised:  # noqa: BLE001 - part of what was observed
                 error = raised
-        return Observed(tuple(seen.executed), tuple(seen.failed), error)
+        return Observation(tuple(seen.executed), tuple(seen.failed), error)
 
     def _dispatch(self, names: tuple[str, ...], arguments: Sequence[object]) -> None:
         try:

@@ -92,7 +92,7 @@ PARTS: dict[str, Part] = {
 """What the ready test consists of, in the order in which it runs: what is quick, and finds the smallest, first."""
 
 
-class Unsteady(SleecError):
+class NondeterministicSubject(SleecError):
     """A subject whose answers change from one run to the next, so that no smallest failure can be found."""
 
 
@@ -168,7 +168,9 @@ def _repeatable() -> Iterator[None]:
         for error in getattr(flaky, "exceptions", ()):
             if isinstance(error, Nonconformance):
                 raise error.after([*error.before, "(not every time: repeated, it did well)"]) from None
-        raise Unsteady("the robot does not always do the same in the same situation", str(flaky)) from None
+        raise NondeterministicSubject(
+            "the robot does not always do the same in the same situation", str(flaky)
+        ) from None
 
 
 def _chosen(parts: Iterable[str] | None) -> list[str]:

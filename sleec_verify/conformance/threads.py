@@ -11,12 +11,12 @@ from itertools import islice
 
 from sleec_runtime.model import Context
 from sleec_verify.conformance.atomicity import justified_by_one
-from sleec_verify.conformance.distinguishing_pairs import Pair, pairs
+from sleec_verify.conformance.distinguishing_pairs import ContextPair, pairs
 from sleec_verify.conformance.exhaustive import SAMPLED, groups, situations, tried
 from sleec_verify.conformance.failure import Nonconformance
 from sleec_verify.conformance.feasible_contexts import Assumptions
-from sleec_verify.conformance.oracle import Expected, Oracle
-from sleec_verify.conformance.subject import Bench, Observed, Running
+from sleec_verify.conformance.oracle import Expectation, Oracle
+from sleec_verify.conformance.subject import Bench, Observation, Running
 
 THREADS = 4
 DISPATCHES = 300
@@ -43,7 +43,7 @@ def in_threads(bench: Bench) -> int:
     return clauses + len(found) * THREADS * DISPATCHES
 
 
-def each_clause(oracle: Oracle, assumptions: Assumptions) -> Iterator[tuple[Context, Expected]]:
+def each_clause(oracle: Oracle, assumptions: Assumptions) -> Iterator[tuple[Context, Expectation]]:
     """A situation for each clause of each rule in which it is active, and no more of them than that takes."""
     for group in groups(oracle, unreported=False):
         clauses = {(rule.label, number) for rule in group.rules for number, _ in enumerate(rule.clauses())}
@@ -56,7 +56,7 @@ def each_clause(oracle: Oracle, assumptions: Assumptions) -> Iterator[tuple[Cont
                 break
 
 
-def _handed_over(running: Running, context: Context, expected: Expected) -> None:
+def _handed_over(running: Running, context: Context, expected: Expectation) -> None:
     """What one thread reports, another acts upon. `expected` is known beforehand: the solver is this thread's."""
     running.enter(context)
     failures: list[Nonconformance] = []
@@ -71,8 +71,8 @@ def _handed_over(running: Running, context: Context, expected: Expected) -> None
         raise failure
 
 
-def _fought_over(running: Running, pair: Pair) -> None:
-    unjustified: list[Observed] = []
+def _fought_over(running: Running, pair: ContextPair) -> None:
+    unjustified: list[Observation] = []
     finished = threading.Event()
     running.enter(pair.before)
 

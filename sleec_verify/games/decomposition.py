@@ -18,7 +18,7 @@ from sleec_verify.traces.index import TraceIndex
 
 
 @dataclass(frozen=True)
-class Part:
+class GamePart:
     """Rules and laws that have nothing to do with the others of their ruleset, the events that they speak of, and by
     the labels of the rules what they call for and forbid."""
 
@@ -68,7 +68,7 @@ def _endless(index: TraceIndex, windows: Mapping[str, list[Occurs]]) -> Iterator
                     yield rule.trigger
 
 
-def parts(index: TraceIndex) -> Iterator[Part]:
+def parts(index: TraceIndex) -> Iterator[GamePart]:
     """The parts of a ruleset, in the order of their first rules and laws. O(size of the rules).
 
     Rules that share an event belong together, and so do those that a law ties. What a law says of measures only holds
@@ -115,7 +115,7 @@ def parts(index: TraceIndex) -> Iterator[Part]:
         facts.update(fact for law in own for fact in _facts(formulas_of_relation(law)))
         joined = [law for law, about in _reached(of_measures, facts)]
         own_windows = {rule.label: windows[rule.label] for rule in rules}
-        yield Part(tuple(rules), (*own, *joined), tuple(sorted(events_here)), own_windows)
+        yield GamePart(tuple(rules), (*own, *joined), tuple(sorted(events_here)), own_windows)
 
 
 def _reached(laws: list[tuple[Relation, set[str]]], facts: set[str]) -> list[tuple[Relation, set[str]]]:

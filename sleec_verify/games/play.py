@@ -20,9 +20,9 @@ from sleec_runtime.model import (
 )
 from sleec_verify.encoding.relations import Relation, at_one_instant, events_of, formulas_of_relation
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
-from sleec_verify.games.decomposition import Part
+from sleec_verify.games.decomposition import GamePart
 from sleec_verify.games.players import is_environments
-from sleec_verify.games.time_grid import Grid
+from sleec_verify.games.time_grid import TimeGrid
 from sleec_verify.games.values import Scales, Values
 from sleec_verify.results.strategy import Act
 from sleec_verify.traces.demands import Demand, Every, Occurs, seconds
@@ -34,7 +34,13 @@ class _Instant:
     """One instant: its time among the slots of the grid, its events, its measures."""
 
     def __init__(
-        self, circuit: Circuit, grid: Grid, scales: Scales, events: Iterable[str], always: Iterable[str], earlier: int
+        self,
+        circuit: Circuit,
+        grid: TimeGrid,
+        scales: Scales,
+        events: Iterable[str],
+        always: Iterable[str],
+        earlier: int,
     ) -> None:
         """`events` are those that may occur, `always` those that do; `earlier` is how many instants there are before
         this one, at most."""
@@ -84,7 +90,7 @@ class Play:
     def __init__(
         self,
         index: TraceIndex,
-        part: Part,
+        part: GamePart,
         steps: int,
         spare: int,
         never: frozenset[str] = frozenset(),
@@ -103,7 +109,7 @@ class Play:
         formulas = [formula for rule in part.rules for formula in formulas_of(rule)]
         formulas += [formula for law in part.laws for formula in formulas_of_relation(law)]
         scales = Scales(index.ruleset.measures, formulas)
-        self.grid = Grid(lengths(part), steps * (1 + spare), (1 + spare) * 2 ** (steps - 1))
+        self.grid = TimeGrid(lengths(part), steps * (1 + spare), (1 + spare) * 2 ** (steps - 1))
         tied = {name for law in part.laws for name in events_of(law)}
         tied |= {name for rule in part.rules for name in named_atoms(rule)}
         answers = {w.event for rule in part.rules for w in part.windows[rule.label]}
@@ -331,7 +337,7 @@ class Play:
         return circuit.implies(begins, circuit.every(kept))
 
 
-def lengths(part: Part) -> set[int]:
+def lengths(part: GamePart) -> set[int]:
     """The lengths, in seconds, that differences of times are compared with. Raises Undecided where a measure says
     one."""
     found = {

@@ -14,7 +14,7 @@ from itertools import islice
 from sleec_runtime.model import EventRelation, Lasting, Rule, Span
 from sleec_verify.encoding.relations import Relation
 from sleec_verify.encoding.solver import Undecided
-from sleec_verify.games.decomposition import Part, parts
+from sleec_verify.games.decomposition import GamePart, parts
 from sleec_verify.games.play import Play
 from sleec_verify.games.qbf import Move, winning
 from sleec_verify.results.strategy import Act, Branch, Strategy
@@ -53,7 +53,7 @@ def losses(index: TraceIndex, steps: int) -> Iterator[tuple[Sequence[Rule], Call
 class _Contest:
     """A part of the rules, and the games about it."""
 
-    def __init__(self, index: TraceIndex, part: Part) -> None:
+    def __init__(self, index: TraceIndex, part: GamePart) -> None:
         self.index = index
         self.part = part
 
@@ -101,7 +101,7 @@ class _Contest:
 class _Costs:
     """How many instants may come to be called for, where some events never occur."""
 
-    def __init__(self, index: TraceIndex, part: Part, never: frozenset[str]) -> None:
+    def __init__(self, index: TraceIndex, part: GamePart, never: frozenset[str]) -> None:
         self._index = index
         self._part = part
         self._never = never
@@ -155,7 +155,7 @@ def _loss(contest: _Contest, steps: int) -> Loss | None:
         if lost is not None:
             few, spare = lost
             place = [*few.part.rules, *few.part.laws][0].span
-            return Loss(few.part.rules, place, count, _Telling(few, count, spare).strategy())
+            return Loss(few.part.rules, place, count, StrategySearch(few, count, spare).strategy())
     return None
 
 
@@ -210,7 +210,7 @@ def _fewest(contest: _Contest, steps: int, spare: int) -> _Contest:
     return contest.only(kept)
 
 
-class _Telling:
+class StrategySearch:
     """The strategy of the environment in a game that it wins, as simple as can be found."""
 
     def __init__(self, contest: _Contest, steps: int, spare: int) -> None:

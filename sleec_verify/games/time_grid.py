@@ -17,7 +17,7 @@ MOST_SLOTS = 480
 """Times that are told apart before a question is given up."""
 
 
-class Grid:
+class TimeGrid:
     """The times, in seconds, that the instants of one play are chosen from."""
 
     def __init__(self, lengths: Iterable[int], instants: int, sums: int) -> None:

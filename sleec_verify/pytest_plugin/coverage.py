@@ -35,7 +35,7 @@ def not_counted() -> Iterator[None]:
         _paused -= 1
 
 
-class Covered:
+class RuleCoverage:
     """What was seen of one ruleset."""
 
     def __init__(self, ruleset: Ruleset) -> None:
@@ -43,7 +43,7 @@ class Covered:
         self.active: set[ClauseRef] = set()
         self.vectors: dict[str, dict[Vector, int | None]] = {}
 
-    def add(self, other: Covered) -> None:
+    def add(self, other: RuleCoverage) -> None:
         """Counts also what was seen elsewhere of the same ruleset."""
         self.active |= other.active
         for label, seen in other.vectors.items():
@@ -67,7 +67,7 @@ class ClauseCoverage:
 
     def __init__(self, mcdc: bool = False) -> None:
         self.mcdc = mcdc
-        self._by_identity: dict[int, Covered] = {}
+        self._by_identity: dict[int, RuleCoverage] = {}
         # An identity is worth something only as long as its object lives.
         self._alive: list[Ruleset] = []
         self._undo: list[Callable[[], None]] = []
@@ -92,17 +92,17 @@ class ClauseCoverage:
             undo()
         self._undo.clear()
 
-    def about(self, ruleset: Ruleset) -> Covered:
+    def about(self, ruleset: Ruleset) -> RuleCoverage:
         """What is known of `ruleset`, or of one that is read from the same file and says the same."""
         known = self._by_identity.get(id(ruleset))
         if known is None:
             same = (c for c in self._by_identity.values() if _same(c.ruleset, ruleset))
-            known = next(same, None) or Covered(ruleset)
+            known = next(same, None) or RuleCoverage(ruleset)
             self._by_identity[id(ruleset)] = known
             self._alive.append(ruleset)
         return known
 
-    def all(self) -> list[Covered]:
+    def all(self) -> list[RuleCoverage]:
         """Every ruleset that was seen, once, by its path."""
         return sorted({id(c): c for c in self._by_identity.values()}.values(), key=lambda c: c.ruleset.source.path)
 

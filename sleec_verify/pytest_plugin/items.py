@@ -27,13 +27,13 @@ from sleec_verify.report.palette import PLAIN
 from sleec_verify.results.finding import SEVERITIES, Finding, Unknown
 
 
-class Wrong(AssertionError):
+class CaseFailure(AssertionError):
     """What an item found, already in words."""
 
 
 class _Item(pytest.Item):
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        if isinstance(excinfo.value, (Wrong, Nonconformance, SleecError)):
+        if isinstance(excinfo.value, (CaseFailure, Nonconformance, SleecError)):
             return str(excinfo.value)
         return super().repr_failure(excinfo, style)
 
@@ -70,11 +70,11 @@ class CheckItem(_Item):
     def runtest(self) -> None:
         (result,) = run_checks(self.ruleset, [self.check], settings.domain(self.config, self.ruleset))
         if isinstance(result.verdict, Unknown):
-            raise Wrong(f"unknown: {result.verdict.why}")
+            raise CaseFailure(f"unknown: {result.verdict.why}")
         level = SEVERITIES.index(settings.fail_level(self.config))
         grave = [finding for finding in result.findings if SEVERITIES.index(finding.severity) <= level]
         if grave:
-            raise Wrong(self._in_words(grave))
+            raise CaseFailure(self._in_words(grave))
         if result.findings:
             self.add_report_section("call", "sleec", self._in_words(result.findings))
 
@@ -144,10 +144,10 @@ class CaseItem(_Item):
         expected = bench.oracle().expected(context)
         where = situation_text(context)
         if not expected.possible:
-            raise Wrong(f"{where}: this situation breaks an ASSUME, so nothing is said of it")
+            raise CaseFailure(f"{where}: this situation breaks an ASSUME, so nothing is said of it")
         if expected.conflict != case.conflict:
             found = "the rules conflict" if expected.conflict else "the rules do not conflict"
-            raise Wrong(f"{where}: {found}, and the case says otherwise")
+            raise CaseFailure(f"{where}: {found}, and the case says otherwise")
         self._same(where, "obligations", case.obligations, expected.due)
         if case.prohibitions is not None:
             self._same(where, "prohibitions", case.prohibitions, expected.prohibited)
@@ -155,7 +155,7 @@ class CaseItem(_Item):
 
     def _same(self, where: str, what: str, written: tuple[str, ...], found: tuple[str, ...]) -> None:
         if set(written) != set(found):
-            raise Wrong(
+            raise CaseFailure(
                 f"{where}:\n  {what} of the case:  {', '.join(written) or 'none'}\n"
                 f"  {what} by the rules: {', '.join(dict.fromkeys(found)) or 'none'}"
             )

@@ -7,14 +7,14 @@ from collections.abc import Iterator
 from sleec_runtime.language import print_formula
 from sleec_verify.conformance.cases.goals import conditions_of
 from sleec_verify.conformance.cases.reachability import deciding_conditions, reachable_clauses
-from sleec_verify.pytest_plugin.coverage import Covered
+from sleec_verify.pytest_plugin.coverage import RuleCoverage
 from sleec_verify.results.finding import ClauseRef
 
 
 class Summary:
     """Of one ruleset: how many of its reachable clauses were active, and with `mcdc` how many conditions decided."""
 
-    def __init__(self, covered: Covered, mcdc: bool) -> None:
+    def __init__(self, covered: RuleCoverage, mcdc: bool) -> None:
         ruleset = covered.ruleset
         every = [ClauseRef(rule.label, n) for rule in ruleset.rules for n, _ in enumerate(rule.clauses())]
         reachable = reachable_clauses(ruleset)

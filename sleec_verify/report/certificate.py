@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from sleec_runtime.errors import CertificateRefused
     from sleec_runtime.model import Ruleset
     from sleec_verify.certificates.checker import Checker
-    from sleec_verify.certificates.manifest import Shown
-    from sleec_verify.certificates.verdict_binding import Tied
+    from sleec_verify.certificates.manifest import Evidence
+    from sleec_verify.certificates.verdict_binding import VerdictBinding
     from sleec_verify.results.finding import Verdict
 
 SHOWN_BY = {
@@ -33,9 +33,9 @@ def told(
     ruleset: Ruleset,
     folder: str,
     manifest: Mapping[str, Any],
-    shown: Sequence[Shown],
+    shown: Sequence[Evidence],
     judge: Checker | None,
-    tied: Sequence[Tied] = (),
+    tied: Sequence[VerdictBinding] = (),
 ) -> Iterator[str]:
     """That a certificate that says `manifest` was written, or (`judge`) that it holds, and how its verdicts are tied to
     the rules."""
@@ -50,9 +50,9 @@ def _in_words(
     ruleset: Ruleset,
     folder: str,
     manifest: Mapping[str, Any],
-    shown: Sequence[Shown],
+    shown: Sequence[Evidence],
     judge: Checker | None,
-    tied: Sequence[Tied],
+    tied: Sequence[VerdictBinding],
 ) -> Iterator[str]:
     made = "a certificate" if judge is None else "the certificate holds"
     yield f"{folder}: {made} of {ruleset.source.path} ({covered(manifest)})"
@@ -88,7 +88,7 @@ def covered(manifest: Mapping[str, Any]) -> str:
     return "; ".join(words)
 
 
-def _tied(tied: Tied, verdict: Verdict) -> str:
+def _tied(tied: VerdictBinding, verdict: Verdict) -> str:
     if not tied.proved:
         return f"{tied.check}: that the formula is that of the rules is not proved: {tied.reason}"
     if isinstance(verdict, Refuted):
@@ -100,7 +100,7 @@ def _tied(tied: Tied, verdict: Verdict) -> str:
     return f"{tied.check}: {what} of the rules as they were read, by what is extracted from the theory in Coq"
 
 
-def _shown_by(one: Shown) -> str:
+def _shown_by(one: Evidence) -> str:
     if one.evidence != "proof":
         return SHOWN_BY[one.evidence]
     return f"{counted(one.refuted, 'question')} refuted: {', '.join(one.files)}"
@@ -110,9 +110,9 @@ def _json(
     ruleset: Ruleset,
     folder: str,
     manifest: Mapping[str, Any],
-    shown: Sequence[Shown],
+    shown: Sequence[Evidence],
     judge: Checker | None,
-    tied: Sequence[Tied],
+    tied: Sequence[VerdictBinding],
 ) -> Json:
     checks: list[Json] = [
         {

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify.report.escape import as_text
-from sleec_verify.report.outcome import Outcome, Unusable, checked, in_short
+from sleec_verify.report.outcome import Outcome, UnusableInput, checked, in_short
 from sleec_verify.results.phrases import error_summary, in_domains, listed
 
 if TYPE_CHECKING:
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """A line for each finding and each check without a verdict, in the order of the rulesets and their texts."""
     for outcome in outcomes:
-        if isinstance(outcome, Unusable):
+        if isinstance(outcome, UnusableInput):
             yield f"{outcome.path}: {palette('error', 'unusable')}: {error_summary(outcome.error)}"
             continue
         rules = outcome.ruleset.source
-        for finding in outcome.told:
+        for finding in outcome.deduplicated:
             source = finding.source or rules
             place = source.place(finding.span)
             label = palette(finding.severity, f"{finding.severity}[{finding.code}]")

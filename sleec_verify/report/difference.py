@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from sleec_verify.report import difference_concise, difference_full, difference_json
 
 if TYPE_CHECKING:
-    from sleec_verify.report.difference_report import Report
+    from sleec_verify.report.difference_report import DifferenceReport
     from sleec_verify.report.palette import Palette
 
-RENDERERS: Mapping[str, Callable[[Report, Palette], Iterator[str]]] = {
+RENDERERS: Mapping[str, Callable[[DifferenceReport, Palette], Iterator[str]]] = {
     "full": difference_full.render,
     "concise": difference_concise.render,
     "json": difference_json.render,

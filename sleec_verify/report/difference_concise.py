@@ -15,13 +15,13 @@ if TYPE_CHECKING:
         Change,
         ConflictChange,
     )
-    from sleec_verify.report.difference_report import Report
+    from sleec_verify.report.difference_report import DifferenceReport
     from sleec_verify.report.palette import Palette
     from sleec_verify.results.finding import Witness
 
 
 @as_text
-def render(report: Report, palette: Palette) -> Iterator[str]:
+def render(report: DifferenceReport, palette: Palette) -> Iterator[str]:
     from sleec_verify.changes.assertions.assertion import Violation
 
     for found in report.differences:

@@ -28,16 +28,16 @@ if TYPE_CHECKING:
     from sleec_verify.changes.compare.result import (
         Change,
         ConflictChange,
-        Deciding,
+        DecidingClause,
         Difference,
         SituationChange,
     )
-    from sleec_verify.report.difference_report import Report
+    from sleec_verify.report.difference_report import DifferenceReport
     from sleec_verify.report.palette import Palette
 
 
 @as_text
-def render(report: Report, palette: Palette) -> Iterator[str]:
+def render(report: DifferenceReport, palette: Palette) -> Iterator[str]:
     parts = [list(on_difference(found, palette)) for found in report.differences]
     if report.asked:
         parts.append(list(on_assertions(report.asked, palette)))
@@ -81,7 +81,7 @@ def _change(found: Difference, change: Change, palette: Palette) -> Iterator[str
 
 
 def _before_and_after(
-    found: Difference, before: Sequence[Deciding], after: Sequence[Deciding], palette: Palette
+    found: Difference, before: Sequence[DecidingClause], after: Sequence[DecidingClause], palette: Palette
 ) -> Iterator[str]:
     for word, deciding, ruleset in (("before", before, found.old), ("after", after, found.new)):
         lines = [
@@ -92,7 +92,7 @@ def _before_and_after(
             yield f"      {palette('faint', f'{word if at == 0 else str():7}')} {line}"
 
 
-def _decisions(deciding: Sequence[Deciding], ruleset: Ruleset) -> list[str]:
+def _decisions(deciding: Sequence[DecidingClause], ruleset: Ruleset) -> list[str]:
     """What each clause obliges, and where it stands."""
     source = ruleset.source
     lines = [f"{obligation_text(one)}, by {clause_text(one)} ({place_text(source, one.span)})" for one in deciding]
@@ -168,7 +168,7 @@ def on_assertions(asked: Sequence[AssertionResult], palette: Palette) -> Iterato
             yield f"{palette('unknown', 'unknown')}: {assertion.text} ({path}): {answer}"
 
 
-def _in_all(report: Report, palette: Palette) -> str:
+def _in_all(report: DifferenceReport, palette: Palette) -> str:
     word = palette(RELATION_ROLES[report.relation], report.relation)
     number = len(report.compared) + report.unchanged
     unusable = sum(bool(one.errors) for one in report.compared)

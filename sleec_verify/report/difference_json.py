@@ -17,17 +17,17 @@ if TYPE_CHECKING:
     from sleec_verify.changes.compare.result import (
         Change,
         ConflictChange,
-        Deciding,
+        DecidingClause,
         Difference,
         Extent,
         SituationChange,
     )
-    from sleec_verify.report.difference_report import Compared, Report
+    from sleec_verify.report.difference_report import DifferenceReport, RulesetDifference
     from sleec_verify.report.palette import Palette
     from sleec_verify.results.json_values import Json
 
 
-def render(report: Report, palette: Palette) -> Iterator[str]:
+def render(report: DifferenceReport, palette: Palette) -> Iterator[str]:
     """Everything that was asked, as one object."""
     del palette  # a program reads this
     found = report.differences
@@ -90,7 +90,7 @@ def _cause(found: Difference, one: Change | ConflictChange) -> dict[str, Json]:
     }
 
 
-def _deciding_json(deciding: Sequence[Deciding], ruleset: Ruleset) -> Json:
+def _deciding_json(deciding: Sequence[DecidingClause], ruleset: Ruleset) -> Json:
     return [
         {
             "rule": one.rule,
@@ -123,7 +123,7 @@ def _situation_json(found: Difference, one: SituationChange) -> Json:
     }
 
 
-def _compared_json(one: Compared) -> Json:
+def _compared_json(one: RulesetDifference) -> Json:
     if one.difference is None:
         return {"path": one.path, "errors": [error_json(error) for error in one.errors]}
     found = one.difference

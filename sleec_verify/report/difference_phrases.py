@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from sleec_verify.changes.compare.result import (
         Change,
         ConflictChange,
-        Deciding,
+        DecidingClause,
         Difference,
         Extent,
         Relation,
@@ -127,11 +127,11 @@ def contradiction_text(conflict: ConflictChange) -> str:
     return f"{listed(str(o) for o in conflict.literals)} are {now} due together, which cannot be"
 
 
-def obligation_text(one: Deciding) -> str:
+def obligation_text(one: DecidingClause) -> str:
     return " AND ".join(map(in_short, one.obligations)) or "nothing"
 
 
-def clause_text(one: Deciding) -> str:
+def clause_text(one: DecidingClause) -> str:
     return f"hedge {one.clause} of {one.rule}" if one.clause else f"the default of {one.rule}"
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     )
 
 
-class Compared(NamedTuple):
+class RulesetDifference(NamedTuple):
     """One ruleset on both sides: what differs, or what is wrong with a side."""
 
     path: str
@@ -23,10 +23,10 @@ class Compared(NamedTuple):
     errors: tuple[SleecError, ...] = ()
 
 
-class Report(NamedTuple):
+class DifferenceReport(NamedTuple):
     """All that was asked: each ruleset, how many texts are the same on both sides, and the assertions."""
 
-    compared: tuple[Compared, ...]
+    compared: tuple[RulesetDifference, ...]
     unchanged: int = 0
     asked: tuple[AssertionResult, ...] = ()
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.excerpt import Mark, excerpt
-from sleec_verify.report.outcome import Checked, Outcome, Unusable, tally, told_of
+from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput, deduplicated_findings, tally
 from sleec_verify.results.finding import SEVERITIES
 from sleec_verify.results.phrases import counted, error_summary, listed, witness_text
 
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """The findings of each ruleset and a line on it; at the end, if there are several, a line on all."""
     for outcome in outcomes:
-        if isinstance(outcome, Unusable):
+        if isinstance(outcome, UnusableInput):
             yield f"{outcome.path}: {palette('error', 'unusable')}: {error_summary(outcome.error)}"
             continue
         source = outcome.ruleset.source
-        for finding in outcome.told:
+        for finding in outcome.deduplicated:
             yield from finding_lines(finding, finding.source or source, palette)
             yield ""
         for name, why in outcome.unlisted:
@@ -36,7 +36,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             yield from (f"{source.path}: {palette('unknown', f'unknown[{name}]')} {why}", "")
         yield _on(outcome, palette)
     if len(outcomes) > 1:
-        unusable = sum(isinstance(outcome, Unusable) for outcome in outcomes)
+        unusable = sum(isinstance(outcome, UnusableInput) for outcome in outcomes)
         more = f", {unusable} unusable" if unusable else ""
         yield f"{counted(len(outcomes), 'ruleset')}: {_counts(outcomes)}{more}"
 
@@ -91,7 +91,7 @@ def error_lines(error: SleecError, palette: Palette) -> Iterator[str]:
         yield ""
 
 
-def _on(outcome: Checked, palette: Palette) -> str:
+def _on(outcome: CheckedRuleset, palette: Palette) -> str:
     ruleset = outcome.ruleset
     size = f"{counted(len(ruleset.rules), 'rule')}, {counted(outcome.hedges, 'hedge')}"
     if outcome.undecided:
@@ -107,9 +107,9 @@ def _on(outcome: Checked, palette: Palette) -> str:
 _DUE: Mapping[Untimed, str] = {"at": "at once", "eventually": "eventually"}
 
 
-def _gravest(outcome: Checked) -> str:
+def _gravest(outcome: CheckedRuleset) -> str:
     return min((f.severity for f in outcome.findings), key=SEVERITIES.index)
 
 
 def _counts(outcomes: Sequence[Outcome]) -> str:
-    return ", ".join(counted(number, severity) for severity, number in tally(told_of(outcomes)).items())
+    return ", ".join(counted(number, severity) for severity, number in tally(deduplicated_findings(outcomes)).items())

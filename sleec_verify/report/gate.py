@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 from sleec_runtime.support.messages import escaped
 from sleec_verify.report.difference_phrases import WORDS, change_in_words, conflict_in_words, extent_text, witness_text
 from sleec_verify.report.escape import as_line, as_text
-from sleec_verify.results.deduplication import told_once
+from sleec_verify.results.deduplication import deduplicate
 from sleec_verify.results.phrases import counted, error_summary, in_domains, in_short, listed
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
-    from sleec_verify.changes.compare import Change, ConflictChange, Deciding, Difference
-    from sleec_verify.changes.gate.result import Block, Examined, Gated, Status
+    from sleec_verify.changes.compare import Change, ConflictChange, DecidingClause, Difference
+    from sleec_verify.changes.gate.result import Block, GateResult, RulesetExamination, Status
     from sleec_verify.report.palette import Palette
 
 MARK = "<!-- written by sleec-verify gate -->"
@@ -32,7 +32,7 @@ VERDICTS: Mapping[Status, str] = {
 _ROLES: Mapping[Status, str] = {"passed": "good", "blocked": "error", "unknown": "unknown", "unusable": "error"}
 
 
-def render(found: Gated, form: str, palette: Palette) -> Iterator[str]:
+def render(found: GateResult, form: str, palette: Palette) -> Iterator[str]:
     """All that was found, in one of the formats of `check`."""
     if form == "full":
         yield from _full(found, palette)
@@ -49,7 +49,7 @@ def render(found: Gated, form: str, palette: Palette) -> Iterator[str]:
             yield f"{as_line(verdict(found, palette))}\n"
 
 
-def verdict(found: Gated, palette: Palette) -> str:
+def verdict(found: GateResult, palette: Palette) -> str:
     """The line on all."""
     return f"{palette(_ROLES[found.status], VERDICTS[found.status])}: {_in_short(found)}"
 
@@ -58,7 +58,7 @@ def verdict(found: Gated, palette: Palette) -> str:
 
 
 @as_text
-def _full(found: Gated, palette: Palette) -> Iterator[str]:
+def _full(found: GateResult, palette: Palette) -> Iterator[str]:
     from sleec_verify.report.difference_full import on_assertions, on_difference
     from sleec_verify.report.full import finding_lines
 
@@ -66,7 +66,7 @@ def _full(found: Gated, palette: Palette) -> Iterator[str]:
         if one.difference is not None:
             yield from on_difference(one.difference, palette)
             yield ""
-        for finding in told_once(one.findings):
+        for finding in deduplicate(one.findings):
             assert one.ruleset is not None, "only what was read has findings"
             source = finding.source or one.ruleset.source
             yield from finding_lines(finding, source, palette)
@@ -89,7 +89,7 @@ def _full(found: Gated, palette: Palette) -> Iterator[str]:
     yield verdict(found, palette)
 
 
-def _errors(found: Gated) -> list[tuple[str, SleecError]]:
+def _errors(found: GateResult) -> list[tuple[str, SleecError]]:
     """What could not be used, with its path."""
     errors = [(one.path, error) for one in found.examined for error in one.errors]
     return [*errors, *((one.target.code, one.error) for one in found.conformed if one.error is not None)]
@@ -103,7 +103,7 @@ def _what(block: Block) -> str:
     return block.what if block.finding is None else f"{block.what}{in_domains(block.finding.domains)}"
 
 
-def _set_aside(one: Examined, palette: Palette) -> Iterator[str]:
+def _set_aside(one: RulesetExamination, palette: Palette) -> Iterator[str]:
     for finding, suppression in one.allowed:
         message = f"{finding.message}{in_domains(finding.domains)}"
         what = f"{finding.code} {message}, because {suppression.reason}"
@@ -119,7 +119,7 @@ def _set_aside(one: Examined, palette: Palette) -> Iterator[str]:
         yield f"{one.path}: {palette('warning', 'unused suppression')}: {what}"
 
 
-def _in_short(found: Gated) -> str:
+def _in_short(found: GateResult) -> str:
     parts = [f"{counted(len(found.examined), 'ruleset')} examined, {found.unchanged} the same as in {found.base}"]
     if found.blocks:
         parts.append(f"{counted(len(found.blocks), 'reason')} to block")
@@ -133,12 +133,12 @@ def _in_short(found: Gated) -> str:
 # For a pull request ---------------------------------------------------------------------------------------
 
 
-def markdown(found: Gated) -> str:
+def markdown(found: GateResult) -> str:
     """The summary. Names and messages are escaped, so that none of them is taken for Markdown or HTML."""
     return "\n".join(_markdown(found)) + "\n"
 
 
-def _markdown(found: Gated) -> Iterator[str]:
+def _markdown(found: GateResult) -> Iterator[str]:
     yield MARK
     yield f"## SLEEC rules: {VERDICTS[found.status]}"
     yield ""
@@ -176,11 +176,11 @@ def _cut(lines: Sequence[str], noun: str, last: str = "- {}") -> Iterator[str]:
         yield last.format(f"… and {counted(len(lines) - MOST, f'more {noun}')}: see the log")
 
 
-def _row(one: Examined) -> str:
+def _row(one: RulesetExamination) -> str:
     change = "cannot be read"
     if one.difference is not None:
         change = f"{one.difference.relation}: {WORDS[one.difference.relation]}"
-    counts = [counted(len(told_once(one.findings)), "finding")]
+    counts = [counted(len(deduplicate(one.findings)), "finding")]
     counts += [f"{len(one.allowed)} allowed"] if one.allowed else []
     counts += [f"{len(one.known)} in the baseline"] if one.known else []
     counts += [f"{counted(len(one.unused), 'unused suppression')}"] if one.unused else []
@@ -206,7 +206,7 @@ def _change(head: str, one: Change | ConflictChange) -> str:
     return "\n".join(lines)
 
 
-def _deciding(deciding: tuple[Deciding, ...]) -> str:
+def _deciding(deciding: tuple[DecidingClause, ...]) -> str:
     said = [f"{_plain(', '.join(map(in_short, one.obligations)) or 'nothing')} ({_code(one.rule)})" for one in deciding]
     return listed(said) if said else "nothing"
 

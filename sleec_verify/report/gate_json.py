@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from sleec_runtime.certificate.manifest import Manifest
     from sleec_runtime.model import Source
     from sleec_verify.changes.assertions.assertion import AssertionResult
-    from sleec_verify.changes.gate.result import Block, Conformed, Examined, Gated
+    from sleec_verify.changes.gate.result import Block, GateResult, RulesetExamination, TargetConformance
     from sleec_verify.report.palette import Palette
     from sleec_verify.results.json_values import Json
 
 
-def render(found: Gated, palette: Palette) -> Iterator[str]:
+def render(found: GateResult, palette: Palette) -> Iterator[str]:
     """Everything that was found, as one object."""
     del palette  # a program reads this
     sources = {path: ruleset.source for _, ruleset, _ in found.asked for path in [found.paths[ruleset.source.path]]}
@@ -55,12 +55,12 @@ def _block(block: Block, sources: Mapping[str, Source]) -> dict[str, Json]:
     }
 
 
-def _change(change: Block, found: Gated, sources: Mapping[str, Source]) -> Json:
+def _change(change: Block, found: GateResult, sources: Mapping[str, Source]) -> Json:
     shown = _block(change, sources)
     return {key: shown[key] for key in ("policy", "where", "what", "span")} | {"blocks": change in found.blocks}
 
 
-def _examined(one: Examined) -> Json:
+def _examined(one: RulesetExamination) -> Json:
     ruleset = one.ruleset
     reached = one.coverage
     return {
@@ -93,7 +93,7 @@ def _certificate(found: Manifest | str | None) -> Json:
     return stated(found.whole)
 
 
-def _conformed(one: Conformed) -> Json:
+def _conformed(one: TargetConformance) -> Json:
     findings = [
         finding_json(finding, finding.source or one.ruleset.source)
         for finding in one.findings
@@ -110,7 +110,7 @@ def _conformed(one: Conformed) -> Json:
     }
 
 
-def _verdict(one: Conformed) -> str:
+def _verdict(one: TargetConformance) -> str:
     assert one.result is not None, "without a result there is no verdict"
     return VERDICTS[type(one.result.verdict)]
 

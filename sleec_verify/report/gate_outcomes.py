@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Ruleset
 from sleec_verify.changes.gate.result import POLICY_CHANGES
-from sleec_verify.report.outcome import Checked, Outcome, Unusable
+from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput
 from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Source
-    from sleec_verify.changes.gate.result import Conformed, Examined, Gated
+    from sleec_verify.changes.gate.result import GateResult, RulesetExamination, TargetConformance
 
 _OWN = ("findings", "dead-hedges")
 """Policies whose reasons to block are findings, which are there already."""
 
 
-def outcomes(found: Gated) -> list[Outcome]:
+def outcomes(found: GateResult) -> list[Outcome]:
     """An outcome for each file of settings that changed, for each ruleset that was examined or that an assertion was
     asked of, and for each target.
 
@@ -30,21 +30,21 @@ def outcomes(found: Gated) -> list[Outcome]:
     made: list[Outcome] = [*_of_settings(found)]
     blocks = _by_path(found)
     for one in found.examined:
-        made += (Unusable(one.path, _of_path(error, one)) for error in one.errors)
+        made += (UnusableInput(one.path, _of_path(error, one)) for error in one.errors)
         ruleset = one.ruleset or _gone(one)
         if ruleset is not None:
             results = [replace(result, verdict=_counted(result.verdict, one.findings)) for result in one.results]
-            made.append(Checked(ruleset, (*results, *_of_policies(one), *blocks.pop(one.path, ()))))
+            made.append(CheckedRuleset(ruleset, (*results, *_of_policies(one), *blocks.pop(one.path, ()))))
     for _, ruleset, _ in found.asked:
         asked = blocks.pop(found.paths[ruleset.source.path], ())
         if asked:
-            made.append(Checked(ruleset, tuple(asked)))
+            made.append(CheckedRuleset(ruleset, tuple(asked)))
     for conformed in found.conformed:
         made += _of_code(conformed)
     return made
 
 
-def _of_settings(found: Gated) -> Iterator[Outcome]:
+def _of_settings(found: GateResult) -> Iterator[Outcome]:
     """What changed in each file of settings."""
     grouped: dict[Source, list[Finding]] = {}
     for change in found.changes:
@@ -52,10 +52,10 @@ def _of_settings(found: Gated) -> Iterator[Outcome]:
             grouped.setdefault(change.finding.source, []).append(change.finding)
     for source, findings in grouped.items():
         result = CheckResult(POLICY_CHANGES, Refuted(tuple(findings)), 0.0)
-        yield Checked(Ruleset((), source=source), (result,), settings=True)
+        yield CheckedRuleset(Ruleset((), source=source), (result,), settings=True)
 
 
-def _by_path(found: Gated) -> dict[str, list[CheckResult]]:
+def _by_path(found: GateResult) -> dict[str, list[CheckResult]]:
     """What is shown of rulesets besides the findings of checks, and assertions that are not decided."""
     grouped: dict[str, dict[str, list[Finding]]] = {}
     for block in (*found.blocks, *found.tolerated):
@@ -83,7 +83,7 @@ def _counted(verdict: Verdict, counting: Iterable[Finding]) -> Verdict:
     return Refuted(findings) if findings else Proved()
 
 
-def _of_policies(one: Examined) -> Iterator[CheckResult]:
+def _of_policies(one: RulesetExamination) -> Iterator[CheckResult]:
     """What the comparison and the cases leave open."""
     for what, why in () if one.difference is None else one.difference.undecided:
         yield CheckResult("comparison", Unknown(f"{what}: {why}"), 0.0)
@@ -91,7 +91,7 @@ def _of_policies(one: Examined) -> Iterator[CheckResult]:
         yield CheckResult("clause-coverage", Unknown(one.coverage.why), 0.0)
 
 
-def _of_path(error: SleecError, one: Examined) -> SleecError:
+def _of_path(error: SleecError, one: RulesetExamination) -> SleecError:
     """An error as one of the file as it is now: of what is wrong in the base, the places are places of another text."""
     from sleec_runtime.errors import LanguageError, SleecError
 
@@ -100,21 +100,21 @@ def _of_path(error: SleecError, one: Examined) -> SleecError:
     return SleecError(str(error).partition("\n")[0])
 
 
-def _gone(one: Examined) -> Ruleset | None:
+def _gone(one: RulesetExamination) -> Ruleset | None:
     """No rules, under the path at which there were some."""
     if one.difference is None:
         return None
     return replace(one.difference.new, source=replace(one.difference.new.source, path=one.path))
 
 
-def _of_code(one: Conformed) -> Iterator[Outcome]:
+def _of_code(one: TargetConformance) -> Iterator[Outcome]:
     if one.error is not None:
-        yield Unusable(one.target.code, one.error)
+        yield UnusableInput(one.target.code, one.error)
     elif one.ruleset is not None and one.result is not None:
         known = {id(finding) for finding in one.known}
         counting = [finding for finding in one.result.findings if id(finding) not in known]
-        yield Checked(one.ruleset, (replace(one.result, verdict=_counted(one.result.verdict, counting)),))
+        yield CheckedRuleset(one.ruleset, (replace(one.result, verdict=_counted(one.result.verdict, counting)),))
     elif one.ruleset is not None and one.why is not None:
         from sleec_verify.conformance.structure import NAME
 
-        yield Checked(one.ruleset, (CheckResult(NAME, Unknown(one.why), 0.0),))
+        yield CheckedRuleset(one.ruleset, (CheckResult(NAME, Unknown(one.why), 0.0),))

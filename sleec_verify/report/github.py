@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_runtime.support.messages import escaped
-from sleec_verify.report.outcome import Checked, Outcome, in_short
+from sleec_verify.report.outcome import CheckedRuleset, Outcome, in_short
 from sleec_verify.report.plain import described, in_project, troubles
 from sleec_verify.results.internal_error import InternalError
 
@@ -23,12 +23,12 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     of a text that cannot be read; then a line on all."""
     del palette  # a program reads this
     for outcome in outcomes:
-        if not isinstance(outcome, Checked):
+        if not isinstance(outcome, CheckedRuleset):
             title = "internal error" if isinstance(outcome.error, InternalError) else "not a usable ruleset"
             for path, message, place in troubles(outcome):
                 yield _annotation("error", path, place, title, message)
             continue
-        for finding in outcome.told:
+        for finding in outcome.deduplicated:
             source = finding.source or outcome.ruleset.source
             text = "\n".join([finding.message, *described(finding)])
             title = " ".join(dict.fromkeys((finding.code, finding.check)))  # a policy of the gate has one name

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from hashlib import sha256
 from typing import TYPE_CHECKING
 
-from sleec_verify.report.outcome import Checked, Outcome
+from sleec_verify.report.outcome import CheckedRuleset, Outcome
 from sleec_verify.report.plain import described, in_project, located, troubles
 from sleec_verify.results.json_values import Json, dump
 
@@ -24,7 +24,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     seen: dict[str, int] = {}
     issues: list[Json] = []
     for outcome in outcomes:
-        if not isinstance(outcome, Checked):
+        if not isinstance(outcome, CheckedRuleset):
             for path, message, place in troubles(outcome):
                 issues.append(_issue("unusable", "blocker", path, place, message, _hash("unusable", path, message)))
             continue

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify import __version__
-from sleec_verify.report.outcome import Outcome, Unusable, checked, tally
+from sleec_verify.report.outcome import Outcome, UnusableInput, checked, tally
 from sleec_verify.results.finding import Unknown
 from sleec_verify.results.json_values import VERDICTS, Json, dump, error_json, finding_json
 
@@ -29,7 +29,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
 
 
 def _ruleset(outcome: Outcome) -> Json:
-    if isinstance(outcome, Unusable):
+    if isinstance(outcome, UnusableInput):
         return {"path": outcome.path, "error": error_json(outcome.error)}
     ruleset = outcome.ruleset
     return {

@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from sleec_runtime.support.messages import escaped
-from sleec_verify.report.outcome import Checked, Outcome
+from sleec_verify.report.outcome import CheckedRuleset, Outcome
 from sleec_verify.report.plain import described, in_project, troubles
 from sleec_verify.results.ci_commands import without_commands
 from sleec_verify.results.finding import SEVERITIES, Refuted, Unknown
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Source
-    from sleec_verify.report.outcome import Unusable
+    from sleec_verify.report.outcome import UnusableInput
     from sleec_verify.report.palette import Palette
     from sleec_verify.results.finding import CheckResult, Finding
 
@@ -34,7 +34,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     del palette  # a program reads this
     root = Element("testsuites", name="sleec-verify")
     for outcome in outcomes:
-        if isinstance(outcome, Checked):
+        if isinstance(outcome, CheckedRuleset):
             _suite(root, outcome)
         else:
             _unusable(root, outcome)
@@ -45,7 +45,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     yield f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
 
 
-def _suite(root: Element, outcome: Checked) -> None:
+def _suite(root: Element, outcome: CheckedRuleset) -> None:
     path = in_project(outcome.ruleset.source.path)
     suite = SubElement(root, "testsuite", name=_sayable(path))
     source = outcome.ruleset.source
@@ -65,7 +65,7 @@ def _suite(root: Element, outcome: Checked) -> None:
     _count(suite)
 
 
-def _unusable(root: Element, outcome: Unusable) -> None:
+def _unusable(root: Element, outcome: UnusableInput) -> None:
     path = in_project(outcome.path)
     suite = SubElement(root, "testsuite", name=_sayable(path))
     case = _case(suite, path, "read", 0.0)

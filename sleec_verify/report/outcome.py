@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Union
 
-from sleec_verify.results.deduplication import told_once
+from sleec_verify.results.deduplication import deduplicate
 from sleec_verify.results.finding import SEVERITIES, Unknown
 from sleec_verify.results.phrases import counted
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from sleec_verify.results.finding import CheckResult, Finding, Severity
 
 
-class Checked(NamedTuple):
+class CheckedRuleset(NamedTuple):
     """A ruleset and the results of the checks, in their order. `untimed` is what a response without a window was taken
     to mean; None where the rules are about situations, which know no later. `settings` is whether it is a file of
     settings that was looked at, and the ruleset only has its path."""
@@ -33,9 +33,9 @@ class Checked(NamedTuple):
         return sorted(found, key=lambda f: (_path(f), f.span, SEVERITIES.index(f.severity), f.code))
 
     @property
-    def told(self) -> list[Finding]:
+    def deduplicated(self) -> list[Finding]:
         """The findings as people are told of them: once, where two checks find the same."""
-        return told_once(self.findings)
+        return deduplicate(self.findings)
 
     @property
     def undecided(self) -> list[tuple[str, str]]:
@@ -57,19 +57,19 @@ def _path(finding: Finding) -> str:
     return "" if finding.source is None else finding.source.path
 
 
-class Unusable(NamedTuple):
+class UnusableInput(NamedTuple):
     """A text that is not a ruleset, or cannot be read."""
 
     path: str
     error: SleecError
 
 
-Outcome = Union[Checked, Unusable]
+Outcome = Union[CheckedRuleset, UnusableInput]
 
 
-def checked(outcomes: Sequence[Outcome]) -> Iterator[Checked]:
+def checked(outcomes: Sequence[Outcome]) -> Iterator[CheckedRuleset]:
     """The outcomes that have results."""
-    return (outcome for outcome in outcomes if isinstance(outcome, Checked))
+    return (outcome for outcome in outcomes if isinstance(outcome, CheckedRuleset))
 
 
 def tally(findings: Iterable[Finding]) -> dict[Severity, int]:
@@ -80,16 +80,16 @@ def tally(findings: Iterable[Finding]) -> dict[Severity, int]:
     return counts
 
 
-def told_of(outcomes: Sequence[Outcome]) -> list[Finding]:
+def deduplicated_findings(outcomes: Sequence[Outcome]) -> list[Finding]:
     """All that people are told."""
-    return [finding for outcome in checked(outcomes) for finding in outcome.told]
+    return [finding for outcome in checked(outcomes) for finding in outcome.deduplicated]
 
 
 def in_short(outcomes: Sequence[Outcome]) -> str:
     """``2 rulesets: 1 error, no warnings, no notes, 1 unknown, 1 unusable``; the last two where there are any."""
-    parts = [counted(number, severity) for severity, number in tally(told_of(outcomes)).items()]
+    parts = [counted(number, severity) for severity, number in tally(deduplicated_findings(outcomes)).items()]
     undecided = sum(len(outcome.undecided) for outcome in checked(outcomes))
-    unusable = sum(isinstance(outcome, Unusable) for outcome in outcomes)
+    unusable = sum(isinstance(outcome, UnusableInput) for outcome in outcomes)
     parts += [f"{number} {word}" for number, word in ((undecided, "unknown"), (unusable, "unusable")) if number]
-    rulesets = sum(not (isinstance(outcome, Checked) and outcome.settings) for outcome in outcomes)
+    rulesets = sum(not (isinstance(outcome, CheckedRuleset) and outcome.settings) for outcome in outcomes)
     return f"{counted(rulesets, 'ruleset')}: {', '.join(parts)}"

@@ -10,7 +10,7 @@ from sleec_verify.results.phrases import listed, witness_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Place, Source
-    from sleec_verify.report.outcome import Checked, Unusable
+    from sleec_verify.report.outcome import CheckedRuleset, UnusableInput
     from sleec_verify.results.finding import Finding
 
 
@@ -22,7 +22,7 @@ class Located(NamedTuple):
     fingerprint: str
 
 
-def located(outcome: Checked, seen: dict[str, int]) -> Iterator[Located]:
+def located(outcome: CheckedRuleset, seen: dict[str, int]) -> Iterator[Located]:
     """The findings of an outcome in the order of the text.
 
     The fingerprint is a hash of what is found in which words of which file, so that it stays where lines move. Where
@@ -87,7 +87,7 @@ class Trouble(NamedTuple):
     place: Place | None
 
 
-def troubles(unusable: Unusable) -> Iterator[Trouble]:
+def troubles(unusable: UnusableInput) -> Iterator[Trouble]:
     """What is wrong with a text that cannot be used, each with what to try."""
     from sleec_runtime.errors import LanguageError
 

@@ -13,7 +13,7 @@ from urllib.parse import quote
 
 from sleec_verify import __version__
 from sleec_verify.report.flow import steps
-from sleec_verify.report.outcome import Outcome, Unusable, checked
+from sleec_verify.report.outcome import Outcome, UnusableInput, checked
 from sleec_verify.report.plain import Located, described, in_project, located, troubles
 from sleec_verify.results.json_values import Json, dump
 from sleec_verify.results.phrases import value_text
@@ -136,19 +136,19 @@ def _open(source: Source, name: str, why: str, index: Mapping[str, int]) -> _Obj
 
 
 def _invocation(outcomes: Sequence[Outcome]) -> _Object:
-    told: list[Json] = []
+    deduplicated: list[Json] = []
     failed = False
     for outcome in outcomes:
-        if isinstance(outcome, Unusable):
+        if isinstance(outcome, UnusableInput):
             failed = True
-            told += [_notification("error", path, message, place) for path, message, place in troubles(outcome)]
+            deduplicated += [_notification("error", path, message, place) for path, message, place in troubles(outcome)]
             continue
         path = outcome.ruleset.source.path
-        told += [_notification("note", path, f"{name}: {why}", None) for name, why in outcome.unlisted]
+        deduplicated += [_notification("note", path, f"{name}: {why}", None) for name, why in outcome.unlisted]
         for name, why in outcome.undecided:
             failed = True
-            told.append(_notification("error", path, f"{name} is unknown: {why}", None))
-    return {"executionSuccessful": not failed, "toolExecutionNotifications": told}
+            deduplicated.append(_notification("error", path, f"{name} is unknown: {why}", None))
+    return {"executionSuccessful": not failed, "toolExecutionNotifications": deduplicated}
 
 
 def _notification(level: str, path: str, message: str, place: Place | None) -> _Object:

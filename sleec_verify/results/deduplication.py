@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _ALSO = {"redundant-rule": "dead-rule", "redundant-hedge": "dead-hedge"}
 
 
-def told_once(findings: Iterable[Finding]) -> list[Finding]:
+def deduplicate(findings: Iterable[Finding]) -> list[Finding]:
     """The findings without those on a rule or hedge that can be removed, where another says that it is dead."""
     found = list(findings)
     dead = {_of(finding, finding.check) for finding in found if finding.check in _ALSO.values()}

@@ -16,9 +16,9 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.certificates import lrat
 from sleec_verify.certificates.checker import IN_PYTHON
 from sleec_verify.certificates.checking import check_certificate
-from sleec_verify.certificates.elaboration import Answer, Elaborator, Learnt, NotFollowing, Step
+from sleec_verify.certificates.elaboration import Answer, Elaborator, InvalidLemma, LearntClause, ProofStep
 from sleec_verify.certificates.making import Certificate, certify
-from sleec_verify.certificates.recording import Asked
+from sleec_verify.certificates.recording import RecordedQuestion
 from sleec_verify.certificates.refutation import Disjunction
 from sleec_verify.encoding.solver import MiniSat
 from tests.fuzz.property import check_error, unless_refused
@@ -84,7 +84,7 @@ def proof(data: bytes, folder: Path) -> None:
     formula = before.decode("ascii", "replace")
     try:
         lrat.check(formula, after.decode("ascii", "replace"))
-    except lrat.Refused as refusal:
+    except lrat.InvalidProof as refusal:
         check_error(refusal)
         return
     rows = (line.split() for line in formula.split("\n"))
@@ -117,10 +117,10 @@ def elaboration(data: bytes, folder: Path) -> None:
     clauses, questions, lemmas = (_rows(part) for part in (data.split(b"\xff", 2) + [b""] * 2)[:3])
     questions = questions or [[]]
     possible = any(satisfiable(clauses, question) for question in questions)
-    formula = Disjunction([Asked(clauses, dict.fromkeys(map(tuple, questions)))])
+    formula = Disjunction([RecordedQuestion(clauses, dict.fromkeys(map(tuple, questions)))])
     try:
         written = formula.lrat()
-    except NotFollowing:
+    except InvalidLemma:
         assert possible
     else:
         assert not possible
@@ -129,12 +129,12 @@ def elaboration(data: bytes, folder: Path) -> None:
     variables = {abs(literal) for row in (*clauses, *questions) for literal in row}
     try:
         elaborator.learn(
-            Learnt(tuple(row[1:]), forgotten=row[0] < 0)
+            LearntClause(tuple(row[1:]), forgotten=row[0] < 0)
             for row in lemmas
             if len(row) > 1 and variables.issuperset(map(abs, row[1:]))
         )
         elaborated = elaborator.elaborate()
-    except NotFollowing:
+    except InvalidLemma:
         return
     assert not possible
     for question, answer in zip(questions, elaborated.answers):
@@ -153,7 +153,7 @@ def _rows(data: bytes) -> list[list[int]]:
     return [row for row in rows if row]
 
 
-def _check_answer(clauses: Clauses, question: Sequence[int], made: Sequence[Step], answer: Answer) -> None:
+def _check_answer(clauses: Clauses, question: Sequence[int], made: Sequence[ProofStep], answer: Answer) -> None:
     """Check one answer by LRAT: with the literals of the question as clauses, there is no model."""
     units = list(dict.fromkeys(question))
     # The checker refuses clauses that name a literal twice.

@@ -8,7 +8,7 @@ from pathlib import Path
 from sleec_verify.changes.compare import Relation, compare
 from sleec_verify.encoding.trace_scope import speaks_of_traces
 from sleec_verify.report.difference import RENDERERS
-from sleec_verify.report.difference_report import Compared, Report
+from sleec_verify.report.difference_report import DifferenceReport, RulesetDifference
 from sleec_verify.report.palette import PLAIN
 from tests.fuzz.rules import little_budget, read
 
@@ -29,7 +29,7 @@ def diff(data: bytes, folder: Path) -> None:
     assert back == _MIRRORED.get(difference.relation, difference.relation)
     with little_budget(data):
         assert compare(old, new).relation in (difference.relation, "unknown")
-    report = Report((Compared("fuzz.sleec", difference),), 0, ())
+    report = DifferenceReport((RulesetDifference("fuzz.sleec", difference),), 0, ())
     for render in RENDERERS.values():
         assert "".join(render(report, PLAIN))
 

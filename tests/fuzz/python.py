@@ -10,7 +10,7 @@ from sleec_runtime.language import load
 from sleec_verify.conformance.structure import check_structure
 from sleec_verify.conformance.structure.target import python_files
 from sleec_verify.report import renderer
-from sleec_verify.report.outcome import Checked
+from sleec_verify.report.outcome import CheckedRuleset
 from sleec_verify.report.palette import PLAIN
 from tests.fuzz.property import unless_refused
 from tests.support.paths import ROOT
@@ -26,7 +26,7 @@ def python(data: bytes, folder: Path) -> None:
     if files is None:
         return
     result = check_structure(RULESET, files)
-    assert "".join(renderer("full")([Checked(RULESET, (result,))], PLAIN))
+    assert "".join(renderer("full")([CheckedRuleset(RULESET, (result,))], PLAIN))
 
 
 def seeds() -> Iterator[bytes]:

@@ -24,7 +24,7 @@ from sleec_verify.entailment.entailment import entail
 from sleec_verify.exchange.compilation import FORMS, compile_to
 from sleec_verify.exchange.conversion import TARGETS, convert, of_domain
 from sleec_verify.report import FORMATS, renderer
-from sleec_verify.report.outcome import Checked
+from sleec_verify.report.outcome import CheckedRuleset
 from sleec_verify.report.palette import PLAIN
 from sleec_verify.results.finding import Unknown
 from tests.fuzz.property import unless_refused
@@ -94,7 +94,7 @@ def check(data: bytes, folder: Path) -> None:
     ruleset = read(data)
     if ruleset is None or speaks_of_traces(ruleset):
         return
-    outcome = Checked(ruleset, run_checks(ruleset))
+    outcome = CheckedRuleset(ruleset, run_checks(ruleset))
     with little_budget(data):
         for little, result in zip(run_checks(ruleset), outcome.results, strict=True):
             # Less work never gives another answer, only none.

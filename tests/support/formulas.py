@@ -7,7 +7,7 @@ from itertools import product
 
 from hypothesis import strategies as st
 
-from sleec_verify.certificates.recording import Asked
+from sleec_verify.certificates.recording import RecordedQuestion
 
 MOST = 6
 """Variables, so that every assignment can be tried."""
@@ -24,9 +24,9 @@ def clauses() -> st.SearchStrategy[list[list[int]]]:
 questions = st.lists(st.lists(literals, max_size=3).map(tuple), min_size=1, max_size=3, unique=True)
 
 
-def asked() -> st.SearchStrategy[list[Asked]]:
+def asked() -> st.SearchStrategy[list[RecordedQuestion]]:
     """Formulas with questions, whatever the answers."""
-    one = st.builds(lambda c, q: Asked(c, dict.fromkeys(q)), clauses(), questions)
+    one = st.builds(lambda c, q: RecordedQuestion(c, dict.fromkeys(q)), clauses(), questions)
     return st.lists(one, max_size=3)
 
 
@@ -38,6 +38,6 @@ def has_model(formula: Sequence[Sequence[int]], variables: int = MOST) -> bool:
     )
 
 
-def some_question_has_model(all_asked: Sequence[Asked]) -> bool:
+def some_question_has_model(all_asked: Sequence[RecordedQuestion]) -> bool:
     asked_of = ((one.clauses, question) for one in all_asked for question in one.questions)
     return any(has_model([*formula, *([literal] for literal in question)]) for formula, question in asked_of)

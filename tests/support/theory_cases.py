@@ -28,7 +28,7 @@ from sleec_runtime.model import (
     Truth,
 )
 from sleec_verify.certificates.theory.boolean import Boolean
-from sleec_verify.certificates.theory.numbering import Numbered
+from sleec_verify.certificates.theory.numbering import Numbering
 from sleec_verify.certificates.theory.oracle import answers
 from sleec_verify.entailment.definition1 import Definition1
 
@@ -44,7 +44,7 @@ def compare(oracle: Path, cases: Iterable[Case], at_once: int = 1000) -> int:
         numbered, questions = [], []
         for ruleset, contexts in chunk:
             boolean = Boolean(ruleset)
-            one = Numbered(boolean.ruleset)
+            one = Numbering(boolean.ruleset)
             numbered.append(one)
             questions.append(one.line)
             for context in contexts:
@@ -61,7 +61,7 @@ def compare(oracle: Path, cases: Iterable[Case], at_once: int = 1000) -> int:
 
 
 def agrees(
-    ruleset: Ruleset, context: Context, definition: Definition1, numbered: Numbered, at: str, table: str
+    ruleset: Ruleset, context: Context, definition: Definition1, numbered: Numbering, at: str, table: str
 ) -> None:
     answer, letter = (dict(part.strip().partition(" ")[::2] for part in line.split(";")) for line in (at, table))
 

@@ -29,7 +29,7 @@ Kind = Literal["trigger", "condition", "obligation", "rule"]
 LETTERS: dict[str, str] = {"trigger": "t", "condition": "c", "obligation": "o"}
 
 
-class Numbered:
+class Numbering:
     """`names` are those of each kind, in the order of their first use; the place, from 1, is the number."""
 
     def __init__(self, ruleset: Ruleset) -> None:

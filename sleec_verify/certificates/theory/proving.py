@@ -13,15 +13,15 @@ from pathlib import Path
 from types import TracebackType
 
 from sleec_runtime.model import Ruleset
-from sleec_verify.certificates.elaboration import NotFollowing
+from sleec_verify.certificates.elaboration import InvalidLemma
 from sleec_verify.certificates.refutation import refute
 from sleec_verify.certificates.theory.boolean import Boolean
-from sleec_verify.certificates.theory.numbering import Numbered
+from sleec_verify.certificates.theory.numbering import Numbering
 from sleec_verify.certificates.theory.oracle import NoAnswer, NotRefuted, Oracle
 from sleec_verify.encoding.calculations import calculations, named
 from sleec_verify.encoding.trace_scope import has_chains, speaks_of_traces
 
-Step = tuple[int, tuple[int, ...], tuple[int, ...]]
+ProofStep = tuple[int, tuple[int, ...], tuple[int, ...]]
 """The number of a clause, its literals, and the clauses that it follows from."""
 
 
@@ -42,7 +42,7 @@ class Theory:
 
     def __init__(self, program: Path, ruleset: Ruleset, seconds: float | None = None) -> None:
         """`seconds` is how long the oracle may take for a formula, and for judging its refutation."""
-        self.numbered = Numbered(Boolean(ruleset).ruleset)
+        self.numbered = Numbering(Boolean(ruleset).ruleset)
         self._program = program
         self._seconds = seconds
         self._oracle: Oracle | None = None
@@ -59,7 +59,7 @@ class Theory:
         if self._ask(f"refuted {said}") != "yes":
             raise NotRefuted("what was found to refute the clauses of the theory does not")
 
-    def steps_for(self, question: str) -> list[Step]:
+    def steps_for(self, question: str) -> list[ProofStep]:
         """A refutation of the theory's clauses. Raises NotRefuted where they have a model, NoAnswer as `prove` does."""
         return _refutation(_clauses(self._ask(f"formula {question}")))
 
@@ -97,7 +97,7 @@ def _clauses(text: str) -> list[tuple[int, ...]]:
     return clauses
 
 
-def _refutation(clauses: list[tuple[int, ...]]) -> list[Step]:
+def _refutation(clauses: list[tuple[int, ...]]) -> list[ProofStep]:
     if not clauses:
         raise NotRefuted("there is not in the rules what is asked about")
     if not clauses[0]:
@@ -107,12 +107,12 @@ def _refutation(clauses: list[tuple[int, ...]]) -> list[Step]:
     questions = [(literal,) for literal in dict.fromkeys(clauses[0])]
     try:
         found, refuted = refute(clauses, questions)
-    except NotFollowing:
+    except InvalidLemma:
         raise NotRefuted("the clauses that the theory makes of the rules are not refuted") from None
     # Clauses are numbered from 1 there, from 0 here. A clause that says a literal twice, as `c AND c` gives, is no unit
     # to the checker; without the second it follows from it at once.
     numbers = list(range(1, len(clauses) + 1))
-    steps: list[Step] = []
+    steps: list[ProofStep] = []
 
     def add(literals: tuple[int, ...], hints: Iterable[int]) -> int:
         steps.append((len(clauses) + len(steps) + 1, literals, tuple(hints)))

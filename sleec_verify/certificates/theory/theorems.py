@@ -19,9 +19,9 @@ from sleec_runtime.errors import SleecError
 from sleec_runtime.language import load
 from sleec_runtime.model import Ruleset
 from sleec_verify.certificates.theory.boolean import Boolean
-from sleec_verify.certificates.theory.numbering import Kind, Numbered
+from sleec_verify.certificates.theory.numbering import Kind, Numbering
 from sleec_verify.certificates.theory.oracle import NotRefuted, built
-from sleec_verify.certificates.theory.proving import Step, Theory, not_modelled
+from sleec_verify.certificates.theory.proving import ProofStep, Theory, not_modelled
 
 STEPS = "Definition steps"
 """What comes from a solver begins with this."""
@@ -73,14 +73,14 @@ def modules(ruleset: Ruleset) -> dict[str, Ruleset]:
     return {f"{name}_{_identifier(domain)}": ruleset.in_domain(domain) for domain in ruleset.domains}
 
 
-def theorems(ruleset: Ruleset, steps: Mapping[str, Sequence[Step]]) -> str:
+def theorems(ruleset: Ruleset, steps: Mapping[str, Sequence[ProofStep]]) -> str:
     """The Coq file of a ruleset, with the steps for each of its modules."""
     more = ""
     if ruleset.measures:
         more = "\n\n" + "\n".join(_comment(_MEASURES, hanging=""))
     parts = [_HEAD.format(path=Path(ruleset.source.path).name, more=more)]
     for module, part in modules(ruleset).items():
-        numbered = Numbered(Boolean(part).ruleset)
+        numbered = Numbering(Boolean(part).ruleset)
         domain = next((d for d in ruleset.domains if part == ruleset.in_domain(d)), None)
         parts.append(
             _MODULE.format(
@@ -128,7 +128,7 @@ def _identifier(text: str) -> str:
     return plain if plain[:1].isalpha() else f"r_{plain}"
 
 
-def _names(numbered: Numbered) -> list[str]:
+def _names(numbered: Numbering) -> list[str]:
     """A line of each kind of names, with their numbers."""
     told = []
     for kind, word in _WORDS.items():
@@ -150,7 +150,7 @@ def _comment(text: str, hanging: str = "  ") -> list[str]:
     return [row.replace(_TIE, " ") for row in rows]
 
 
-def _steps(steps: Sequence[Step]) -> str:
+def _steps(steps: Sequence[ProofStep]) -> str:
     def literals(numbers: Iterable[int]) -> str:
         return "; ".join(f"Pos {n}" if n > 0 else f"Neg {-n}" for n in numbers)
 
@@ -174,7 +174,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for path in options.paths:
             ruleset = load(path)
             reason = not_modelled(ruleset)
-            steps: dict[str, Sequence[Step]] = {}
+            steps: dict[str, Sequence[ProofStep]] = {}
             if reason is None:
                 try:
                     for module, part in modules(ruleset).items():

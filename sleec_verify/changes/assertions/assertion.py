@@ -12,7 +12,7 @@ from sleec_runtime.model import (
     Source,
     Span,
 )
-from sleec_verify.changes.compare.result import Deciding
+from sleec_verify.changes.compare.result import DecidingClause
 from sleec_verify.results.finding import Witness
 
 Kind = Literal["never", "always"]
@@ -39,7 +39,7 @@ class Violation(NamedTuple):
     in which that is so, if the ruleset has any."""
 
     witness: Witness
-    deciding: tuple[Deciding, ...]
+    deciding: tuple[DecidingClause, ...]
     domain: str | None = None
 
 

@@ -21,7 +21,7 @@ from sleec_runtime.model import (
 from sleec_verify.changes.assertions.assertion import Assertion, AssertionResult, Violation
 from sleec_verify.changes.assertions.vocabulary import Vocabulary
 from sleec_verify.changes.compare.relations import relations_at_one_instant
-from sleec_verify.changes.compare.result import Deciding
+from sleec_verify.changes.compare.result import DecidingClause
 from sleec_verify.encoding.equation import conjunction, disjunction, implications
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.question import is_possible
@@ -111,14 +111,14 @@ def _is(one: Obligation, literal: Obligation) -> bool:
 
 def _replayed(
     ruleset: Ruleset, assertion: Assertion, witness: Witness, given: Iterable[Formula], measures: Mapping[str, Measure]
-) -> tuple[Deciding, ...]:
+) -> tuple[DecidingClause, ...]:
     context = witness.context()
     found = []
     for rule in ruleset.rules:
         decision = decide(rule, context, ruleset.reading, ruleset.measures)
         if decision is not None:
             span = list(rule.clauses())[decision.clause].span
-            found.append(Deciding(rule.label, decision.clause, decision.obligations, span))
+            found.append(DecidingClause(rule.label, decision.clause, decision.obligations, span))
     due = [any(_is(o, literal) for one in found for o in one.obligations) for literal in assertion.literals]
     broken = all(due) if assertion.kind == "never" else not all(due)
     if not (broken and all(holds(formula, context, measures) for formula in (assertion.when, *given))):

@@ -12,7 +12,7 @@ from itertools import chain
 from typing import TypeVar, Union
 
 from sleec_runtime.model import Formula, Never, Ruleset, formulas_of
-from sleec_verify.changes.compare.comparison import SIDES, Which, World, other
+from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, other
 from sleec_verify.changes.compare.conflicts import conflict_changes
 from sleec_verify.changes.compare.inferred_kinds import with_kinds_of
 from sleec_verify.changes.compare.obligations import changes
@@ -20,7 +20,7 @@ from sleec_verify.changes.compare.relations import relations_over_time
 from sleec_verify.changes.compare.result import (
     Change,
     ConflictChange,
-    Deciding,
+    DecidingClause,
     Difference,
     Extent,
     NameChange,
@@ -41,7 +41,7 @@ from sleec_verify.query.question import is_possible
 __all__ = [
     "Change",
     "ConflictChange",
-    "Deciding",
+    "DecidingClause",
     "Difference",
     "Extent",
     "NameChange",
@@ -71,7 +71,7 @@ def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Unti
 
 def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed) -> Difference:
     old, new = with_kinds_of(old, new), with_kinds_of(new, old)
-    whole = World(old, new, untimed)
+    whole = Comparison(old, new, untimed)
     shared = Difference(
         old,
         new,
@@ -91,7 +91,7 @@ def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed
     else:
         domains = tuple(dict.fromkeys((*old.domains, *new.domains)))
     if domains:
-        found = [_compared(World(old.in_domain(one), new.in_domain(one), untimed), one) for one in domains]
+        found = [_compared(Comparison(old.in_domain(one), new.in_domain(one), untimed), one) for one in domains]
     else:
         found = [_compared(whole, None)]
     told = [one for each in found for one in each]
@@ -104,17 +104,17 @@ def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed
     return difference._replace(rewritten=_rewritten(whole, difference))
 
 
-def _compared(world: World, domain: str | None) -> list[_Any]:
-    clashes = [*world.vocabulary.clashes, *_conditions_that_are_measures(world)]
+def _compared(comparison: Comparison, domain: str | None) -> list[_Any]:
+    clashes = [*comparison.vocabulary.clashes, *_conditions_that_are_measures(comparison)]
     if clashes:
         return [*clashes]
     found: list[_Any] = []
     try:
-        found += situation_changes(world)
-        if is_possible(world.index):
-            found += conflict_changes(world)
-            found += changes(world)
-        elif all(is_possible(world.situations_of(which)) for which in world.sides):
+        found += situation_changes(comparison)
+        if is_possible(comparison.index):
+            found += conflict_changes(comparison)
+            found += changes(comparison)
+        elif all(is_possible(comparison.situations_of(which)) for which in comparison.sides):
             why = "the assumptions of the two sides leave no situation that both allow"
             found.append(Undecidable("the obligations", why))
     except Undecided as error:
@@ -124,22 +124,22 @@ def _compared(world: World, domain: str | None) -> list[_Any]:
     return [one if isinstance(one, Undecidable) else one._replace(domains=(domain,)) for one in found]
 
 
-def _conditions_that_are_measures(world: World) -> Iterator[Undecidable]:
+def _conditions_that_are_measures(comparison: Comparison) -> Iterator[Undecidable]:
     """Names that one text compares as numbers or on a scale, and the other takes as true or false."""
     for which in SIDES:
-        measures = world.sides[other(which)].stated.measures
-        for name in sorted(condition_names(_formulas(world, which)) & measures.keys()):
+        measures = comparison.sides[other(which)].stated.measures
+        for name in sorted(condition_names(_formulas(comparison, which)) & measures.keys()):
             yield Undecidable(name, f"{name} is true or false in the one text and a measure in the other")
 
 
-def _formulas(world: World, which: Which) -> Iterator[Formula]:
+def _formulas(comparison: Comparison, which: SideName) -> Iterator[Formula]:
     """The formulas of one side, but for those in rules that both sides have."""
-    for pair, _ in world.changed:
+    for pair, _ in comparison.changed:
         rule = pair.old if which == "old" else pair.new
         if rule is not None:
             yield from formulas_of(rule)
-    yield from (given.formula for given in world.sides[which].given)
-    yield from (one.formula for one in world.sides[which].constraints if isinstance(one, Never))
+    yield from (given.formula for given in comparison.sides[which].given)
+    yield from (one.formula for one in comparison.sides[which].constraints if isinstance(one, Never))
 
 
 def _merged(found: Sequence[_Told]) -> tuple[_Told, ...]:
@@ -154,7 +154,7 @@ def _merged(found: Sequence[_Told]) -> tuple[_Told, ...]:
     )
 
 
-def _rewritten(world: World, difference: Difference) -> tuple[tuple[str, ...], ...]:
+def _rewritten(comparison: Comparison, difference: Difference) -> tuple[tuple[str, ...], ...]:
     """The rules that are on both sides, written otherwise, and make no difference."""
     if difference.undecided:
         return ()
@@ -163,7 +163,7 @@ def _rewritten(world: World, difference: Difference) -> tuple[tuple[str, ...], .
     at_work.update(label for conflict in difference.conflicts for label in conflict.rules)
     return tuple(
         tuple(dict.fromkeys((pair.old.label, pair.new.label)))
-        for pair, _ in world.changed
+        for pair, _ in comparison.changed
         if pair.old is not None and pair.new is not None and at_work.isdisjoint((pair.old.label, pair.new.label))
     )
 
@@ -187,10 +187,10 @@ def _not_comparable(old: Ruleset, new: Ruleset) -> Iterator[Undecidable]:
                 )
 
 
-def _notes(world: World) -> Iterator[str]:
-    old, new = world.sides["old"].stated, world.sides["new"].stated
-    if world.vocabulary.whole and old.syntax != new.syntax:
-        names = ", ".join(world.vocabulary.whole)
+def _notes(comparison: Comparison) -> Iterator[str]:
+    old, new = comparison.sides["old"].stated, comparison.sides["new"].stated
+    if comparison.vocabulary.whole and old.syntax != new.syntax:
+        names = ", ".join(comparison.vocabulary.whole)
         yield f"the numbers of the DSL are whole, so that only whole values of {names} are compared"
     if speaks_of_traces(old) or speaks_of_traces(new):
         yield (

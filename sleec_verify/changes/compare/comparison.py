@@ -25,8 +25,8 @@ from sleec_runtime.model import (
     Truth,
 )
 from sleec_verify.changes.compare.alternatives import plainly
-from sleec_verify.changes.compare.rule_alignment import Pair, align, depends_on_reading
-from sleec_verify.changes.compare.sides import Side, common, mentions, side
+from sleec_verify.changes.compare.rule_alignment import RulePair, align, depends_on_reading
+from sleec_verify.changes.compare.sides import RulesetSide, common, mentions, side
 from sleec_verify.changes.compare.timing_order import implies
 from sleec_verify.encoding.equation import Implication, conjunction, disjunction, implications
 from sleec_verify.encoding.trace_scope import Untimed
@@ -36,25 +36,25 @@ from sleec_verify.query.names import Name, names_in, names_of_rule
 from sleec_verify.query.prime_implicates import constraints_on_situations, inconsistent_sets
 from sleec_verify.query.ruleset_index import RulesetIndex
 
-Which = Literal["old", "new"]
-SIDES: tuple[Which, Which] = ("old", "new")
+SideName = Literal["old", "new"]
+SIDES: tuple[SideName, SideName] = ("old", "new")
 
 
-def other(which: Which) -> Which:
+def other(which: SideName) -> SideName:
     return "new" if which == "old" else "old"
 
 
-class Row(NamedTuple):
+class AlignedRule(NamedTuple):
     """A rule on one side, or one that is equal on both."""
 
     old: Rule | None
     new: Rule | None
 
-    def on(self, which: Which) -> Rule | None:
+    def on(self, which: SideName) -> Rule | None:
         return self.old if which == "old" else self.new
 
 
-class Cone(NamedTuple):
+class TriggerCone(NamedTuple):
     """The rows that may have to be at work where some triggers occur, and the assumptions that count there: what these
     say where no trigger of another row occurs."""
 
@@ -66,13 +66,13 @@ class Cone(NamedTuple):
         return [assumption.formula for assumption in self.assumed.assumptions_about(names_in(formula))]
 
 
-class World:
+class Comparison:
     """The rules of both sides, aligned, and what is due, contradictory and possible, as formulas."""
 
     def __init__(self, old: Ruleset, new: Ruleset, untimed: Untimed) -> None:
         self.untimed = untimed
         self.vocabulary = common(old, new)
-        self.sides: dict[Which, Side] = {"old": side(old, self.vocabulary), "new": side(new, self.vocabulary)}
+        self.sides: dict[SideName, RulesetSide] = {"old": side(old, self.vocabulary), "new": side(new, self.vocabulary)}
         same_reading, scales = old.reading == new.reading, self.vocabulary.scales
 
         def cancels(rule: Rule) -> bool:
@@ -81,24 +81,24 @@ class World:
             return not (scales and mentions(rule, scales))
 
         self.aligned = align(old.rules, new.rules, cancels)
-        self.rows = [Row(one, other) for one, other in self.aligned.same]
-        self.changed: list[tuple[Pair, dict[Which, int]]] = []
+        self.rows = [AlignedRule(one, other) for one, other in self.aligned.same]
+        self.changed: list[tuple[RulePair, dict[SideName, int]]] = []
         for pair in self.aligned.changed:
-            places: dict[Which, int] = {}
+            places: dict[SideName, int] = {}
             for which, rule in (("old", pair.old), ("new", pair.new)):
                 if rule is not None:
                     places["old" if which == "old" else "new"] = len(self.rows)
-                    self.rows.append(Row(rule, None) if which == "old" else Row(None, rule))
+                    self.rows.append(AlignedRule(rule, None) if which == "old" else AlignedRule(None, rule))
             self.changed.append((pair, places))
-        self._guards: dict[tuple[int, Which], list[Implication]] = {}
-        self._said: dict[tuple[int, Which], list[tuple[Formula, Obligation]]] = {}
-        self._cone_of: dict[frozenset[str], Cone] = {}
-        self._conflicts: dict[tuple[Which, tuple[int, ...]], Formula] = {}
+        self._guards: dict[tuple[int, SideName], list[Implication]] = {}
+        self._said: dict[tuple[int, SideName], list[tuple[Formula, Obligation]]] = {}
+        self._cone_of: dict[frozenset[str], TriggerCone] = {}
+        self._conflicts: dict[tuple[SideName, tuple[int, ...]], Formula] = {}
         given = [one.formula for which in SIDES for one in self.sides[which].given]
         self.index = self._index([self._plain(row) for row in self.rows], given)
 
-    def _plain(self, row: Row) -> Rule:
-        which: Which = "new" if row.new is not None else "old"
+    def _plain(self, row: AlignedRule) -> Rule:
+        which: SideName = "new" if row.new is not None else "old"
         rule = row.on(which)
         assert rule is not None
         return self.sides[which].plain(rule)
@@ -111,19 +111,19 @@ class World:
     def measures(self) -> dict[str, Measure]:
         return self.vocabulary.measures
 
-    def situations_of(self, which: Which) -> RulesetIndex:
+    def situations_of(self, which: SideName) -> RulesetIndex:
         """The assumptions of one side alone."""
         return self._situations[which]
 
     @cached_property
-    def _situations(self) -> dict[Which, RulesetIndex]:
+    def _situations(self) -> dict[SideName, RulesetIndex]:
         return {which: self._index((), [one.formula for one in self.sides[which].given]) for which in SIDES}
 
     @cached_property
-    def _slicing_of(self) -> dict[Which, AssumptionSlicing]:
+    def _slicing_of(self) -> dict[SideName, AssumptionSlicing]:
         return {which: AssumptionSlicing([one.formula for one in self.sides[which].given], ()) for which in SIDES}
 
-    def situations_about(self, which: Which, formula: Formula) -> RulesetIndex:
+    def situations_about(self, which: SideName, formula: Formula) -> RulesetIndex:
         """The assumptions of one side alone that may matter to the formula, where no trigger occurs that need not."""
         slicing, named = self._slicing_of[which], set(names_in(formula))
         return self._index(
@@ -131,10 +131,10 @@ class World:
         )
 
     @cached_property
-    def _constraints(self) -> dict[Which, RulesetIndex]:
+    def _constraints(self) -> dict[SideName, RulesetIndex]:
         return {which: RulesetIndex(Ruleset(tuple(self.sides[which].constraints))) for which in SIDES}
 
-    def constraints_about(self, which: Which, names: Iterable[str]) -> list[Exclusive | Never]:
+    def constraints_about(self, which: SideName, names: Iterable[str]) -> list[Exclusive | Never]:
         """The constraints that may conflict with these obligations, and those that rule out a situation by
         themselves. Raises `Undecided` where the constraints are too entangled."""
         index = self._constraints[which]
@@ -142,7 +142,7 @@ class World:
 
     # The cone ----------------------------------------------------------------------------------------------
 
-    def cone(self, triggers: Iterable[str]) -> Cone:
+    def cone(self, triggers: Iterable[str]) -> TriggerCone:
         """What may have to be at work where these triggers occur, by assumptions or because a constraint on what is due
         then speaks of another trigger."""
         given = frozenset(triggers)
@@ -151,10 +151,10 @@ class World:
             found = self._cone_of[given] = self._cone(given)
         return found
 
-    def _cone(self, given: frozenset[str]) -> Cone:
+    def _cone(self, given: frozenset[str]) -> TriggerCone:
         wanted, names = self._slicing.reached(given, self._named_at)
         # A situation that is shown keeps the other assumptions as well. It can, without any other trigger.
-        return Cone(self.rows_of(wanted), self._index((), self._slicing.kept_by(names, wanted)))
+        return TriggerCone(self.rows_of(wanted), self._index((), self._slicing.kept_by(names, wanted)))
 
     def _named_at(self, triggers: set[str]) -> Iterator[Name]:
         """What the rules of these triggers speak of, and the constraints on them."""
@@ -196,7 +196,7 @@ class World:
 
     # Formulas ----------------------------------------------------------------------------------------------
 
-    def guards(self, row: int, which: Which) -> list[Implication]:
+    def guards(self, row: int, which: SideName) -> list[Implication]:
         """Equation 1 of a rule on one side; nothing where it is not there."""
         key = row, which
         found = self._guards.get(key)
@@ -206,7 +206,7 @@ class World:
             self._guards[key] = found
         return found
 
-    def said(self, row: int, which: Which) -> list[tuple[Formula, Obligation]]:
+    def said(self, row: int, which: SideName) -> list[tuple[Formula, Obligation]]:
         """What a rule obliges on one side, and where, in the order of the text."""
         key = row, which
         found = self._said.get(key)
@@ -220,15 +220,15 @@ class World:
             ]
         return found
 
-    def literals(self, row: int, which: Which) -> list[Obligation]:
+    def literals(self, row: int, which: SideName) -> list[Obligation]:
         """All that a rule obliges on one side, each once, in the order of the text."""
         return list(dict.fromkeys(literal for _, literal in self.said(row, which)))
 
-    def obliges(self, row: int, which: Which, wanted: Callable[[Obligation], object]) -> Formula:
+    def obliges(self, row: int, which: SideName, wanted: Callable[[Obligation], object]) -> Formula:
         """Where the rule obliges a literal that is `wanted`."""
         return disjunction(list(dict.fromkeys(where for where, literal in self.said(row, which) if wanted(literal))))
 
-    def due(self, rows: Iterable[int], which: Which, literal: Obligation) -> Formula:
+    def due(self, rows: Iterable[int], which: SideName, literal: Obligation) -> Formula:
         """Where one of these rules obliges the literal, or one that asks for at least as much."""
 
         def enough(one: Obligation) -> bool:
@@ -237,7 +237,7 @@ class World:
         found = (self.obliges(row, which, enough) for row in rows if self.rows[row].on(which) is not None)
         return disjunction([formula for formula in found if formula != Truth(False)])
 
-    def conflict(self, rows: Sequence[int], which: Which) -> Formula:
+    def conflict(self, rows: Sequence[int], which: SideName) -> Formula:
         """Where what these rules oblige at once cannot all be done. Raises `Undecided` where constraints are too
         entangled."""
         key = which, tuple(rows)
@@ -246,7 +246,7 @@ class World:
             found = self._conflicts[key] = self._conflicting(rows, which)
         return found
 
-    def _conflicting(self, rows: Sequence[int], which: Which) -> Formula:
+    def _conflicting(self, rows: Sequence[int], which: SideName) -> Formula:
         at_once = {o for row in rows for o in self.literals(row, which) if o.timing is None}
         parts = []
         for clash in self.inconsistent_sets(which, at_once):
@@ -254,7 +254,7 @@ class World:
             parts.append(conjunction([*due, *sorted(clash.labels, key=repr)]))
         return disjunction(parts)
 
-    def inconsistent_sets(self, which: Which, literals: set[Obligation]) -> list[InconsistentSet]:
+    def inconsistent_sets(self, which: SideName, literals: set[Obligation]) -> list[InconsistentSet]:
         """The minimal sets of these literals that cannot all be due on one side."""
         direct = [
             InconsistentSet(frozenset((one, opposite(one))))
@@ -264,10 +264,10 @@ class World:
         declared = self.constraints_about(which, {literal.name for literal in literals})
         return list(dict.fromkeys(direct)) + (list(inconsistent_sets(declared, literals)) if declared else [])
 
-    def _due_exactly(self, rows: Iterable[int], which: Which, literal: Obligation) -> Formula:
+    def _due_exactly(self, rows: Iterable[int], which: SideName, literal: Obligation) -> Formula:
         return disjunction([self.obliges(row, which, literal.__eq__) for row in rows])
 
-    def label(self, row: int, which: Which) -> str:
+    def label(self, row: int, which: SideName) -> str:
         rule = self.rows[row].on(which)
         assert rule is not None, "asked of a rule that this side has"
         return rule.label
@@ -278,9 +278,9 @@ def not_both(conflicts: Iterable[Formula]) -> list[Formula]:
     return [Not(formula) for formula in conflicts if formula != Truth(False)]
 
 
-def triggered(world: World, which: Which, context: Context) -> Iterator[Rule]:
+def triggered(comparison: Comparison, which: SideName, context: Context) -> Iterator[Rule]:
     """The rules of one side, as they stand in its text, whose trigger occurs."""
-    for row in world.rows_of(context.triggers):
-        rule = world.rows[row].on(which)
+    for row in comparison.rows_of(context.triggers):
+        rule = comparison.rows[row].on(which)
         if rule is not None:
             yield rule

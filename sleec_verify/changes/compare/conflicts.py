@@ -8,11 +8,11 @@ from itertools import product
 from typing import Union
 
 from sleec_runtime.model import Exclusive, Formula, Never, Not, Obligation, Truth
-from sleec_verify.changes.compare.comparison import SIDES, Which, World, not_both, other
+from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, not_both, other
 from sleec_verify.changes.compare.replay import conflicts as conflicting
 from sleec_verify.changes.compare.replay import deciding, possible
 from sleec_verify.changes.compare.result import ConflictChange, Undecidable, Way
-from sleec_verify.changes.compare.situation_count import Counting, all_of, conditions_of, named_in, not_counted
+from sleec_verify.changes.compare.situation_count import SituationCounter, all_of, conditions_of, named_in, not_counted
 from sleec_verify.changes.diagram.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.equation import disjunction
 from sleec_verify.encoding.solver import Undecided
@@ -23,7 +23,7 @@ MOST, MOST_PER_RULE = 2_000, 10
 """How many causes are tried on each side: so many, and so many more for each rule. Contradicting rules multiply."""
 
 
-def conflict_changes(world: World) -> Iterator[Union[ConflictChange, Undecidable]]:
+def conflict_changes(comparison: Comparison) -> Iterator[Union[ConflictChange, Undecidable]]:
     """For each minimal set of literals that clash and each set of rules that oblige them, where that is so on one side
     and nothing conflicts on the other.
 
@@ -32,40 +32,40 @@ def conflict_changes(world: World) -> Iterator[Union[ConflictChange, Undecidable
     """
     for way, which in (("removed", SIDES[0]), ("added", SIDES[1])):
         try:
-            yield from _on(world, which, "added" if way == "added" else "removed")
+            yield from _on(comparison, which, "added" if way == "added" else "removed")
         except Undecided as error:
             yield Undecidable("conflicts", str(error))
 
 
-def _on(world: World, which: Which, way: Way) -> Iterator[Union[ConflictChange, Undecidable]]:
+def _on(comparison: Comparison, which: SideName, way: Way) -> Iterator[Union[ConflictChange, Undecidable]]:
     seen: dict[frozenset[Obligation], list[tuple[frozenset[int], Formula]]] = {}
-    most = MOST + MOST_PER_RULE * len(world.rows)
-    for tried, (clash, rows) in enumerate(_causes(world, which)):
+    most = MOST + MOST_PER_RULE * len(comparison.rows)
+    for tried, (clash, rows) in enumerate(_causes(comparison, which)):
         if tried >= most:
             yield Undecidable("conflicts", f"only the first {most:,} sets of rules that might clash were tried")
             return
         within = [region for smaller, region in seen.get(clash.literals, ()) if smaller < rows]
-        region = _region(world, which, clash, rows)
-        found = _found(world, which, way, clash, rows, region, within)
+        region = _region(comparison, which, clash, rows)
+        found = _found(comparison, which, way, clash, rows, region, within)
         if found is not None:
             seen.setdefault(clash.literals, []).append((rows, region))
             yield found
 
 
-def _causes(world: World, which: Which) -> Iterator[tuple[InconsistentSet, frozenset[int]]]:
+def _causes(comparison: Comparison, which: SideName) -> Iterator[tuple[InconsistentSet, frozenset[int]]]:
     """The clashes that a changed rule or a changed constraint may bring, each with the rules that oblige its literals;
     smaller sets of rules first."""
-    changed = {places[which] for _, places in world.changed if which in places}
-    mine, theirs = (_constraints(world, side) for side in (which, other(which)))
+    changed = {places[which] for _, places in comparison.changed if which in places}
+    mine, theirs = (_constraints(comparison, side) for side in (which, other(which)))
     new_constraints = [constraint for constraint in mine if constraint not in theirs]
-    names = {o.name for row in changed for o in world.literals(row, which)}
+    names = {o.name for row in changed for o in comparison.literals(row, which)}
     names.update(name for constraint in new_constraints for name in _names(constraint))
     if not names and not new_constraints:
         return
-    tied = world.constraints_about(which, names)
+    tied = comparison.constraints_about(which, names)
     names.update(name for constraint in tied for name in _names(constraint))
-    obliging = _obliging(world, which, names)
-    for clash in world.inconsistent_sets(which, set(obliging)):
+    obliging = _obliging(comparison, which, names)
+    for clash in comparison.inconsistent_sets(which, set(obliging)):
         is_new = any(origin in new_constraints for origin in clash.origins)
         chosen = {
             frozenset(rows)
@@ -76,8 +76,8 @@ def _causes(world: World, which: Which) -> Iterator[tuple[InconsistentSet, froze
             yield clash, rows
 
 
-def _constraints(world: World, which: Which) -> list[Exclusive | Never]:
-    return world.sides[which].constraints
+def _constraints(comparison: Comparison, which: SideName) -> list[Exclusive | Never]:
+    return comparison.sides[which].constraints
 
 
 def _names(constraint: Exclusive | Never) -> Iterator[str]:
@@ -86,11 +86,11 @@ def _names(constraint: Exclusive | Never) -> Iterator[str]:
     return obligations_in(constraint)
 
 
-def _obliging(world: World, which: Which, names: set[str]) -> dict[Obligation, list[int]]:
+def _obliging(comparison: Comparison, which: SideName, names: set[str]) -> dict[Obligation, list[int]]:
     """The rows that oblige each literal of these names at once. Where no constraint ties names, a literal that nothing
     forbids matters to no clash."""
     found: dict[Obligation, list[int]] = {}
-    for row, (old, new) in enumerate(world.rows):
+    for row, (old, new) in enumerate(comparison.rows):
         rule = old if which == "old" else new
         if rule is None:
             continue
@@ -103,11 +103,11 @@ def _obliging(world: World, which: Which, names: set[str]) -> dict[Obligation, l
     return found
 
 
-def _region(world: World, which: Which, clash: InconsistentSet, rows: Iterable[int]) -> Formula:
+def _region(comparison: Comparison, which: SideName, clash: InconsistentSet, rows: Iterable[int]) -> Formula:
     """Where these rules oblige every literal of the clash, and the situation allows it to come true."""
     parts = [
         disjunction(
-            [f for f in (world.obliges(row, which, literal.__eq__) for row in sorted(rows)) if f != Truth(False)]
+            [f for f in (comparison.obliges(row, which, literal.__eq__) for row in sorted(rows)) if f != Truth(False)]
         )
         for literal in sorted(clash.literals, key=str)
     ]
@@ -115,24 +115,24 @@ def _region(world: World, which: Which, clash: InconsistentSet, rows: Iterable[i
 
 
 def _found(
-    world: World,
-    which: Which,
+    comparison: Comparison,
+    which: SideName,
     way: Way,
     clash: InconsistentSet,
     rows: frozenset[int],
     region: Formula,
     within: list[Formula],
 ) -> ConflictChange | None:
-    rules = [rule for rule in (world.rows[row].on(which) for row in sorted(rows)) if rule is not None]
+    rules = [rule for rule in (comparison.rows[row].on(which) for row in sorted(rows)) if rule is not None]
     triggers = {rule.trigger for rule in rules}
-    cone = world.cone(triggers)
-    peace = world.conflict(cone.rows, other(which))
+    cone = comparison.cone(triggers)
+    peace = comparison.conflict(cone.rows, other(which))
     excluded = [*within, peace]
     situation = all_of([region, *not_both(excluded)])
-    own = conditions_of(world.sides[which].plain(rule) for rule in rules)
+    own = conditions_of(comparison.sides[which].plain(rule) for rule in rules)
     try:
         everything = [*own, region, *excluded]
-        counting = Counting(everything, cone.in_force(all_of(everything)), triggers, world.measures)
+        counting = SituationCounter(everything, cone.in_force(all_of(everything)), triggers, comparison.measures)
         node = counting.where(region, excluded)
         if node == FALSE:
             return None
@@ -146,9 +146,9 @@ def _found(
         assert extent.affected is None, "a solver and a diagram disagree"
         return None
     context = witness.context()
-    said = {one: deciding(world, one, context) for one in SIDES}
-    replayed = all(possible(world, one, context) for one in SIDES) and all(
-        conflicting(world, one, context, said[one]) == (one == which) for one in SIDES
+    said = {one: deciding(comparison, one, context) for one in SIDES}
+    replayed = all(possible(comparison, one, context) for one in SIDES) and all(
+        conflicting(comparison, one, context, said[one]) == (one == which) for one in SIDES
     )
     if not replayed:
         raise Undecided("a situation did not replay, which is a bug in sleec-verify")

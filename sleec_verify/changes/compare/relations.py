@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TypeGuard
 
 from sleec_runtime.model import Effect, EventRelation, Formula, Lasting, MeasureRelation, Relation, Ruleset
 from sleec_verify.encoding.relations import formula_at_one_instant
@@ -20,7 +21,7 @@ def relations_over_time(ruleset: Ruleset) -> list[Relation]:
     return [s for s in ruleset.statements if isinstance(s, Lasting) or _happens_before(s)]
 
 
-def _happens_before(statement: object) -> bool:
+def _happens_before(statement: object) -> TypeGuard[EventRelation]:
     return isinstance(statement, EventRelation) and statement.relation == "happenBefore"
 
 

@@ -9,68 +9,68 @@ from sleec_runtime.evaluation.formula_truth import Situation, holds
 from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import Context, Exclusive, Formula, Never, Obligation
 from sleec_verify.changes.compare.alternatives import here
-from sleec_verify.changes.compare.comparison import SIDES, Which, World, triggered
-from sleec_verify.changes.compare.result import Deciding
+from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, triggered
+from sleec_verify.changes.compare.result import DecidingClause
 from sleec_verify.changes.compare.timing_order import implies
 
 
-def deciding(world: World, which: Which, context: Context) -> tuple[Deciding, ...]:
+def deciding(comparison: Comparison, which: SideName, context: Context) -> tuple[DecidingClause, ...]:
     """The clauses that decide on one side, in the order of its text, as the evaluator has it."""
-    stated = world.sides[which].stated
+    stated = comparison.sides[which].stated
 
     def true(formula: Formula) -> bool:
         return holds(formula, context, stated.measures)
 
     found = []
-    for rule in triggered(world, which, context):
+    for rule in triggered(comparison, which, context):
         decision = decide(rule, context, stated.reading, stated.measures)
         if decision is not None:
             span = list(rule.clauses())[decision.clause].span
             due = here(
-                decision.obligations, stated.reading, world.untimed, lambda f: holds(f, context, stated.measures)
+                decision.obligations, stated.reading, comparison.untimed, lambda f: holds(f, context, stated.measures)
             )
-            found.append(Deciding(rule.label, decision.clause, due, span))
+            found.append(DecidingClause(rule.label, decision.clause, due, span))
     return tuple(sorted(found, key=lambda one: one.span))
 
 
-def possible(world: World, which: Which, context: Context) -> bool:
+def possible(comparison: Comparison, which: SideName, context: Context) -> bool:
     """Whether the situation keeps what the side takes for granted."""
-    stated = world.sides[which].stated
+    stated = comparison.sides[which].stated
     fits = all(
         context.conditions[name] in values
-        for name, values in world.sides[which].scales.items()
+        for name, values in comparison.sides[which].scales.items()
         if name in context.conditions
     )
     return fits and all(
-        one.stated is None or holds(one.stated, context, stated.measures) for one in world.sides[which].given
+        one.stated is None or holds(one.stated, context, stated.measures) for one in comparison.sides[which].given
     )
 
 
-def conflicts(world: World, which: Which, context: Context, said: Iterable[Deciding]) -> bool:
+def conflicts(comparison: Comparison, which: SideName, context: Context, said: Iterable[DecidingClause]) -> bool:
     """Whether what these clauses oblige at once cannot all be done."""
     literals = tuple(dict.fromkeys(o for one in said for o in one.obligations if o.timing is None))
-    stated = world.sides[which].stated
+    stated = comparison.sides[which].stated
     forbidding = [c for c in stated.constraints if isinstance(c, (Exclusive, Never))]
     return has_conflict(literals, forbidding, Situation(context, stated.measures))
 
 
-def is_due(world: World, said: Iterable[Deciding], literal: Obligation) -> bool:
+def is_due(comparison: Comparison, said: Iterable[DecidingClause], literal: Obligation) -> bool:
     """Whether one of these clauses obliges the literal, or one that asks for at least as much."""
-    return any(implies(o, literal, world.untimed) is True for one in said for o in one.obligations)
+    return any(implies(o, literal, comparison.untimed) is True for one in said for o in one.obligations)
 
 
 def shows_change(
-    world: World,
+    comparison: Comparison,
     context: Context,
-    said: dict[Which, tuple[Deciding, ...]],
+    said: dict[SideName, tuple[DecidingClause, ...]],
     added: Sequence[Obligation],
     removed: Sequence[Obligation],
 ) -> bool:
     """Whether both sides allow the situation, neither conflicts in it, and what is due differs as is said."""
-    if not all(possible(world, which, context) for which in SIDES):
+    if not all(possible(comparison, which, context) for which in SIDES):
         return False
-    if any(conflicts(world, which, context, said[which]) for which in SIDES):
+    if any(conflicts(comparison, which, context, said[which]) for which in SIDES):
         return False
-    return all(is_due(world, said["new"], o) and not is_due(world, said["old"], o) for o in added) and all(
-        is_due(world, said["old"], o) and not is_due(world, said["new"], o) for o in removed
+    return all(is_due(comparison, said["new"], o) and not is_due(comparison, said["old"], o) for o in added) and all(
+        is_due(comparison, said["old"], o) and not is_due(comparison, said["new"], o) for o in removed
     )

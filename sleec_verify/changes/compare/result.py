@@ -30,7 +30,7 @@ class Extent(NamedTuple):
     why: str | None = None
 
 
-class Deciding(NamedTuple):
+class DecidingClause(NamedTuple):
     """A clause that decides in the situation shown, and all that it obliges. `span` is a place in its side's text."""
 
     rule: str
@@ -51,8 +51,8 @@ class Change(NamedTuple):
     added: tuple[Obligation, ...]
     removed: tuple[Obligation, ...]
     witness: Witness
-    before: tuple[Deciding, ...]
-    after: tuple[Deciding, ...]
+    before: tuple[DecidingClause, ...]
+    after: tuple[DecidingClause, ...]
     extent: Extent
     domains: tuple[str, ...] = ()
 
@@ -73,8 +73,8 @@ class ConflictChange(NamedTuple):
     rules: tuple[str, ...]
     origins: tuple[Span, ...]
     witness: Witness
-    before: tuple[Deciding, ...]
-    after: tuple[Deciding, ...]
+    before: tuple[DecidingClause, ...]
+    after: tuple[DecidingClause, ...]
     extent: Extent
     domains: tuple[str, ...] = ()
 

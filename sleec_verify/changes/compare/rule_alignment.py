@@ -12,7 +12,7 @@ from typing import NamedTuple
 from sleec_runtime.model import Clause, Formula, Rule, in_text_order
 
 
-class Pair(NamedTuple):
+class RulePair(NamedTuple):
     """A rule before and after; None on the side that has no such rule."""
 
     old: Rule | None
@@ -24,7 +24,7 @@ class Alignment:
     """`same` are equal but for their labels; `changed` are all others, in the order of the new text, gone ones last."""
 
     same: list[tuple[Rule, Rule]] = field(default_factory=list)
-    changed: list[Pair] = field(default_factory=list)
+    changed: list[RulePair] = field(default_factory=list)
     reordered: bool = False
 
     @property
@@ -62,10 +62,10 @@ def align(old: Sequence[Rule], new: Sequence[Rule], cancels: Callable[[Rule], bo
     for key in (_said, _label, _trigger):
         left, open_new = _match(old, new, left, open_new, key, partner)
     _sort(found, old, new, partner, cancels)
-    found.changed += (Pair(None, new[at]) for at in open_new)
+    found.changed += (RulePair(None, new[at]) for at in open_new)
     order = {id(rule): at for at, rule in enumerate(new)}
     found.changed.sort(key=lambda pair: order[id(pair.new)] if pair.new is not None else len(order))
-    found.changed += (Pair(old[at], None) for at in left)
+    found.changed += (RulePair(old[at], None) for at in left)
     return found
 
 
@@ -80,10 +80,10 @@ def _sort(
             found.reordered = found.reordered or partner[at] < last
             last = max(last, partner[at])
         elif one.trigger == other.trigger:
-            found.changed.append(Pair(one, other))
+            found.changed.append(RulePair(one, other))
         else:
             # What the one says of its trigger has nothing to do with what the other says of another.
-            found.changed += (Pair(one, None), Pair(None, other))
+            found.changed += (RulePair(one, None), RulePair(None, other))
 
 
 def _match(

@@ -32,7 +32,7 @@ from sleec_verify.encoding.equation import conjunction, disjunction
 
 
 @dataclass(frozen=True)
-class Given:
+class Assumption:
     """Something that a side takes for granted of every situation: the formula over the common measures, the same as it
     stands in the text (for the evaluator), and words for it."""
 
@@ -42,11 +42,11 @@ class Given:
 
 
 @dataclass
-class Side:
+class RulesetSide:
     """One ruleset in one domain, in the common vocabulary."""
 
     stated: Ruleset
-    given: list[Given]
+    given: list[Assumption]
     constraints: list[Exclusive | Never]
     scales: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """The measures whose scale the other side has otherwise, with this side's values."""
@@ -101,12 +101,12 @@ class Side:
     def _is(self, name: str, value: str) -> Formula:
         return Comparison(MeasureRef(name), "=", ScaleValue(value, self.merged[name].values.index(value)))
 
-    def valid_scales(self) -> Iterator[Given]:
+    def valid_scales(self) -> Iterator[Assumption]:
         """That each measure of two scales has a value of this side's, where the other has more."""
         for name, values in self.scales.items():
             if len(values) < len(self.merged[name].values):
                 formula = disjunction([self._is(name, value) for value in values])
-                yield Given(formula, None, f"{name} is {' or '.join(values)}")
+                yield Assumption(formula, None, f"{name} is {' or '.join(values)}")
 
 
 def mentions(rule: Rule, measures: Mapping[str, object]) -> bool:
@@ -155,9 +155,9 @@ def _kind(measure: Measure) -> str:
     return "a scale" if measure.kind == "scale" else "a number"
 
 
-def side(ruleset: Ruleset, vocabulary: Vocabulary) -> Side:
+def side(ruleset: Ruleset, vocabulary: Vocabulary) -> RulesetSide:
     """A ruleset as one side of a comparison."""
-    found = Side(
+    found = RulesetSide(
         ruleset, [], [], {name: ruleset.measures[name].values for name in vocabulary.scales}, vocabulary.measures
     )
     for constraint in ruleset.constraints:
@@ -174,10 +174,10 @@ def side(ruleset: Ruleset, vocabulary: Vocabulary) -> Side:
     return found
 
 
-def _assumed(of: Side, formula: Formula, by: str) -> Given:
+def _assumed(of: RulesetSide, formula: Formula, by: str) -> Assumption:
     from sleec_runtime.language import print_formula
 
-    return Given(of.formula(formula), formula, f"{by} {print_formula(formula)}" if by == "ASSUME" else by)
+    return Assumption(of.formula(formula), formula, f"{by} {print_formula(formula)}" if by == "ASSUME" else by)
 
 
 def condition_names(formulas: Iterable[Formula]) -> set[str]:

@@ -12,7 +12,7 @@ from sleec_verify.encoding.equation import conjunction
 from sleec_verify.query.names import Name, names_in
 
 
-class Counting:
+class SituationCounter:
     """The diagram of one question: some formulas, under assumptions, where the `given` triggers occur."""
 
     def __init__(

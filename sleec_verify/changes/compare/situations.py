@@ -6,49 +6,49 @@ from collections.abc import Iterator
 from typing import Union
 
 from sleec_runtime.model import Formula, Not
-from sleec_verify.changes.compare.comparison import Which, World, other
+from sleec_verify.changes.compare.comparison import Comparison, SideName, other
 from sleec_verify.changes.compare.replay import possible
 from sleec_verify.changes.compare.result import SituationChange, Undecidable, Way
-from sleec_verify.changes.compare.sides import Given
-from sleec_verify.changes.compare.situation_count import Counting, named_in, not_counted
+from sleec_verify.changes.compare.sides import Assumption
+from sleec_verify.changes.compare.situation_count import SituationCounter, named_in, not_counted
 from sleec_verify.changes.diagram.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.question import is_possible
 from sleec_verify.query.witness import smallest_situation
 
 
-def situation_changes(world: World) -> Iterator[Union[SituationChange, Undecidable]]:
+def situation_changes(comparison: Comparison) -> Iterator[Union[SituationChange, Undecidable]]:
     """For each thing that one side takes for granted and the other does not say, the situations that only the other
     side allows, if there are any: what the other side's assumptions give anyway is no change."""
     for which in ("old", "new"):
-        mine: Which = "old" if which == "old" else "new"
-        theirs = {given.formula for given in world.sides[other(mine)].given}
+        mine: SideName = "old" if which == "old" else "new"
+        theirs = {given.formula for given in comparison.sides[other(mine)].given}
         way: Way = "added" if mine == "old" else "removed"
-        for given in world.sides[mine].given:
+        for given in comparison.sides[mine].given:
             if given.formula not in theirs:
                 try:
-                    found = _allowed(world, other(mine), given, way)
+                    found = _allowed(comparison, other(mine), given, way)
                 except Undecided as error:
                     yield Undecidable(given.words, str(error))
                 else:
                     yield from () if found is None else (found,)
-    yield from _fractions(world)
+    yield from _fractions(comparison)
 
 
-def _allowed(world: World, by: Which, given: Given, way: Way) -> SituationChange | None:
+def _allowed(comparison: Comparison, by: SideName, given: Assumption, way: Way) -> SituationChange | None:
     """The situations that `by` allows and that break `given`."""
     broken = Not(given.formula)
-    index = world.situations_about(by, broken)
+    index = comparison.situations_about(by, broken)
     witness = smallest_situation(index, broken)
-    if witness is None or not is_possible(world.situations_of(by)):
+    if witness is None or not is_possible(comparison.situations_of(by)):
         return None
     context = witness.context()
-    if not possible(world, by, context) or _keeps(world, other(by), given, context):
+    if not possible(comparison, by, context) or _keeps(comparison, other(by), given, context):
         raise Undecided("a situation did not replay, which is a bug in sleec-verify")
     named = named_in([given.formula])
     assumed = [assumption.formula for assumption in index.assumptions_about(named)]
     try:
-        counting = Counting([broken], assumed, (), world.measures)
+        counting = SituationCounter([broken], assumed, (), comparison.measures)
         node = counting.where(broken)
         assert node != FALSE, "a solver and a diagram disagree"
         extent = counting.extent(node, named)
@@ -57,24 +57,24 @@ def _allowed(world: World, by: Which, given: Given, way: Way) -> SituationChange
     return SituationChange(way, given.words, witness, extent)
 
 
-def _keeps(world: World, which: Which, given: Given, context: object) -> bool:
+def _keeps(comparison: Comparison, which: SideName, given: Assumption, context: object) -> bool:
     from sleec_runtime.evaluation.formula_truth import holds
     from sleec_runtime.model import Context
 
     assert isinstance(context, Context)
     formula: Formula = given.formula if given.stated is None else given.stated
-    measures = world.measures if given.stated is None else world.sides[which].stated.measures
-    values = {name: world.sides[which].scales[name] for name in world.sides[which].scales}
+    measures = comparison.measures if given.stated is None else comparison.sides[which].stated.measures
+    values = {name: comparison.sides[which].scales[name] for name in comparison.sides[which].scales}
     if any(context.conditions.get(name, of[0]) not in of for name, of in values.items()):
         return False
     return holds(formula, context, measures)
 
 
-def _fractions(world: World) -> Iterator[SituationChange]:
+def _fractions(comparison: Comparison) -> Iterator[SituationChange]:
     """Numbers that one side takes for whole ones. The DSL has only these: between the languages it is a note."""
-    if world.sides["old"].stated.syntax != world.sides["new"].stated.syntax:
+    if comparison.sides["old"].stated.syntax != comparison.sides["new"].stated.syntax:
         return
-    for name in world.vocabulary.whole:
-        old = world.sides["old"].stated.measures[name].kind
+    for name in comparison.vocabulary.whole:
+        old = comparison.sides["old"].stated.measures[name].kind
         way: Way = "added" if old == "integer" else "removed"
         yield SituationChange(way, f"{name} is a whole number", None, None)

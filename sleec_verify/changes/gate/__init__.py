@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 from sleec_runtime.errors import SleecError
 from sleec_runtime.language import parse_source
 from sleec_runtime.model import Ruleset
-from sleec_verify.changes.gate.assertion_results import Asserting, Sides, ask_all
-from sleec_verify.changes.gate.baseline import Key, Known
+from sleec_verify.changes.gate.assertion_results import AssertionSources, RulesetVersions, ask_all
+from sleec_verify.changes.gate.baseline import Key, KnownFindings
 from sleec_verify.changes.gate.examination import Check, Examiner, Locate, check_ruleset, evidence, suppressions_of
 from sleec_verify.changes.gate.policy import judge
-from sleec_verify.changes.gate.result import Block, Examined, Gated
+from sleec_verify.changes.gate.result import Block, GateResult, RulesetExamination
 from sleec_verify.changes.gate.targets import conform
 from sleec_verify.changes.revisions.renames import with_renames
 from sleec_verify.encoding.trace_scope import Untimed
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from sleec_verify.changes.gate.keys import Policy, Target
     from sleec_verify.changes.revisions.versions import Version, Versions
 
-__all__ = ["Asserting", "Check", "evidence", "findings_now", "gate"]
+__all__ = ["AssertionSources", "Check", "evidence", "findings_now", "gate"]
 
 
 def gate(
@@ -41,10 +41,10 @@ def gate(
     changes: Sequence[Block] = (),
     known: Collection[Key] = (),
     everything: bool = False,
-    asserting: Asserting | None = None,
+    asserting: AssertionSources | None = None,
     untimed: Untimed = "at",
     touched: Set[str] = frozenset(),
-) -> Gated:
+) -> GateResult:
     """The verdict on rulesets in two versions, the older one called `base`.
 
     `changes` are those of the settings, `known` the findings of the baseline, `touched` what differs from the base of
@@ -53,16 +53,16 @@ def gate(
     assertions that are none. Linear in the rulesets that are the same; for the others, what `check` and `diff` cost.
     """
     versions, before = with_renames(versions)
-    found = Gated(base, changes=[*changes])
-    baseline = Known(known)
+    found = GateResult(base, changes=[*changes])
+    baseline = KnownFindings(known)
     examiner = Examiner(base, policy, baseline, check, locate, untimed)
-    asked: list[Sides] = []
+    asked: list[RulesetVersions] = []
     for one in versions:
         if everything or not one.unchanged or not touched.isdisjoint(evidence(one.path, policy)):
             examined = examiner.examine(one, before.get(one.path))
             found.examined.append(examined)
             if examined.difference is not None:
-                asked.append(Sides(examined.difference.new, examined.difference.old))
+                asked.append(RulesetVersions(examined.difference.new, examined.difference.old))
                 found.paths[examined.difference.new.source.path] = one.path
         else:
             found.unchanged += 1
@@ -70,10 +70,10 @@ def gate(
                 try:
                     with internal_errors_of(one.path):
                         ruleset = _read(one)
-                    asked.append(Sides(ruleset, ruleset))
+                    asked.append(RulesetVersions(ruleset, ruleset))
                     found.paths[ruleset.source.path] = one.path
                 except SleecError as error:
-                    found.examined.append(Examined(one.path, errors=[error]))
+                    found.examined.append(RulesetExamination(one.path, errors=[error]))
     found.conformed = [conform(target, locate, baseline) for target in targets]
     if asserting:
         found.asked = ask_all(found, asked, asserting)
@@ -96,12 +96,12 @@ def findings_now(places: Mapping[str, Version], targets: Sequence[Target], check
     Raises:
         SleecError: something cannot be read.
     """
-    known = Known()
+    known = KnownFindings()
     for name, place in places.items():
         with internal_errors_of(name):
             ruleset = parse_source(place.read())
             allowing, _ = suppressions_of(ruleset)
-            check_ruleset(Examined(name), ruleset, known, check, allowing)
+            check_ruleset(RulesetExamination(name), ruleset, known, check, allowing)
     for target in targets:
         found = conform(target, locate, known)
         if found.error is not None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.model import Atom, Ruleset, Source, leaves, measures_of
-from sleec_verify.changes.gate.result import Examined, Gated
+from sleec_verify.changes.gate.result import GateResult, RulesetExamination
 from sleec_verify.results.internal_error import InternalError, internal_errors_of
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from sleec_verify.changes.assertions.vocabulary import Vocabulary
 
 
-class Asserting:
+class AssertionSources:
     """The assertions of the configuration and the command line, as texts; files of them are read already."""
 
     def __init__(self, texts: Sequence[str] = (), sources: Sequence[Source] = ()) -> None:
@@ -26,14 +26,16 @@ class Asserting:
         return bool(self.texts or self.sources)
 
 
-class Sides(NamedTuple):
+class RulesetVersions(NamedTuple):
     """A ruleset as it is now, and as it was."""
 
     new: Ruleset
     old: Ruleset
 
 
-def ask_all(found: Gated, asked: Sequence[Sides], asserting: Asserting) -> tuple[AssertionResult, ...]:
+def ask_all(
+    found: GateResult, asked: Sequence[RulesetVersions], asserting: AssertionSources
+) -> tuple[AssertionResult, ...]:
     """The answers. An assertion is asked of each ruleset that knows one of its names, or did in the base: others are
     about other things, and a ruleset that is gone obliges nothing."""
     from sleec_runtime.errors import LanguageError
@@ -63,7 +65,7 @@ def ask_all(found: Gated, asked: Sequence[Sides], asserting: Asserting) -> tuple
         except InternalError as error:
             examined = next((one for one in found.examined if one.path == path), None)
             if examined is None:
-                found.examined.append(examined := Examined(path))
+                found.examined.append(examined := RulesetExamination(path))
             examined.errors.append(error)
     return tuple(answers)
 

@@ -24,7 +24,7 @@ def key(path: str, finding: Finding) -> Key:
     return path, finding.code, finding.rules, clauses, finding.obligations
 
 
-class Known:
+class KnownFindings:
     """The findings of a baseline, and those of them that there are still."""
 
     def __init__(self, keys: Collection[Key] = ()) -> None:

@@ -10,9 +10,9 @@ from sleec_runtime.errors import SleecError
 from sleec_runtime.language import parse_source
 from sleec_runtime.model import Ruleset, Source
 from sleec_verify.changes.compare import compare
-from sleec_verify.changes.gate.baseline import Known
+from sleec_verify.changes.gate.baseline import KnownFindings
 from sleec_verify.changes.gate.keys import Policy
-from sleec_verify.changes.gate.result import Examined
+from sleec_verify.changes.gate.result import RulesetExamination
 from sleec_verify.changes.gate.suppressions import Suppression, new_suppressions, suppressions
 from sleec_verify.checks import CHECKS, run_checks
 from sleec_verify.encoding.trace_scope import Untimed
@@ -45,14 +45,14 @@ class Examiner(NamedTuple):
 
     base: str
     policy: Policy
-    known: Known
+    known: KnownFindings
     check: Check
     locate: Locate
     untimed: Untimed
 
-    def examine(self, versions: Versions, was: str | None) -> Examined:
+    def examine(self, versions: Versions, was: str | None) -> RulesetExamination:
         """A ruleset in two versions, the older one at the path `was` if that is another."""
-        found = Examined(versions.path, was)
+        found = RulesetExamination(versions.path, was)
         try:
             with internal_errors_of(versions.path):
                 self._fill_in(found, versions)
@@ -60,7 +60,7 @@ class Examiner(NamedTuple):
             found.errors.append(error)
         return found
 
-    def _fill_in(self, found: Examined, versions: Versions) -> None:
+    def _fill_in(self, found: RulesetExamination, versions: Versions) -> None:
         sides: list[Ruleset | None] = []
         for place in (versions.old, versions.new):
             try:
@@ -122,9 +122,9 @@ def suppressions_of(ruleset: Ruleset) -> tuple[list[Suppression], list[Problem]]
 
 
 def check_ruleset(
-    found: Examined,
+    found: RulesetExamination,
     ruleset: Ruleset,
-    known: Known,
+    known: KnownFindings,
     check: Check,
     allowing: Sequence[Suppression],
     refused: Collection[Suppression] = (),

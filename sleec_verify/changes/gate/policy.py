@@ -10,15 +10,22 @@ from typing import TYPE_CHECKING
 from sleec_runtime.model import NOWHERE, Span
 from sleec_verify.changes.compare import by_obligation
 from sleec_verify.changes.gate.keys import Policy
-from sleec_verify.changes.gate.result import NEW_SUPPRESSIONS, POLICY_CHANGES, Block, Conformed, Examined, Gated
+from sleec_verify.changes.gate.result import (
+    NEW_SUPPRESSIONS,
+    POLICY_CHANGES,
+    Block,
+    GateResult,
+    RulesetExamination,
+    TargetConformance,
+)
 from sleec_verify.checks import CHECKS
-from sleec_verify.results.deduplication import told_once
+from sleec_verify.results.deduplication import deduplicate
 from sleec_verify.results.finding import SEVERITIES, ClauseRef, Finding, Severity, Unknown
 from sleec_verify.results.phrases import in_short, listed
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
-    from sleec_verify.changes.compare.result import Deciding
+    from sleec_verify.changes.compare.result import DecidingClause
     from sleec_verify.results.finding import Witness
 
 DEAD_HEDGE = CHECKS["dead-hedge"].kinds[0].code
@@ -40,7 +47,7 @@ POLICIES: Mapping[str, str] = {
 """What blocks, or is unknown, besides the findings of checks, by the name that it has in reports."""
 
 
-def judge(found: Gated, policy: Policy) -> None:
+def judge(found: GateResult, policy: Policy) -> None:
     """Fill in what blocks, what is unknown, and the new suppressions."""
     found.changes = [*_heeded(found.changes, policy.policy_changes)]
     for one in found.examined:
@@ -75,13 +82,13 @@ def _heeded(changes: Iterable[Block], blocking: bool) -> Iterator[Block]:
         yield change._replace(finding=replace(change.finding, severity=severity, help=_HELP))
 
 
-def _new_suppressions(one: Examined) -> Iterator[Block]:
+def _new_suppressions(one: RulesetExamination) -> Iterator[Block]:
     for new in one.new:
         what = f"line {one.line(new.span)} has a new suppression of {new.allowed}: {new.reason}"
         yield _block(NEW_SUPPRESSIONS, one.path, what, new.span)
 
 
-def _on_ruleset(one: Examined, policy: Policy) -> Iterator[Block]:
+def _on_ruleset(one: RulesetExamination, policy: Policy) -> Iterator[Block]:
     for problem in one.problems:
         what = f"line {one.line(problem.span)}: {problem.message} ({problem.hint})"
         yield _block("suppressions", one.path, what, problem.span)
@@ -89,7 +96,7 @@ def _on_ruleset(one: Examined, policy: Policy) -> Iterator[Block]:
         for unused in one.unused:
             what = f"line {one.line(unused.span)} allows {unused.allowed}, and there is no such finding"
             yield _block("unused-suppressions", one.path, what, unused.span)
-    for finding in told_once(one.findings):
+    for finding in deduplicate(one.findings):
         if _grave(finding, policy):
             yield _finding(one.path, finding)
         elif policy.dead_hedges and finding.code == DEAD_HEDGE:
@@ -143,7 +150,7 @@ def _block(
 
 
 def _places(
-    deciding: Sequence[Deciding],
+    deciding: Sequence[DecidingClause],
 ) -> tuple[Span, tuple[tuple[Span, str], ...], tuple[ClauseRef, ...]]:
     """Where clauses stand that decide now: the first, the others, and all by their rules."""
     if not deciding:
@@ -152,7 +159,7 @@ def _places(
     return deciding[0].span, others, tuple(ClauseRef(one.rule, one.clause) for one in deciding)
 
 
-def _new_conflicts(one: Examined) -> Iterator[Block]:
+def _new_conflicts(one: RulesetExamination) -> Iterator[Block]:
     """Those that no suppression allows and no baseline has: both speak of the conflict's finding, by its rules. Where
     these rules conflicted in the base already, they do so in more situations now, of which a baseline says nothing."""
     if one.difference is None:
@@ -172,7 +179,7 @@ def _new_conflicts(one: Examined) -> Iterator[Block]:
             )
 
 
-def _lost(one: Examined, patterns: tuple[str, ...]) -> Iterator[Block]:
+def _lost(one: RulesetExamination, patterns: tuple[str, ...]) -> Iterator[Block]:
     if one.difference is None:
         return
     told = set()
@@ -194,7 +201,7 @@ def _rule(ruleset: Ruleset, label: str | None) -> Span:
     return NOWHERE if rule is None else rule.span
 
 
-def _unknown(one: Examined) -> Iterator[Block]:
+def _unknown(one: RulesetExamination) -> Iterator[Block]:
     for result in one.results:
         if isinstance(result.verdict, Unknown):
             yield Block("unknown", one.path, f"{result.name}: {result.verdict.why}")
@@ -205,7 +212,7 @@ def _unknown(one: Examined) -> Iterator[Block]:
         yield Block("unknown", one.path, f"clause coverage: {one.coverage.why}")
 
 
-def _unknown_code(one: Conformed) -> Iterator[Block]:
+def _unknown_code(one: TargetConformance) -> Iterator[Block]:
     if one.why is not None:
         yield Block("unknown", one.target.code, one.why)
     elif one.result is not None and isinstance(one.result.verdict, Unknown):

@@ -46,7 +46,7 @@ class Coverage(NamedTuple):
 
 
 @dataclass
-class Examined:
+class RulesetExamination:
     """One ruleset that changed (or that all were asked for).
 
     `was` is its path in the base, where that was another. `ruleset` is what it is now; None where it is gone or cannot
@@ -79,7 +79,7 @@ class Examined:
 
 
 @dataclass
-class Conformed:
+class TargetConformance:
     """A target: its verdict and the findings that count, or why there is none."""
 
     target: Target
@@ -92,7 +92,7 @@ class Conformed:
 
 
 @dataclass
-class Gated:
+class GateResult:
     """All that came of a gate.
 
     `base` is what the base is called, `unchanged` how many rulesets were left out. `paths` says what the rulesets are
@@ -102,9 +102,9 @@ class Gated:
     """
 
     base: str
-    examined: list[Examined] = field(default_factory=list)
+    examined: list[RulesetExamination] = field(default_factory=list)
     unchanged: int = 0
-    conformed: list[Conformed] = field(default_factory=list)
+    conformed: list[TargetConformance] = field(default_factory=list)
     asked: tuple[AssertionResult, ...] = ()
     paths: dict[str, str] = field(default_factory=dict)
     changes: list[Block] = field(default_factory=list)

@@ -26,7 +26,7 @@ class Settings(NamedTuple):
     assertions: Mapping[str, Source]
 
 
-class Sides(NamedTuple):
+class GateSettings(NamedTuple):
     """Settings of the base, by which a change is judged; of where the change began; and of the change."""
 
     base: Settings
@@ -34,7 +34,7 @@ class Sides(NamedTuple):
     change: Settings
 
 
-def read_sides(base: Tree, start: Tree | None, now: Tree, file: str | None, baseline: str | None) -> Sides:
+def read_sides(base: Tree, start: Tree | None, now: Tree, file: str | None, baseline: str | None) -> GateSettings:
     """The settings of the trees; the change began at the base where `start` is None. `file` and `baseline` are named on
     the command line, in place of the nearest configuration and of the baseline that it names.
 
@@ -47,7 +47,7 @@ def read_sides(base: Tree, start: Tree | None, now: Tree, file: str | None, base
     default = Config(folder=now.repository.position(os.curdir) or os.curdir)
     decides = _read(base, now, configs[0] or default, baseline)
     before = decides if start is None else _read(start, now, config_of(start, file) or default, baseline)
-    return Sides(decides, before, _read(now, base, configs[1] or default, baseline))
+    return GateSettings(decides, before, _read(now, base, configs[1] or default, baseline))
 
 
 def config_of(tree: Tree, file: str | None) -> Config | None:

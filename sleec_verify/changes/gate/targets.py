@@ -6,20 +6,20 @@ import os
 
 from sleec_runtime.errors import SleecError
 from sleec_runtime.language import load
-from sleec_verify.changes.gate.baseline import Known
+from sleec_verify.changes.gate.baseline import KnownFindings
 from sleec_verify.changes.gate.examination import Locate
 from sleec_verify.changes.gate.keys import Target
-from sleec_verify.changes.gate.result import Conformed
+from sleec_verify.changes.gate.result import TargetConformance
 from sleec_verify.results.internal_error import internal_errors_of
 
 
-def conform(target: Target, locate: Locate, known: Known) -> Conformed:
+def conform(target: Target, locate: Locate, known: KnownFindings) -> TargetConformance:
     """The verdict on a target, and its findings that are not `known`."""
     from sleec_runtime.errors import UnsupportedTimes
     from sleec_verify.conformance.structure import UNDECIDED, check_structure
     from sleec_verify.conformance.structure.target import python_files
 
-    found = Conformed(target)
+    found = TargetConformance(target)
     try:
         with internal_errors_of(target.code):
             found.ruleset = load(locate(target.at(target.rules)))

@@ -13,7 +13,7 @@ from sleec_runtime.support.files import read_file
 from sleec_verify.files.folders import SUFFIX, rulesets_below
 
 
-class OneSided(SleecError):
+class MissingSide(SleecError):
     """A ruleset that only one side has."""
 
 
@@ -53,15 +53,15 @@ class Versions(NamedTuple):
             return False
         return self.old.blob == self.new.named(len(self.old.blob))
 
-    def one_sided(self, old: str, new: str) -> OneSided | None:
+    def one_sided(self, old: str, new: str) -> MissingSide | None:
         """What to say where only one of the sides, called `old` and `new`, has it."""
         if self.old is None:
-            return OneSided(
+            return MissingSide(
                 f"{self.path} is not in {old}: it was added, and there is nothing to compare it with",
                 "--missing-as-empty compares it with no rules at all",
             )
         if self.new is None:
-            return OneSided(
+            return MissingSide(
                 f"{self.path} is not in {new}: it was deleted, and there is nothing to compare it with",
                 "--missing-as-empty compares it with no rules at all",
             )

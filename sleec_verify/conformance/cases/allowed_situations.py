@@ -20,7 +20,7 @@ class Goal(NamedTuple):
     literal: int
 
 
-class World:
+class AllowedSituations:
     """The question, with the rules of one domain in it. `single` allows no two triggers at once, `peaceful` False also
     situations in which the rules conflict."""
 

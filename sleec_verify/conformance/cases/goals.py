@@ -13,7 +13,7 @@ from itertools import combinations, product
 
 from sleec_runtime.language import print_formula
 from sleec_runtime.model import Atom, Comparison, Rule, formulas_of, leaves
-from sleec_verify.conformance.cases.allowed_situations import Goal, World
+from sleec_verify.conformance.cases.allowed_situations import AllowedSituations, Goal
 from sleec_verify.conformance.cases.mcdc import deciding_vectors
 
 
@@ -26,7 +26,7 @@ def clause_name(rule: Rule, number: int) -> str:
     return rule.layer(number) or f"{rule.label} (default)"
 
 
-def goals(world: World, criterion: str, labels: frozenset[str]) -> list[Goal]:
+def goals(world: AllowedSituations, criterion: str, labels: frozenset[str]) -> list[Goal]:
     """The goals of the rules with these labels."""
     return [
         goal
@@ -36,22 +36,22 @@ def goals(world: World, criterion: str, labels: frozenset[str]) -> list[Goal]:
     ]
 
 
-def _clauses(world: World, position: int) -> Iterator[Goal]:
+def _clauses(world: AllowedSituations, position: int) -> Iterator[Goal]:
     rule = world.index.rules[position]
     for number, guard in enumerate(world.guards[position]):
         yield Goal(clause_name(rule, number), rule.trigger, guard)
 
 
-def _no_more(world: World, position: int) -> Iterator[Goal]:
+def _no_more(world: AllowedSituations, position: int) -> Iterator[Goal]:
     yield from ()
 
 
-def _literals(world: World, position: int) -> list[tuple[str, int]]:
+def _literals(world: AllowedSituations, position: int) -> list[tuple[str, int]]:
     """Each condition of a rule by its text, and the literal of it."""
     return [(print_formula(c), world.literal(c)) for c in conditions_of(world.index.rules[position])]
 
 
-def _conditions(world: World, position: int) -> Iterator[Goal]:
+def _conditions(world: AllowedSituations, position: int) -> Iterator[Goal]:
     rule = world.index.rules[position]
     in_guard = set(leaves(rule.guard)) if rule.guard is not None else set()
     asked = world.encoder.any_of(world.guards[position])
@@ -66,7 +66,7 @@ def _conditions(world: World, position: int) -> Iterator[Goal]:
             )
 
 
-def _pairs(world: World, position: int) -> Iterator[Goal]:
+def _pairs(world: AllowedSituations, position: int) -> Iterator[Goal]:
     rule = world.index.rules[position]
     conditions = _literals(world, position)
     if len(conditions) == 1:
@@ -76,7 +76,7 @@ def _pairs(world: World, position: int) -> Iterator[Goal]:
             yield _vector(world, rule, [text for text, _ in two], [literal for _, literal in two], values)
 
 
-def _mcdc(world: World, position: int) -> Iterator[Goal]:
+def _mcdc(world: AllowedSituations, position: int) -> Iterator[Goal]:
     rule = world.index.rules[position]
     conditions = conditions_of(rule)
     found = deciding_vectors(world.index, position, conditions)
@@ -88,13 +88,15 @@ def _mcdc(world: World, position: int) -> Iterator[Goal]:
         yield Goal(f"{rule.label}: {texts[place]} decides", rule.trigger, -world.encoder.true())
 
 
-def _vector(world: World, rule: Rule, texts: list[str], literals: list[int], values: tuple[bool, ...]) -> Goal:
+def _vector(
+    world: AllowedSituations, rule: Rule, texts: list[str], literals: list[int], values: tuple[bool, ...]
+) -> Goal:
     said = ", ".join(text if value else f"NOT ({text})" for text, value in zip(texts, values))
     signed = [literal if value else -literal for literal, value in zip(literals, values)]
     return Goal(f"{rule.label}: {said}", rule.trigger, world.encoder.all_of([world.trigger(rule.trigger), *signed]))
 
 
-CRITERIA: Mapping[str, Callable[[World, int], Iterator[Goal]]] = {
+CRITERIA: Mapping[str, Callable[[AllowedSituations, int], Iterator[Goal]]] = {
     "clause": _no_more,
     "condition": _conditions,
     "mcdc": _mcdc,

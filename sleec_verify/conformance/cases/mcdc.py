@@ -20,7 +20,7 @@ Vector = tuple[bool, ...]
 _Condition = Atom | Comparison
 
 
-class Deciding(NamedTuple):
+class DecidingVectors(NamedTuple):
     """The truth values of the conditions in each situation that is needed, and the conditions, by place, that never
     decide."""
 
@@ -28,7 +28,7 @@ class Deciding(NamedTuple):
     undecided: tuple[int, ...]
 
 
-def deciding_vectors(index: RulesetIndex, position: int, conditions: Sequence[_Condition]) -> Deciding:
+def deciding_vectors(index: RulesetIndex, position: int, conditions: Sequence[_Condition]) -> DecidingVectors:
     """Few vectors that show every condition to decide. A condition is tried first as a change of what is there already,
     which gives one vector more for each condition where that works out. Raises `Undecided`."""
     rule = index.rules[position]
@@ -61,7 +61,7 @@ def deciding_vectors(index: RulesetIndex, position: int, conditions: Sequence[_C
                     found = outcome(vector)
                     assert not isinstance(found, str), "both were found to be possible"
                     outcomes[vector] = found
-    return Deciding(tuple(outcomes), tuple(undecided))
+    return DecidingVectors(tuple(outcomes), tuple(undecided))
 
 
 def _pair(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sleec_verify.conformance.cases.allowed_situations import Goal, World
+from sleec_verify.conformance.cases.allowed_situations import AllowedSituations, Goal
 from sleec_verify.encoding.solver import MiniSat
 
 _MOST_COPIES = 12
@@ -13,7 +13,7 @@ _BUDGET = 20_000
 """Conflicts, after which the set stays as it is: near-smallest, and not proved to be smallest."""
 
 
-def fewer(world: World, sets: list[list[Goal]]) -> list[list[Goal]]:
+def fewer(world: AllowedSituations, sets: list[list[Goal]]) -> list[list[Goal]]:
     """The goals of `sets` in fewer sets, each of which one situation reaches; as few as can be where that is decided
     within the budget."""
     goals = [goal for together in sets for goal in together]
@@ -25,13 +25,13 @@ def fewer(world: World, sets: list[list[Goal]]) -> list[list[Goal]]:
     return sets
 
 
-def _least(world: World, goals: Sequence[Goal]) -> int:
+def _least(world: AllowedSituations, goals: Sequence[Goal]) -> int:
     """A rule has one active clause at a time, so that there are as many situations as it has clauses to reach."""
     wanted = {goal.literal for goal in goals}
     return max((len(wanted.intersection(guards)) for guards in world.guards), default=0)
 
 
-def _in(world: World, goals: Sequence[Goal], copies: int) -> list[list[Goal]] | None:
+def _in(world: AllowedSituations, goals: Sequence[Goal], copies: int) -> list[list[Goal]] | None:
     """The goals in that many sets, or None where there are no such sets or too much would have to be tried."""
     clauses, top = world.encoder.clauses, world.encoder.top
     if copies > _MOST_COPIES or copies * len(clauses) > _MOST_CLAUSES:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from random import Random
 
 from sleec_runtime.model import Context, Ruleset
-from sleec_verify.conformance.cases.allowed_situations import Goal, World
+from sleec_verify.conformance.cases.allowed_situations import AllowedSituations, Goal
 from sleec_verify.conformance.cases.case import Case
 from sleec_verify.conformance.cases.goals import goals
 from sleec_verify.conformance.cases.minimisation import fewer
@@ -19,7 +19,7 @@ _SEVERAL_ORDERS = 150
 
 
 @dataclass(frozen=True)
-class Unreached:
+class UnreachedGoal:
     """A goal that no situation of the set reaches, and why."""
 
     name: str
@@ -32,7 +32,7 @@ class Cases:
 
     cases: tuple[Case, ...]
     reached: int
-    unreached: tuple[Unreached, ...]
+    unreached: tuple[UnreachedGoal, ...]
 
 
 @dataclass
@@ -49,12 +49,12 @@ def choose_cases(ruleset: Ruleset, criterion: str, domain: str | None = None, si
     conflict. O(goals²) questions in the worst case. Raises `Undecided`.
     """
     found: list[Case] = []
-    missed: dict[str, Unreached] = {}
+    missed: dict[str, UnreachedGoal] = {}
     done: set[str] = set()
     for where in (domain,) if domain is not None else ruleset.domains or (None,):
         part = ruleset if where is None else ruleset.in_domain(where)
         index = RulesetIndex(part)
-        world = World(index, single)
+        world = AllowedSituations(index, single)
         labels = frozenset(rule.label for rule in part.rules)
         wanted = [goal for goal in goals(world, criterion, labels) if goal.name not in done]
         chosen, unreached = _cover(world, wanted)
@@ -66,7 +66,7 @@ def choose_cases(ruleset: Ruleset, criterion: str, domain: str | None = None, si
     return Cases(tuple(found), len(done), tuple(u for name, u in missed.items() if name not in done))
 
 
-def _cover(world: World, wanted: Sequence[Goal]) -> tuple[list[_Found], list[Goal]]:
+def _cover(world: AllowedSituations, wanted: Sequence[Goal]) -> tuple[list[_Found], list[Goal]]:
     orders = [list(wanted)]
     if len(wanted) <= _SEVERAL_ORDERS:
         orders += [list(wanted)[::-1], Random(0).sample(wanted, len(wanted))]
@@ -76,7 +76,7 @@ def _cover(world: World, wanted: Sequence[Goal]) -> tuple[list[_Found], list[Goa
     return found, unreached
 
 
-def _greedily(world: World, wanted: Iterable[Goal]) -> tuple[list[list[Goal]], list[Goal]]:
+def _greedily(world: AllowedSituations, wanted: Iterable[Goal]) -> tuple[list[list[Goal]], list[Goal]]:
     """Set after set, each with as many of the goals as one situation reaches together with its first."""
     left = {goal.name: goal for goal in wanted}
     found: list[list[Goal]] = []
@@ -114,22 +114,22 @@ def _case(oracle: Oracle, found: _Found, number: int, done: set[str]) -> Case:
     )
 
 
-def _reasons(index: RulesetIndex, criterion: str, unreached: Sequence[Goal], single: bool) -> Iterable[Unreached]:
+def _reasons(index: RulesetIndex, criterion: str, unreached: Sequence[Goal], single: bool) -> Iterable[UnreachedGoal]:
     """Asks again with less asked for: where a goal can be reached then, that is why it was not."""
     if not unreached:
         return
     names = {goal.name for goal in unreached}
     labels = frozenset(rule.label for rule in index.rules)
 
-    def reachable(world: World) -> set[str]:
+    def reachable(world: AllowedSituations) -> set[str]:
         return {g.name for g in goals(world, criterion, labels) if g.name in names and world.reaches(g.literal)}
 
-    together = reachable(World(index)) if single else set()
-    at_all = reachable(World(index, peaceful=False))
+    together = reachable(AllowedSituations(index)) if single else set()
+    at_all = reachable(AllowedSituations(index, peaceful=False))
     for goal in unreached:
         if goal.name in together:
-            yield Unreached(goal.name, "only when other triggers occur as well")
+            yield UnreachedGoal(goal.name, "only when other triggers occur as well")
         elif goal.name in at_all:
-            yield Unreached(goal.name, "only where the rules conflict")
+            yield UnreachedGoal(goal.name, "only where the rules conflict")
         else:
-            yield Unreached(goal.name, "in no situation")
+            yield UnreachedGoal(goal.name, "in no situation")

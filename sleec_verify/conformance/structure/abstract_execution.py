@@ -20,14 +20,14 @@ from sleec_verify.conformance.structure.values import (
     ClassOf,
     Code,
     Environment,
-    Mark,
-    Marked,
+    ForeignValue,
+    MarkedCallable,
     Object,
     ObligationMark,
-    Outside,
+    RuleMark,
     Runtime,
     Text,
-    Unknown,
+    UnknownValue,
     Value,
 )
 
@@ -58,7 +58,7 @@ class Doubt(NamedTuple):
 
 
 @dataclass
-class Trace:
+class Execution:
     """What one variant does. `unfollowed` are calls of inherited or imported code that is not in the target;
     `triggers` are those that it triggers for certain while nothing has changed, so far as is seen (`changed`)."""
 
@@ -69,9 +69,9 @@ class Trace:
     triggers: list[tuple[str, ast.AST, PythonFile]] = field(default_factory=list)
     changed: bool = False
 
-    def then(self, other: Trace) -> Trace:
+    def then(self, other: Execution) -> Execution:
         """This, and then the other."""
-        return Trace(
+        return Execution(
             self.calls + other.calls,
             self.doubts + other.doubts,
             self.proceeds + other.proceeds,
@@ -86,7 +86,7 @@ class Trace:
         return [call.obligation for call in self.calls if call.why is None]
 
 
-class Tracer:
+class AbstractExecutor:
     """Follows variants. `followed` maps each function that was entered to the obligations executed in it;
     `implementations` are functions that were called as an obligation's."""
 
@@ -103,10 +103,10 @@ class Tracer:
         function: Function,
         class_: Class | None,
         inherited: Callable[[Function], Function | None] = lambda _: None,
-    ) -> Trace:
+    ) -> Execution:
         """What `function` executes as a method of an object of `class_`. `inherited` gives, for the method that
         `super()` leads to, the variant of the same layer."""
-        run = _Run(self, Trace(), inherited)
+        run = _Run(self, Execution(), inherited)
         receiver = Object(class_) if class_ is not None else None
         own = self.names.mark(function)
         if own is not None:
@@ -122,7 +122,9 @@ class Tracer:
 class _Run:
     """One variant under way."""
 
-    def __init__(self, tracer: Tracer, trace: Trace, inherited: Callable[[Function], Function | None]) -> None:
+    def __init__(
+        self, tracer: AbstractExecutor, trace: Execution, inherited: Callable[[Function], Function | None]
+    ) -> None:
         self.tracer = tracer
         self.resolver = tracer.resolver
         self.names = tracer.names
@@ -223,7 +225,7 @@ class _Body(Flow):
         assert inner is not None, "the scope of a function knows it"
         self.run.stack.append(inner)
         before = self.run.trace
-        self.run.trace = Trace()
+        self.run.trace = Execution()
         _Body(self.run, inner, self.given).statements(node.body, "in a function that is defined here, not run")
         found, self.run.trace = self.run.trace, before
         self.run.stack.pop()
@@ -243,7 +245,7 @@ class _Body(Flow):
         own = self._own_attribute(node.func)
         if own is not None:
             self._by_name(node, own, why)
-        elif isinstance(value, Marked):
+        elif isinstance(value, MarkedCallable):
             if value.name is None:
                 self.run.doubt(node, self.file, "the name of the obligation is known only at run time")
             else:
@@ -252,7 +254,7 @@ class _Body(Flow):
             self._code(node, value, why, awaited)
         elif isinstance(value, Api):
             self._api(node, value, why)
-        elif isinstance(value, (Unknown, Outside)):
+        elif isinstance(value, (UnknownValue, ForeignValue)):
             self._unresolved(node, value, why)
 
     def _triggered(self, node: ast.Call, why: str | None, awaited: bool) -> None:
@@ -291,7 +293,7 @@ class _Body(Flow):
     def _obligation(self, node: ast.expr, value: Value) -> str | None:
         if isinstance(value, Code) and len(value.definitions) == 1:
             return self._implemented(value.definitions[0], value.receiver)
-        if isinstance(value, Unknown) and isinstance(node, ast.Attribute):
+        if isinstance(value, UnknownValue) and isinstance(node, ast.Attribute):
             receiver = self.value(node.value)
             if isinstance(receiver, (Object, ClassOf)):
                 return self.run.names.called(node.attr)
@@ -369,7 +371,8 @@ class _Body(Flow):
     def _replaced(self, function: Function) -> bool:
         values = [self.run.resolver.of(node, function.scope) for node in function.node.decorator_list]
         return any(
-            not isinstance(value, (Mark, ObligationMark)) and not (isinstance(value, Api) and value.name in HARMLESS)
+            not isinstance(value, (RuleMark, ObligationMark))
+            and not (isinstance(value, Api) and value.name in HARMLESS)
             for value in values
         )
 
@@ -400,11 +403,11 @@ class _Body(Flow):
                 own = isinstance(receiver, (Object, ClassOf)) and self._is_own(receiver)
                 if own or not self._own_implementation(name):
                     self._by_name(node, name, why)
-                elif isinstance(receiver, Unknown):
+                elif isinstance(receiver, UnknownValue):
                     self.run.doubt(node, self.file, f"whether this is what implements {name} is known only at run time")
             elif isinstance(receiver, (Object, ClassOf)):
                 self.run.trace.unfollowed.append(f"{ast.unparse(func)}()")
-        elif isinstance(value, Unknown):
+        elif isinstance(value, UnknownValue):
             self.run.doubt(node, self.file, f"what {ast.unparse(func)} calls is known only at run time")
 
     def _by_name(self, node: ast.Call, name: str, why: str | None) -> None:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from sleec_runtime.dispatch.implementations import snake_case
 from sleec_runtime.model import Rule
 from sleec_verify.checks.base import listed
-from sleec_verify.conformance.structure.abstract_execution import Call, Trace
+from sleec_verify.conformance.structure.abstract_execution import Call, Execution
 from sleec_verify.conformance.structure.methods import Variant
 from sleec_verify.conformance.structure.report import Findings, clause_name
 from sleec_verify.results.finding import ClauseRef
 
 
-def compare(findings: Findings, rule: Rule, number: int, variant: Variant, trace: Trace) -> None:
+def compare(findings: Findings, rule: Rule, number: int, variant: Variant, trace: Execution) -> None:
     """Reports every difference between what a variant does and what clause `number` of its rule obliges."""
     clause = tuple(rule.clauses())[number]
     due = [literal.name for literal in clause.obligations if not literal.negated]

@@ -7,7 +7,7 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from sleec_verify.checks.base import listed
-from sleec_verify.conformance.structure.abstract_execution import REPLACERS, Tracer
+from sleec_verify.conformance.structure.abstract_execution import REPLACERS, AbstractExecutor
 from sleec_verify.conformance.structure.methods import Group, Method
 from sleec_verify.conformance.structure.names import Names
 from sleec_verify.conformance.structure.program import Class, Function, Scope
@@ -15,7 +15,17 @@ from sleec_verify.conformance.structure.report import Findings
 from sleec_verify.conformance.structure.resolve import ADVICE, Resolver
 from sleec_verify.conformance.structure.tables import Tables
 from sleec_verify.conformance.structure.uses import Use
-from sleec_verify.conformance.structure.values import Advice, Api, Code, Layer, Mark, Object, OwnLayer, Unknown, Value
+from sleec_verify.conformance.structure.values import (
+    Advice,
+    Api,
+    Code,
+    Layer,
+    Object,
+    OwnLayer,
+    RuleMark,
+    UnknownValue,
+    Value,
+)
 
 _ACTIVATORS = {
     f"contextpy3.{name}"
@@ -26,13 +36,13 @@ _CODE_AS_IT_RUNS = {"builtins.exec", "builtins.eval", "builtins.compile", "built
 
 
 @dataclass
-class Around:
+class BypassCheck:
     """Looks at every expression outside the variants, once these have been followed."""
 
     resolver: Resolver
     names: Names
     findings: Findings
-    tracer: Tracer
+    tracer: AbstractExecutor
     tables: Tables
     methods: list[Method]
     layers: Collection[str]
@@ -78,12 +88,12 @@ class Around:
                 self._obligations(use, node, [name])
         elif isinstance(node.func, ast.Attribute) and node.func.attr in self.tables.attributes:
             self._in_table(use, node.func)
-        elif isinstance(value, Unknown) and isinstance(node.func, ast.Attribute):
+        elif isinstance(value, UnknownValue) and isinstance(node.func, ast.Attribute):
             self._unresolved(use, node.func)
 
     def _applied(self, use: Use, node: ast.Call) -> None:
         """A decorator that is made here, and put to use otherwise than above a definition."""
-        if isinstance(self.resolver.of(node, use.scope), (Advice, Mark)) and not isinstance(
+        if isinstance(self.resolver.of(node, use.scope), (Advice, RuleMark)) and not isinstance(
             use.parent, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Assign)
         ):
             self._handmade(use)
@@ -141,7 +151,7 @@ class Around:
             if name in self.tracer.by_name and self._is_robot(receiver) and not self._may_execute(use, name):
                 self._obligations(use, func, [name])
             return
-        if not isinstance(receiver, Unknown):
+        if not isinstance(receiver, UnknownValue):
             return
         if name is not None and name in self._implementations and not self._may_execute(use, name):
             why = f"this executes {name} around the dispatch, if {ast.unparse(func.value)} is what implements it"
@@ -168,7 +178,7 @@ class Around:
         elif value.name == "builtins.getattr" and len(node.args) > 1:
             receiver = self.resolver.of(node.args[0], use.scope)
             name = self.resolver.of(node.args[1], use.scope)
-            if isinstance(name, Unknown) and self._is_robot(receiver):
+            if isinstance(name, UnknownValue) and self._is_robot(receiver):
                 self.findings.undecided(file, node, "which attribute of the robot this is, is known only at run time")
 
     def _activation(self, use: Use, node: ast.Call) -> None:
@@ -193,7 +203,7 @@ class Around:
         if self._is_mere_name(use, node):
             return
         value = self.resolver.of(node, use.scope)
-        if isinstance(value, (Advice, Mark)) or (isinstance(value, Api) and value.name in ADVICE):
+        if isinstance(value, (Advice, RuleMark)) or (isinstance(value, Api) and value.name in ADVICE):
             self._handmade(use)
         if not isinstance(value, Code):
             return
@@ -228,7 +238,7 @@ class Around:
     def _stored(self, use: Use, node: ast.Attribute) -> None:
         """A method of the robot that is replaced by an assignment to its attribute."""
         receiver = self.resolver.of(node.value, use.scope)
-        of_robot = isinstance(receiver, Unknown) or getattr(receiver, "class_", None) in self._robots
+        of_robot = isinstance(receiver, UnknownValue) or getattr(receiver, "class_", None) in self._robots
         if of_robot and (node.attr in self._method_names or self._replaces(node.attr)):
             self.findings.undecided(use.scope.file, node, f"{node.attr} is replaced here as the program runs")
 
@@ -276,7 +286,7 @@ class Around:
 
     def _is_super(self, use: Use, node: ast.Call) -> bool:
         receiver: Value = (
-            self.resolver.of(node.func.value, use.scope) if isinstance(node.func, ast.Attribute) else Unknown()
+            self.resolver.of(node.func.value, use.scope) if isinstance(node.func, ast.Attribute) else UnknownValue()
         )
         return isinstance(receiver, Object) and receiver.after is not None and self._within_variant(use)
 

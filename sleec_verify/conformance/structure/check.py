@@ -7,12 +7,12 @@ from collections import Counter
 
 from sleec_runtime.model import Rule, Ruleset
 from sleec_runtime.support.suggestions import nearest
-from sleec_verify.conformance.structure.abstract_execution import Tracer
-from sleec_verify.conformance.structure.bypasses import Around
+from sleec_verify.conformance.structure.abstract_execution import AbstractExecutor
+from sleec_verify.conformance.structure.bypasses import BypassCheck
 from sleec_verify.conformance.structure.layering import MethodCheck
 from sleec_verify.conformance.structure.methods import Group, Method, groups, methods
 from sleec_verify.conformance.structure.names import Names
-from sleec_verify.conformance.structure.program import Assigned, Class, Function, Program
+from sleec_verify.conformance.structure.program import Assignment, Class, Function, TargetProgram
 from sleec_verify.conformance.structure.report import Findings
 from sleec_verify.conformance.structure.resolve import Resolver
 from sleec_verify.conformance.structure.tables import Tables
@@ -24,10 +24,10 @@ from sleec_verify.results.finding import Finding
 
 def findings_on(ruleset: Ruleset, files: tuple[PythonFile, ...], domain: str | None) -> tuple[Finding, ...]:
     """All that is found in `files`."""
-    return _Whole(ruleset, files, domain).findings.found
+    return StructureCheck(ruleset, files, domain).findings.found
 
 
-class _Whole:
+class StructureCheck:
     def __init__(self, ruleset: Ruleset, files: tuple[PythonFile, ...], domain: str | None) -> None:
         self.ruleset = ruleset
         self.findings = Findings(ruleset)
@@ -37,7 +37,7 @@ class _Whole:
             for number, _ in enumerate(rule.clauses())
             if (layer := rule.layer(number)) is not None
         }
-        program = Program(files)
+        program = TargetProgram(files)
         self.resolver = Resolver(program)
         self.names = Names(ruleset.obligations, self.resolver)
         everything = list(uses(program))
@@ -52,7 +52,9 @@ class _Whole:
         self.methods = list(methods(program, self.resolver, found, made))
         self.labels = {method: self._labels(method) for method in self.methods}
         concerned = [group for group in found if group.concerns_rules]
-        self.tracer = Tracer(self.resolver, self.names, {v.function for group in concerned for v in group.variants})
+        self.tracer = AbstractExecutor(
+            self.resolver, self.names, {v.function for group in concerned for v in group.variants}
+        )
         self.tables = Tables(self.resolver, self.names, self.findings)
         for use, _ in calls:
             self.tables.read(use)
@@ -61,7 +63,7 @@ class _Whole:
             self._definitions(group)
         for method in self.methods:
             self._bound_otherwise(method)
-        around = Around(
+        around = BypassCheck(
             self.resolver, self.names, self.findings, self.tracer, self.tables, self.methods, self.layers, self.globally
         )
         for use in everything:
@@ -168,7 +170,7 @@ class _Whole:
         for class_ in classes:
             for binding in class_.inner.bindings.get(method.name, ()):
                 if not isinstance(binding, Function):
-                    node = binding.value if isinstance(binding, Assigned) else class_.node
+                    node = binding.value if isinstance(binding, Assignment) else class_.node
                     why = f"{method.name} is bound otherwise than by `def`, and that may replace the method of a rule"
                     self.findings.undecided(class_.scope.file, node, why)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from sleec_runtime.model import Rule
 from sleec_runtime.support.suggestions import nearest
 from sleec_verify.checks.base import listed
-from sleec_verify.conformance.structure.abstract_execution import Trace, Tracer
+from sleec_verify.conformance.structure.abstract_execution import AbstractExecutor, Execution
 from sleec_verify.conformance.structure.bodies import compare
 from sleec_verify.conformance.structure.methods import Method, Variant, calls_super
 from sleec_verify.conformance.structure.program import Function
@@ -18,11 +18,11 @@ from sleec_verify.results.finding import ClauseRef
 
 
 @dataclass(eq=False)
-class Unit:
+class TracedVariant:
     """A variant with what it does. `wrong`, for one that stands for no clause: the kind of finding and its message."""
 
     variant: Variant
-    trace: Trace
+    trace: Execution
     wrong: tuple[str, str] | None = None
     hint: str | None = None
 
@@ -35,12 +35,12 @@ class MethodCheck:
     rule: Rule
     labels: list[str]
     layers: Mapping[str, tuple[str, int]]
-    tracer: Tracer
+    tracer: AbstractExecutor
     findings: Findings
     by_hand: bool
     """Whether the layers are activated globally, so that a hedge without a variant runs the base."""
-    units: dict[int, list[Unit]] = field(default_factory=dict)
-    strays: list[Unit] = field(default_factory=list)
+    units: dict[int, list[TracedVariant]] = field(default_factory=dict)
+    strays: list[TracedVariant] = field(default_factory=list)
     unknown_layers: bool = False
 
     def run(self) -> None:
@@ -70,12 +70,12 @@ class MethodCheck:
     def _sort(self) -> None:
         """Gives each clause its variants, the one that runs first; what stands for no clause is a stray."""
         for group in self.method.groups:
-            here: dict[int, list[Unit]] = {}
+            here: dict[int, list[TracedVariant]] = {}
             for variant in group.variants:
                 if variant.kind in ("before", "after"):
                     continue
                 number, wrong, hint = self._number(variant)
-                unit = Unit(variant, self._trace(variant, group.variants), wrong, hint)
+                unit = TracedVariant(variant, self._trace(variant, group.variants), wrong, hint)
                 if number is not None:
                     # Of bases the first counts, of variants on a layer the last.
                     units = here.setdefault(number, [])
@@ -137,7 +137,7 @@ class MethodCheck:
         names = (self.rule.layer(number) for number, _ in enumerate(self.rule.clauses()))
         return [name for name in names if name is not None]
 
-    def _trace(self, variant: Variant, around: list[Variant]) -> Trace:
+    def _trace(self, variant: Variant, around: list[Variant]) -> Execution:
         """What a variant does with the advice of its layer: what stands below it in the text runs around it."""
         trace = self._one(variant)
         place = around.index(variant)
@@ -151,7 +151,7 @@ class MethodCheck:
                 trace = first.then(second)
         return trace
 
-    def _one(self, variant: Variant) -> Trace:
+    def _one(self, variant: Variant) -> Execution:
         def inherited(reached: Function) -> Function | None:
             for group in self.method.groups:
                 if reached.owner is not None and group.scope is reached.owner.inner:
@@ -172,7 +172,7 @@ class MethodCheck:
         global activation the base would run."""
         return bool(self._positive(number)) or (number > 0 and self.by_hand)
 
-    def _meant(self, unit: Unit, missing: list[int], expected: dict[int, list[str]]) -> int | None:
+    def _meant(self, unit: TracedVariant, missing: list[int], expected: dict[int, list[str]]) -> int | None:
         """The clause without a variant that a stray is for: the one it does the obligations of, or is spelled like."""
         if unit.wrong is not None and unit.wrong[0] == "duplicate-variant":
             return None
@@ -180,7 +180,7 @@ class MethodCheck:
         alike += [number for number in missing if f"did you mean {self.rule.layer(number)}?" == unit.hint]
         return alike[0] if alike else None
 
-    def _stray(self, unit: Unit, meant: int | None) -> None:
+    def _stray(self, unit: TracedVariant, meant: int | None) -> None:
         assert unit.wrong is not None, "a stray says what is wrong with it"
         kind, message = unit.wrong
         file, at = unit.variant.function.file, unit.variant.at
@@ -237,7 +237,7 @@ class MethodCheck:
                     help=f"call super().{group.name}(…) in it, or leave it to trigger() to run the method",
                 )
 
-    def _clause_of(self, unit: Unit, number: int, expected: dict[int, list[str]]) -> int | None:
+    def _clause_of(self, unit: TracedVariant, number: int, expected: dict[int, list[str]]) -> int | None:
         """The other clause that a variant does the obligations of, if that clause's own variant does not."""
         executed = unit.trace.executed
         if not executed or executed == expected[number] or any(call.why for call in unit.trace.calls):
@@ -248,7 +248,7 @@ class MethodCheck:
                 return other
         return None
 
-    def _wrong_layer(self, unit: Unit, number: int, other: int) -> None:
+    def _wrong_layer(self, unit: TracedVariant, number: int, other: int) -> None:
         self.findings.add(
             "wrong-layer",
             f"this variant is bound to {clause_name(self.rule, number)}, and does what "

@@ -7,16 +7,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Union
 
-from sleec_verify.conformance.structure.program import Class, Function, Program, Scope
+from sleec_verify.conformance.structure.program import Class, Function, Scope, TargetProgram
 from sleec_verify.conformance.structure.resolve import ADVICE, Resolver
 from sleec_verify.conformance.structure.values import (
     Advice,
     Api,
     Kind,
     Layer,
-    Mark,
     ObligationMark,
     OwnLayer,
+    RuleMark,
     Value,
 )
 
@@ -47,7 +47,7 @@ class Variant:
     at: ast.AST
     guarded: bool = False
     bare: bool = False
-    marks: list[tuple[Mark, ast.expr]] = field(default_factory=list)
+    marks: list[tuple[RuleMark, ast.expr]] = field(default_factory=list)
     foreign: list[ast.expr] = field(default_factory=list)
     decorated: bool = True
 
@@ -66,7 +66,7 @@ class Group:
     lost: list[tuple[Variant, Variant]]
 
     @property
-    def marks(self) -> Iterator[tuple[Mark, ast.expr]]:
+    def marks(self) -> Iterator[tuple[RuleMark, ast.expr]]:
         for variant in self.written:
             yield from variant.marks
 
@@ -95,7 +95,7 @@ class Method:
     open: bool = False
 
     @property
-    def marks(self) -> list[tuple[Mark, ast.expr]]:
+    def marks(self) -> list[tuple[RuleMark, ast.expr]]:
         return [mark for group in self.groups for mark in group.marks]
 
     @property
@@ -126,14 +126,14 @@ def read_variant(function: Function, resolver: Resolver) -> Variant:
         elif isinstance(value, Advice):
             variant.kind, variant.layer, variant.guarded = value.kind, value.layer, value.guarded
             variant.at, variant.decorated = decorator, True
-        elif isinstance(value, Mark):
+        elif isinstance(value, RuleMark):
             variant.marks.append((value, decorator))
         elif not (isinstance(value, ObligationMark) or (isinstance(value, Api) and value.name in HARMLESS)):
             variant.foreign.append(decorator)
     return variant
 
 
-def groups(program: Program, resolver: Resolver) -> Iterator[Group]:
+def groups(program: TargetProgram, resolver: Resolver) -> Iterator[Group]:
     """Every name of every scope that is defined by `def`, as ContextPy3 puts its definitions together."""
     scopes = {function.scope for function in program.functions}
     for scope in sorted(scopes, key=lambda s: (s.file.source.path, getattr(s.node, "lineno", 0))):
@@ -175,7 +175,7 @@ def calls_super(function: Function, name: str) -> bool:
 Holder = Union[Class, Scope]
 
 
-def methods(program: Program, resolver: Resolver, found: list[Group], made: set[Class]) -> Iterator[Method]:
+def methods(program: TargetProgram, resolver: Resolver, found: list[Group], made: set[Class]) -> Iterator[Method]:
     """The methods of rules, one a class that has them: of the classes that no other inherits from, or of which
     objects are `made`."""
     by_scope: dict[Scope, dict[str, Group]] = {}

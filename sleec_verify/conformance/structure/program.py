@@ -14,14 +14,14 @@ Def = Union[ast.FunctionDef, ast.AsyncFunctionDef]
 DEFS = (ast.FunctionDef, ast.AsyncFunctionDef)
 
 
-class Assigned(NamedTuple):
+class Assignment(NamedTuple):
     """A name bound to the value of an expression, or to what is annotated where `annotation` is set."""
 
     value: ast.expr
     annotation: bool = False
 
 
-class Imported(NamedTuple):
+class Import(NamedTuple):
     """A name bound by an import: of `module`, or of `attribute` in it. `level` counts the dots of a relative one."""
 
     module: str
@@ -43,7 +43,7 @@ class Scope:
     node: ast.AST
     outer: Scope | None
     bindings: dict[str, list[Binding]] = field(default_factory=dict)
-    stars: list[Imported] = field(default_factory=list)
+    stars: list[Import] = field(default_factory=list)
     class_: Class | None = None
     function: Function | None = None
 
@@ -89,17 +89,17 @@ class Class:
     node: ast.ClassDef
     scope: Scope
     inner: Scope
-    attributes: dict[str, list[tuple[Assigned | None, Scope]]] = field(default_factory=dict)
+    attributes: dict[str, list[tuple[Assignment | None, Scope]]] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
         return self.node.name
 
 
-Binding = Union[Assigned, Imported, Opaque, Function, Class]
+Binding = Union[Assignment, Import, Opaque, Function, Class]
 
 
-class Program:
+class TargetProgram:
     """All files of a target."""
 
     def __init__(self, files: tuple[PythonFile, ...]) -> None:
@@ -144,7 +144,7 @@ def _is_package(file: PythonFile) -> bool:
 class _Collector:
     """Goes through a body and notes what it binds."""
 
-    def __init__(self, program: Program, scope: Scope) -> None:
+    def __init__(self, program: TargetProgram, scope: Scope) -> None:
         self.program = program
         self.scope = scope
         self.outward: set[str] = set()
@@ -163,10 +163,10 @@ class _Collector:
         elif isinstance(node, ast.Import):
             for alias in node.names:
                 whole = alias.name if alias.asname else alias.name.partition(".")[0]
-                self._bind(alias.asname or whole, Imported(whole, None, 0))
+                self._bind(alias.asname or whole, Import(whole, None, 0))
         elif isinstance(node, ast.ImportFrom):
             for alias in node.names:
-                imported = Imported(node.module or "", alias.name, node.level)
+                imported = Import(node.module or "", alias.name, node.level)
                 if alias.name == "*":
                     self.scope.stars.append(imported)
                 else:
@@ -243,7 +243,7 @@ class _Collector:
         for expression in (*node.decorator_list, *node.args.defaults, *filter(None, node.args.kw_defaults)):
             self._expressions(expression)
         for arg in _all_arguments(node.args):
-            inner.bind(arg.arg, Assigned(arg.annotation, annotation=True) if arg.annotation else Opaque(arg))
+            inner.bind(arg.arg, Assignment(arg.annotation, annotation=True) if arg.annotation else Opaque(arg))
         _Collector(self.program, inner).block(node.body, certain=True)
 
     def _class(self, node: ast.ClassDef) -> None:
@@ -264,7 +264,7 @@ class _Collector:
 
     def _target(self, target: ast.expr, value: ast.expr | None, annotation: bool = False) -> None:
         if isinstance(target, ast.Name):
-            self._bind(target.id, Opaque(target) if value is None else Assigned(value, annotation))
+            self._bind(target.id, Opaque(target) if value is None else Assignment(value, annotation))
         elif isinstance(target, (ast.Tuple, ast.List)):
             values = value.elts if isinstance(value, (ast.Tuple, ast.List)) else []
             plain = len(values) == len(target.elts) and not any(isinstance(e, ast.Starred) for e in values)
@@ -290,12 +290,12 @@ def _note_attributes(class_: Class, method: Function) -> None:
     if not method.parameters:
         return
     for node in ast.walk(method.node):
-        assigned: Assigned | None = None
+        assigned: Assignment | None = None
         targets: list[ast.expr] = []
         if isinstance(node, ast.Assign):
-            targets, assigned = node.targets, Assigned(node.value)
+            targets, assigned = node.targets, Assignment(node.value)
         elif isinstance(node, ast.AnnAssign):
-            targets, assigned = [node.target], Assigned(node.value or node.annotation, annotation=node.value is None)
+            targets, assigned = [node.target], Assignment(node.value or node.annotation, annotation=node.value is None)
         elif isinstance(node, ast.AugAssign):
             targets = [node.target]
         for target in targets:

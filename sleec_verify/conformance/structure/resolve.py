@@ -6,14 +6,14 @@ import ast
 from dataclasses import dataclass, field
 
 from sleec_verify.conformance.structure.program import (
-    Assigned,
+    Assignment,
     Binding,
     Class,
     Function,
-    Imported,
+    Import,
     Opaque,
-    Program,
     Scope,
+    TargetProgram,
 )
 from sleec_verify.conformance.structure.values import (
     NOTHING_GIVEN,
@@ -24,20 +24,20 @@ from sleec_verify.conformance.structure.values import (
     ClassOf,
     Code,
     Environment,
+    ForeignValue,
     Kind,
     Layer,
     Layers,
-    Mark,
-    Marked,
+    MarkedCallable,
     Module,
     Object,
     ObligationMark,
-    Outside,
     OwnLayer,
+    RuleMark,
     Runtime,
     Table,
     Text,
-    Unknown,
+    UnknownValue,
     Value,
 )
 
@@ -57,7 +57,7 @@ ADVICE = {f"contextpy3.{kind}": kind for kind in ("around", "before", "after", "
 class Resolver:
     """Evaluates expressions of a program."""
 
-    program: Program
+    program: TargetProgram
     _known: dict[tuple[Scope, str], Value] = field(default_factory=dict)
     _under_way: set[object] = field(default_factory=set)
     _orders: dict[Class, tuple[tuple[Class, ...], bool]] = field(default_factory=dict)
@@ -109,9 +109,9 @@ class Resolver:
         return values.pop() if len(values) == 1 else UNKNOWN
 
     def _binding(self, binding: Binding, scope: Scope, name: str) -> Value:
-        if isinstance(binding, Assigned):
+        if isinstance(binding, Assignment):
             return self.assigned(binding, scope)
-        if isinstance(binding, Imported):
+        if isinstance(binding, Import):
             return self._imported(binding, scope)
         if isinstance(binding, Class):
             return ClassOf(binding)
@@ -119,7 +119,7 @@ class Resolver:
             return Code((binding,))
         return self._parameter(binding, scope, name)
 
-    def assigned(self, binding: Assigned, scope: Scope) -> Value:
+    def assigned(self, binding: Assignment, scope: Scope) -> Value:
         """The value of an assignment, or an object of what is annotated."""
         if not binding.annotation:
             return self.of(binding.value, scope)
@@ -146,7 +146,7 @@ class Resolver:
             return UNKNOWN
         return ClassOf(function.owner) if Api("builtins.classmethod") in made else Object(function.owner)
 
-    def _imported(self, binding: Imported, scope: Scope) -> Value:
+    def _imported(self, binding: Import, scope: Scope) -> Value:
         module = self.program.module_named(binding.module, binding.level, scope.file)
         if binding.attribute is None:
             return Api(binding.module) if module is None else Module(module)
@@ -200,7 +200,7 @@ class Resolver:
             return self._member(value, name)
         if isinstance(value, Api) and value.name.startswith(("sleec_runtime", "contextpy3", "builtins")):
             return Api(f"{value.name}.{name}")
-        if name == "layers" and isinstance(value, (Runtime, Api, Unknown, Outside)):
+        if name == "layers" and isinstance(value, (Runtime, Api, UnknownValue, ForeignValue)):
             return Layers()
         return Api(f"{value.name}.{name}") if isinstance(value, Api) else UNKNOWN
 
@@ -222,7 +222,7 @@ class Resolver:
                 return Code(found.definitions, value) if isinstance(found, Code) else found
         return UNKNOWN
 
-    def _assigned_to_self(self, key: object, attributes: list[tuple[Assigned | None, Scope]]) -> Value:
+    def _assigned_to_self(self, key: object, attributes: list[tuple[Assignment | None, Scope]]) -> Value:
         if key in self._under_way:  # self.x = self.x.next
             return UNKNOWN
         self._under_way.add(key)
@@ -249,9 +249,9 @@ class Resolver:
         first = self.of(node.args[0], scope, given) if node.args else UNKNOWN
         text = first.value if isinstance(first, Text) else None
         if isinstance(called, Api) and called.name in _OBLIGATION:
-            return Marked(text) if called.name.endswith("recorded") else ObligationMark(text)
+            return MarkedCallable(text) if called.name.endswith("recorded") else ObligationMark(text)
         if isinstance(called, ObligationMark):
-            return Marked(called.name)
+            return MarkedCallable(called.name)
         if called == Api("builtins.super"):
             return self._super(scope, given)
         if called == Api("builtins.getattr") and text is None and len(node.args) > 1:
@@ -264,7 +264,7 @@ class Resolver:
             if isinstance(owner, Layers) and node.func.attr in ("get", "of", "__getitem__"):
                 return self._item(owner, first)
             if node.func.attr == "rule" and (isinstance(owner, Runtime) or (maybe_runtime(owner) and node.args)):
-                return Mark(text)
+                return RuleMark(text)
         return self._made_by(called)
 
     def _made_by(self, called: Value) -> Value:
@@ -288,9 +288,9 @@ class Resolver:
     def layer(self, node: ast.expr, scope: Scope, given: Environment = NOTHING_GIVEN) -> Value:
         """The value of an expression that stands for a layer: something subscripted with a name is `layers`."""
         value = self.of(node, scope, given)
-        if isinstance(value, Unknown) and isinstance(node, ast.Subscript):
+        if isinstance(value, UnknownValue) and isinstance(node, ast.Subscript):
             holder, key = self.of(node.value, scope, given), self.of(node.slice, scope, given)
-            if isinstance(holder, (Unknown, Api)) and isinstance(key, Text):
+            if isinstance(holder, (UnknownValue, Api)) and isinstance(key, Text):
                 return Layer(key.value)
         return value
 
@@ -335,7 +335,7 @@ def maybe_runtime(value: Value) -> bool:
     """Whether a value may be a runtime that was made elsewhere."""
     if isinstance(value, Api):
         return not value.name.startswith(("builtins.", "contextpy3"))
-    return isinstance(value, (Unknown, Outside))
+    return isinstance(value, (UnknownValue, ForeignValue))
 
 
 def _all_text(values: list[Value]) -> bool:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from sleec_verify.conformance.structure.program import DEFS, Program, Scope
+from sleec_verify.conformance.structure.program import DEFS, Scope, TargetProgram
 
 
 class Use(NamedTuple):
@@ -17,13 +17,13 @@ class Use(NamedTuple):
     parent: ast.AST
 
 
-def uses(program: Program) -> Iterator[Use]:
+def uses(program: TargetProgram) -> Iterator[Use]:
     """The expressions of all files, each before those within it."""
     for module in program.modules:
         yield from _below(program, module.node, module)
 
 
-def _below(program: Program, node: ast.AST, scope: Scope) -> Iterator[Use]:
+def _below(program: TargetProgram, node: ast.AST, scope: Scope) -> Iterator[Use]:
     inner = program.scope_of.get(node, scope)
     for name, value in ast.iter_fields(node):
         # Decorators, defaults, annotations and bases belong to the scope around a definition.

@@ -28,12 +28,12 @@ class Api:
 
 
 @dataclass(frozen=True)
-class Outside:
+class ForeignValue:
     """What code that is not the target's returned, or a literal: whatever it is, it is no code of the robot."""
 
 
 @dataclass(frozen=True)
-class Unknown:
+class UnknownValue:
     """Not known before the program runs."""
 
 
@@ -60,7 +60,7 @@ class OwnLayer:
 
 
 @dataclass(frozen=True)
-class Mark:
+class RuleMark:
     """``sleec.rule(label)``; None for a label that is not known before the program runs."""
 
     label: str | None
@@ -121,18 +121,18 @@ class Table:
 
 
 @dataclass(frozen=True)
-class Marked:
+class MarkedCallable:
     """A callable given an obligation's name in an expression: ``obligation("OpenCurtains")(f)``."""
 
     name: str | None
 
 
 Value = Union[
-    Text, Api, Outside, Unknown, Runtime, Layers, Layer, OwnLayer, Mark, ObligationMark, Advice, Module, ClassOf,
-    Object, Code, Table, Marked,
+    Text, Api, ForeignValue, UnknownValue, Runtime, Layers, Layer, OwnLayer, RuleMark, ObligationMark, Advice, Module,
+    ClassOf, Object, Code, Table, MarkedCallable,
 ]  # fmt: skip
-UNKNOWN = Unknown()
-OUTSIDE = Outside()
+UNKNOWN = UnknownValue()
+OUTSIDE = ForeignValue()
 
 Environment = Mapping[str, Value]
 NOTHING_GIVEN: Environment = {}

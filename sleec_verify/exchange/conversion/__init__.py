@@ -32,7 +32,7 @@ _DIALECTS: dict[Target, Dialect] = {"dsl": "sleec-tk", "legos": "legos"}
 
 
 @dataclass(frozen=True)
-class Converted:
+class Conversion:
     """A text that obliges the same, the ruleset that it spells out, and what to know about it."""
 
     text: str
@@ -81,7 +81,7 @@ def _declared(part: Ruleset) -> Ruleset:
     return replace(part, statements=(*new, *part.statements))
 
 
-def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Converted:
+def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Conversion:
     """`ruleset` in the language `to`, its hedges rewritten for `reading` if that is another than its own.
 
     Without `reading`, structured English keeps the ruleset's reading and states it; the DSL has only `priority`.
@@ -108,4 +108,4 @@ def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Con
         raise Unsayable(f"this cannot be said in the other language: {first.message}", first.hint) from None
     if replace(again, dialect=converted.dialect) != converted:
         raise AssertionError("the converted text would not say the same, which is a bug in sleec-verify")
-    return Converted(text, again, notes)
+    return Conversion(text, again, notes)

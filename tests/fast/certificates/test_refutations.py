@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 
 from sleec_verify.certificates import lrat, refutation
-from sleec_verify.certificates.elaboration import Elaborator, Learnt, NotFollowing
-from sleec_verify.certificates.recording import Asked, NoModel, Recorder
+from sleec_verify.certificates.elaboration import Elaborator, InvalidLemma, LearntClause
+from sleec_verify.certificates.recording import NoModel, RecordedQuestion, Recorder
 from sleec_verify.certificates.refutation import Disjunction, disjunctions, refute
 from sleec_verify.encoding.solver import MiniSat
 from tests.support.formulas import asked, some_question_has_model
@@ -17,10 +17,10 @@ from tests.support.formulas import asked, some_question_has_model
 
 @given(asked())
 @settings(max_examples=300)
-def test_what_has_no_model_is_refuted_and_nothing_else(all_asked: list[Asked]) -> None:
+def test_what_has_no_model_is_refuted_and_nothing_else(all_asked: list[RecordedQuestion]) -> None:
     formula = Disjunction(all_asked)
     if some_question_has_model(all_asked):
-        with pytest.raises(NotFollowing):
+        with pytest.raises(InvalidLemma):
             formula.lrat()
         with MiniSat(formula.clauses) as solver:
             assert solver.solve()
@@ -41,7 +41,9 @@ def test_refutations_that_need_search(seed: int) -> None:
     with MiniSat(clauses) as solver:
         literals = [(v,) for v in range(1, 61) if not solver.solve([v])]
         literals += [(-v,) for v in range(1, 61) if not solver.solve([-v])]
-    formula = Disjunction([Asked(clauses, dict.fromkeys(literals)), Asked(threes(30, 7, seed), {(): None})])
+    formula = Disjunction(
+        [RecordedQuestion(clauses, dict.fromkeys(literals)), RecordedQuestion(threes(30, 7, seed), {(): None})]
+    )
     lrat.check(formula.dimacs("a test"), formula.lrat())
     assert any(steps for steps, _ in [refute(clauses, literals), refute(threes(30, 7, seed), [()])])
 
@@ -54,7 +56,7 @@ def test_no_question_at_all_is_refuted_by_nothing() -> None:
 
 def test_large_ones_become_several(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sleec_verify.certificates.refutation.MOST_LITERALS", 5)
-    parts = list(disjunctions([Asked([[1], [-1, 2], [-2]], {(): None}) for _ in range(3)]))
+    parts = list(disjunctions([RecordedQuestion([[1], [-1, 2], [-2]], {(): None}) for _ in range(3)]))
     assert [part.questions for part in parts] == [1, 1, 1]
 
 
@@ -80,17 +82,17 @@ def test_what_the_solver_forgets_is_taken_back_where_it_is_needed() -> None:
     clauses = threes(190, 5, 2)
     lemmas = refutation._lemmas(clauses, [()])
     assert sum(lemma.forgotten for lemma in lemmas) > 100
-    formula = Disjunction([Asked(clauses, {(): None})])
+    formula = Disjunction([RecordedQuestion(clauses, {(): None})])
     lrat.check(formula.dimacs("a test"), formula.lrat())
 
 
 def test_lemmas_that_do_not_follow_are_refused() -> None:
     elaborator = Elaborator([[1, 2], [-1, 2], [1, -2], [-1, -2, 3]], [()])
     assert elaborator.open_questions() == [0]
-    elaborator.learn([Learnt((2, -2)), Learnt((2,)), Learnt((-3,))])
-    with pytest.raises(NotFollowing, match="lemma"):
+    elaborator.learn([LearntClause((2, -2)), LearntClause((2,)), LearntClause((-3,))])
+    with pytest.raises(InvalidLemma, match="lemma"):
         elaborator.elaborate()
     elaborator = Elaborator([[1, 2], [-1, 2]], [()])
-    elaborator.learn([Learnt((2,)), Learnt((2,), forgotten=True), Learnt((9,), forgotten=True)])
-    with pytest.raises(NotFollowing, match="question"):
+    elaborator.learn([LearntClause((2,)), LearntClause((2,), forgotten=True), LearntClause((9,), forgotten=True)])
+    with pytest.raises(InvalidLemma, match="question"):
         elaborator.elaborate()

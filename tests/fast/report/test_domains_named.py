@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from sleec_runtime.language import parse
 from sleec_verify.checks import run_checks
 from sleec_verify.report import renderer
-from sleec_verify.report.outcome import Checked
+from sleec_verify.report.outcome import CheckedRuleset
 from sleec_verify.report.palette import PLAIN
 from tests.support.cli import Cli
 from tests.support.repository import Repository
@@ -78,6 +78,6 @@ _RULES = st.builds(
 @given(st.lists(_RULES, min_size=2, max_size=5).map("".join), st.sampled_from(("", "DOMAIN home\nEXCLUSIVE o1, o2\n")))
 def test_no_two_lines_are_the_same(rules: str, constraint: str) -> None:
     ruleset = parse(constraint + rules)
-    checked = Checked(ruleset, run_checks(ruleset))
+    checked = CheckedRuleset(ruleset, run_checks(ruleset))
     *lines, _ = "".join(renderer("concise")([checked], PLAIN)).splitlines()
     assert len(set(lines)) == len(lines)

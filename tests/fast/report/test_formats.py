@@ -21,7 +21,7 @@ from sleec_runtime.model import Ruleset, Span
 from sleec_verify.checks import CHECKS, run_checks
 from sleec_verify.report import FORMATS, renderer
 from sleec_verify.report.flow import steps
-from sleec_verify.report.outcome import Checked
+from sleec_verify.report.outcome import CheckedRuleset
 from sleec_verify.report.palette import PLAIN
 from sleec_verify.results.finding import SEVERITIES, CheckResult, Finding, Proved, Refuted, Unknown, Witness
 from tests.fast.cli import test_documents as documents
@@ -50,9 +50,9 @@ def shown(form: str, *outcomes: Any) -> str:
     return "".join(renderer(form)(outcomes, PLAIN))
 
 
-def checked_text(text: str, path: str = "a.sleec", realizable: int | None = None) -> Checked:
+def checked_text(text: str, path: str = "a.sleec", realizable: int | None = None) -> CheckedRuleset:
     ruleset = parse(text, path)
-    return Checked(ruleset, run_checks(ruleset, realizable=realizable))
+    return CheckedRuleset(ruleset, run_checks(ruleset, realizable=realizable))
 
 
 def sarif(*outcomes: Any) -> dict[str, Any]:
@@ -165,7 +165,7 @@ def test_exit_codes_of_conform(form: str, cli: Cli, monkeypatch: pytest.MonkeyPa
 @pytest.mark.parametrize("path", RULESETS, ids=lambda path: path.stem)
 def test_sarif_of_the_shipped_rulesets_is_valid(path: Path) -> None:
     ruleset = load(path)
-    outcome = Checked(ruleset, run_checks(ruleset))
+    outcome = CheckedRuleset(ruleset, run_checks(ruleset))
     run = sarif(outcome)
     assert [r["ruleId"] for r in run["results"]] == [f.code for f in outcome.findings]
     for result in run["results"]:
@@ -213,7 +213,7 @@ def test_code_flow_leads_from_the_situation_to_the_conflict() -> None:
 @pytest.mark.parametrize("path", RULESETS, ids=lambda path: path.stem)
 def test_every_witness_has_a_flow_that_names_all_of_it(path: Path) -> None:
     ruleset = load(path)
-    for finding in Checked(ruleset, run_checks(ruleset)).findings:
+    for finding in CheckedRuleset(ruleset, run_checks(ruleset)).findings:
         way = steps(ruleset, finding)
         assert bool(way) == (finding.witness is not None)
         if finding.witness is not None:
@@ -300,7 +300,7 @@ def test_what_the_documents_show_can_be_said_in_every_format(path: Path, cli: Cl
 def test_braces_are_doubled_in_sarif() -> None:
     ruleset = parse(CLEAN, "a.sleec")
     finding = Finding("conflict", "SLEEC101", "error", "at {0}", Span(0, 4))
-    run = sarif(Checked(ruleset, (CheckResult("conflict", Refuted((finding,)), 0.0),)))
+    run = sarif(CheckedRuleset(ruleset, (CheckResult("conflict", Refuted((finding,)), 0.0),)))
     assert run["results"][0]["message"]["text"] == "at {{0}}"
 
 
@@ -338,7 +338,7 @@ def test_junit_holds_what_xml_cannot() -> None:
     ruleset = parse(CLEAN, 'a\x01\udcff<&">.sleec')
     finding = Finding("conflict", "SLEEC101", "error", 'a\x00b <&"> \ufffe \u00e4 窓', Span(0, 4))
     results = (CheckResult("conflict", Refuted((finding,)), 0.0), *give_up(ruleset))
-    text = shown("junit", Checked(ruleset, results))
+    text = shown("junit", CheckedRuleset(ruleset, results))
     assert text.isascii()
     failure = ET.fromstring(text).find(".//failure")
     assert failure is not None
@@ -373,7 +373,9 @@ def test_nothing_in_a_message_or_name_starts_a_command() -> None:
     evil = "a,line=1::b%0A\r\n::error::x:.sleec"
     ruleset = parse(CLEAN, evil)
     finding = Finding("conflict", "SLEEC101", "error", "100%\n::stop-commands::x\r%0A", Span(0, 4))
-    text = shown("github", Checked(ruleset, (CheckResult("conflict", Refuted((finding,)), 0.0), *give_up(ruleset))))
+    text = shown(
+        "github", CheckedRuleset(ruleset, (CheckResult("conflict", Refuted((finding,)), 0.0), *give_up(ruleset)))
+    )
     assert sum(line.startswith("::") for line in text.splitlines()) == 2
     found, unknown = commands_in(text)
     assert found[1]["file"] == unknown[1]["file"] == evil

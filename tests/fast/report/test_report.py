@@ -13,7 +13,7 @@ from sleec_verify.cli.check import _exit_code
 from sleec_verify.report import FORMATS, renderer
 from sleec_verify.report.escape import as_line
 from sleec_verify.report.excerpt import Mark, excerpt
-from sleec_verify.report.outcome import Checked
+from sleec_verify.report.outcome import CheckedRuleset
 from sleec_verify.report.palette import PLAIN, Palette
 from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Witness
 from sleec_verify.results.json_values import values_json
@@ -131,8 +131,8 @@ def test_lists() -> None:
 RULES = parse("WHEN a THEN b\nWHEN c THEN d\n", "rules.sleec")
 
 
-def outcome(*results: CheckResult) -> Checked:
-    return Checked(RULES, results)
+def outcome(*results: CheckResult) -> CheckedRuleset:
+    return CheckedRuleset(RULES, results)
 
 
 UNDECIDED = outcome(

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from sleec_verify.certificates import lrat
 from sleec_verify.certificates.checker import BUILT, IN_PYTHON, checker
-from sleec_verify.certificates.elaboration import NotFollowing
-from sleec_verify.certificates.recording import Asked
+from sleec_verify.certificates.elaboration import InvalidLemma
+from sleec_verify.certificates.recording import RecordedQuestion
 from sleec_verify.certificates.refutation import Disjunction
 from tests.support.coq import require_coq
 from tests.support.formulas import asked, clauses, has_model
@@ -25,7 +25,7 @@ PROOF = "5 2 0 1 2 0\n5 d 1 2 0\n6 0 5 3 4 0\n"
 def in_python(formula: str, proof: str) -> bool:
     try:
         lrat.check(formula, proof)
-    except lrat.Refused:
+    except lrat.InvalidProof:
         return False
     return True
 
@@ -77,12 +77,12 @@ def mutated(text: str, draw: random.Random) -> str:
 
 @given(all_asked=asked(), seed=st.integers(0, 10**6))
 @settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
-def test_mutated_proofs_are_judged_alike(by_coq: Proved, all_asked: list[Asked], seed: int) -> None:
+def test_mutated_proofs_are_judged_alike(by_coq: Proved, all_asked: list[RecordedQuestion], seed: int) -> None:
     draw = random.Random(seed)
     formula = Disjunction(all_asked)
     try:
         text, proof = formula.dimacs("a test"), formula.lrat()
-    except NotFollowing:
+    except InvalidLemma:
         return
     assert by_coq(text, proof)
     assert in_python(text, proof)
@@ -100,7 +100,7 @@ def test_no_proof_of_what_has_a_model_is_accepted(
     draw = random.Random(seed)
     if has_model(refuted):
         return
-    formula = Disjunction([Asked(refuted, {(): None})])
+    formula = Disjunction([RecordedQuestion(refuted, {(): None})])
     part = list(formula.clauses)
     for _ in range(fewer):
         part.pop(draw.randrange(len(part)))

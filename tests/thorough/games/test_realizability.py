@@ -12,7 +12,7 @@ from sleec_verify.checks import run_checks
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.games import realizability
 from sleec_verify.games import time_grid as grid
-from sleec_verify.games.time_grid import Grid
+from sleec_verify.games.time_grid import TimeGrid
 from sleec_verify.report.strategy import in_words
 from sleec_verify.results.finding import Proved, Refuted, Unknown
 from sleec_verify.results.strategy import Act
@@ -152,12 +152,12 @@ def test_only_some_replies_are_shown(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_strategy_that_does_not_replay_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
-    told = realizability._Telling._act
+    told = realizability.StrategySearch._act
 
-    def unlawful(self: realizability._Telling, step: int, settled: dict[int, int]) -> Act:
+    def unlawful(self: realizability.StrategySearch, step: int, settled: dict[int, int]) -> Act:
         return replace(told(self, step, settled), events=("A", "B"))
 
-    monkeypatch.setattr(realizability._Telling, "_act", unlawful)
+    monkeypatch.setattr(realizability.StrategySearch, "_act", unlawful)
     verdict = _verdict(*ADAPTIVE)
     assert isinstance(verdict, Unknown)
     assert "did not replay" in verdict.why
@@ -217,7 +217,7 @@ def test_a_comparison_of_two_measures_is_unknown() -> None:
 def test_too_many_times_are_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(grid, "MOST_SLOTS", 4)
     with pytest.raises(Undecided, match="told apart"):
-        Grid([7, 300], 4, 4)
+        TimeGrid([7, 300], 4, 4)
 
 
 def test_more_plans_than_are_tried_are_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -231,18 +231,18 @@ def test_more_plans_than_are_tried_are_unknown(monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_a_grid_has_sums_of_lengths() -> None:
-    times = Grid([1, 300], 3, 2).times
+    times = TimeGrid([1, 300], 3, 2).times
     assert {0, 1, 2, 299, 300, 301, 302, 600}.issubset(times)
     assert 150 not in times
 
 
 def test_a_grid_has_room_between_units() -> None:
-    times = Grid([300], 2, 1).times
+    times = TimeGrid([300], 2, 1).times
     assert [time for time in times if time <= 300] == [0, 75, 150, 225, 300]
 
 
 def test_without_lengths_only_the_order_counts() -> None:
-    assert Grid([], 3, 1).times == [0, 1, 2]
+    assert TimeGrid([], 3, 1).times == [0, 1, 2]
 
 
 # The studies ----------------------------------------------------------------------------------------------

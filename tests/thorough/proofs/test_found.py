@@ -16,11 +16,11 @@ from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.language import parse
 from sleec_runtime.model import NOWHERE, Ruleset
 from sleec_verify.certificates import verdict_binding as tying
-from sleec_verify.certificates.manifest import Shown
+from sleec_verify.certificates.manifest import Evidence
 from sleec_verify.certificates.theory.findings import FOUND, questions
 from sleec_verify.certificates.theory.oracle import NotRefuted, answers
 from sleec_verify.certificates.theory.proving import Theory, not_modelled
-from sleec_verify.certificates.verdict_binding import NotTied, Tied, tie
+from sleec_verify.certificates.verdict_binding import UnboundVerdict, VerdictBinding, tie
 from sleec_verify.checks import CHECKS, Check, run_checks
 from sleec_verify.checks.dead import DEAD_RULE
 from sleec_verify.cli import run
@@ -54,9 +54,9 @@ WHEN Alarm THEN NOT Shout
 """Something for every check."""
 
 
-def tied(oracle: Path, ruleset: Ruleset, checks: list[str]) -> dict[str, Tied | NotTied]:
+def tied(oracle: Path, ruleset: Ruleset, checks: list[str]) -> dict[str, VerdictBinding | UnboundVerdict]:
     """How it goes with what these checks say, whatever it rests on."""
-    shown = [Shown(result, 1, 1, ("a.cnf", "a.lrat")) for result in run_checks(ruleset, checks, chains=False)]
+    shown = [Evidence(result, 1, 1, ("a.cnf", "a.lrat")) for result in run_checks(ruleset, checks, chains=False)]
     return {one.check: one for one in tie(shown, ruleset, None, oracle, chains=False)}
 
 
@@ -108,7 +108,7 @@ def test_every_finding_of_random_rules_is_tied(oracle: Path) -> None:
     count = Counter[str]()
     for ruleset, _ in random_cases(11, 50, each=1):
         for check, one in tied(oracle, ruleset, list(FOUND)).items():
-            assert one == Tied(check, True), ruleset
+            assert one == VerdictBinding(check, True), ruleset
             count[check] += 1
     assert count.keys() >= FOUND.keys() - {"assumptions"}
 
@@ -117,14 +117,16 @@ def test_every_finding_of_random_rules_is_tied(oracle: Path) -> None:
 @settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 def test_with_measures_and_domains_too(oracle: Path, ruleset: Ruleset) -> None:
     if not_modelled(ruleset, chains=False) is None:
-        assert all(one == Tied(check, True) for check, one in tied(oracle, ruleset, list(FOUND)).items())
+        assert all(one == VerdictBinding(check, True) for check, one in tied(oracle, ruleset, list(FOUND)).items())
 
 
 @pytest.mark.parametrize("check", FOUND)
 def test_the_examples_of_the_checks(oracle: Path, check: str) -> None:
     for kind in CHECKS[check].kinds:
-        assert tied(oracle, parse(kind.bad), [check]) == {check: Tied(check, True)}
-        assert all(one.proved for one in tied(oracle, parse(kind.good), [check]).values() if isinstance(one, Tied))
+        assert tied(oracle, parse(kind.bad), [check]) == {check: VerdictBinding(check, True)}
+        assert all(
+            one.proved for one in tied(oracle, parse(kind.good), [check]).values() if isinstance(one, VerdictBinding)
+        )
 
 
 def test_numbers_that_leave_no_room(oracle: Path) -> None:
@@ -136,7 +138,7 @@ def test_numbers_that_leave_no_room(oracle: Path) -> None:
     )
     found = tied(oracle, parse(rules), list(FOUND))
     assert found.keys() >= {"dead-rule", "dead-hedge", "redundant-rule"}
-    assert all(one == Tied(check, True) for check, one in found.items())
+    assert all(one == VerdictBinding(check, True) for check, one in found.items())
 
 
 def test_domains_each_by_itself(oracle: Path, tmp_path: Path) -> None:
@@ -149,7 +151,9 @@ def test_domains_each_by_itself(oracle: Path, tmp_path: Path) -> None:
     (finding, *_) = (f for r in run_checks(ruleset, ["redundant-rule"]) for f in r.findings if f.rules[0] == "both")
     assert set(finding.domains) == {"ward", "home"}
     found = {one.check: one for one in checked(tmp_path / "c", rules, oracle).tied}
-    assert all(found[check] == Tied(check, True) for check in ("redundant-rule", "redundant-hedge", "dead-hedge"))
+    assert all(
+        found[check] == VerdictBinding(check, True) for check in ("redundant-rule", "redundant-hedge", "dead-hedge")
+    )
 
 
 def test_a_certificate_of_everything(oracle: Path, tmp_path: Path) -> None:
@@ -170,8 +174,8 @@ def test_rules_that_nothing_triggers_are_passed_over_where_they_are_proved_to_be
         "WHEN Call THEN Help\nUNLESS Gone IN WHICH CASE Wait\n"
     )
     found = {one.check: one for one in checked(tmp_path / "c", rules, oracle).tied}
-    assert found["vacuous-conflict"] == Tied("vacuous-conflict", True)
-    assert found["dead-rule"] == Tied("dead-rule", True)
+    assert found["vacuous-conflict"] == VerdictBinding("vacuous-conflict", True)
+    assert found["dead-rule"] == VerdictBinding("dead-rule", True)
 
 
 def test_assumptions_that_leave_nothing(oracle: Path, tmp_path: Path) -> None:

@@ -16,15 +16,15 @@ from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset
 from sleec_verify.certificates import verdict_binding as tying
 from sleec_verify.certificates.checker import IN_PYTHON
-from sleec_verify.certificates.checking import Confirmed, check_certificate
+from sleec_verify.certificates.checking import CheckedCertificate, check_certificate
 from sleec_verify.certificates.directory import write_folder
 from sleec_verify.certificates.making import certify
 from sleec_verify.certificates.theory import oracle as oracle_module
 from sleec_verify.certificates.theory.boolean import Boolean
-from sleec_verify.certificates.theory.numbering import Numbered
+from sleec_verify.certificates.theory.numbering import Numbering
 from sleec_verify.certificates.theory.oracle import NoAnswer, NotRefuted, Oracle, answers
 from sleec_verify.certificates.theory.proving import Theory, not_modelled
-from sleec_verify.certificates.verdict_binding import Tied
+from sleec_verify.certificates.verdict_binding import VerdictBinding
 from sleec_verify.checks import run_checks
 from sleec_verify.cli import run
 from sleec_verify.conformance.rulesets import rulesets
@@ -83,8 +83,8 @@ def test_with_measures_and_domains_too(oracle: Path, ruleset: Ruleset) -> None:
 
 def test_no_step_is_believed(oracle: Path) -> None:
     """Steps of other rules, none, or too few prove nothing."""
-    line = Numbered(Boolean(parse(RULES)).ruleset).line
-    other = Numbered(Boolean(parse(CONFLICTING)).ruleset).line
+    line = Numbering(Boolean(parse(RULES)).ruleset).line
+    other = Numbering(Boolean(parse(CONFLICTING)).ruleset).line
     steps = steps_for(oracle, parse(RULES), "conflict")
     whole = f"refuted {' '.join(steps)}"
     wrong = [
@@ -106,7 +106,7 @@ def test_no_step_is_believed(oracle: Path) -> None:
             fresh.ask(whole)
 
 
-def checked(folder: Path, rules: Path | str, oracle: Path | None) -> Confirmed:
+def checked(folder: Path, rules: Path | str, oracle: Path | None) -> CheckedCertificate:
     """The certificate of a ruleset, checked. A text is written to a file first: certificates are of bytes."""
     path = rules if isinstance(rules, Path) else folder.with_suffix(".sleec")
     if isinstance(rules, str):
@@ -122,12 +122,12 @@ def checked(folder: Path, rules: Path | str, oracle: Path | None) -> Confirmed:
 )
 def test_shipped_rulesets_are_tied(oracle: Path, tmp_path: Path, name: str, checks: list[str]) -> None:
     tied = checked(tmp_path / "c", RULESETS / f"{name}.sleec", oracle).tied
-    assert tied == tuple(Tied(check, True) for check in checks)
+    assert tied == tuple(VerdictBinding(check, True) for check in checks)
 
 
 def test_where_rules_conflict_a_situation_shows_it(oracle: Path, tmp_path: Path) -> None:
     """That one of them conflicts wherever it is triggered is something else."""
-    assert checked(tmp_path / "c", CONFLICTING, oracle).tied == (Tied("vacuous-conflict", True),)
+    assert checked(tmp_path / "c", CONFLICTING, oracle).tied == (VerdictBinding("vacuous-conflict", True),)
 
 
 @pytest.mark.parametrize("what", ["conflict", "reading"])
@@ -135,7 +135,7 @@ def test_conditions_said_twice(oracle: Path, what: str) -> None:
     """Clauses come to say a literal twice, and are no units to the checker."""
     text = "RULE a\nWHEN T THEN X\nUNLESS c AND c IN WHICH CASE Y\nUNLESS c AND (d OR d) IN WHICH CASE Z\n"
     rules = text + "RULE b\nWHEN T AND (c OR c) AND (c AND c) THEN NOT X\n"
-    clauses = answers(oracle, [Numbered(Boolean(parse(rules)).ruleset).line, "formula conflict"])[1].split(" 0 ")
+    clauses = answers(oracle, [Numbering(Boolean(parse(rules)).ruleset).line, "formula conflict"])[1].split(" 0 ")
     assert any(len(set(clause.split())) < len(clause.split()) for clause in clauses)
     assert agree(oracle, parse(rules), what)
 
@@ -161,7 +161,7 @@ def test_the_reading_is_tied_with_assumptions_and_chains_in_chains(oracle: Path)
     assert agree(oracle, parse(READ_ALIKE), "reading")
     assert not agree(oracle, parse(READ_ALIKE.replace("ASSUME NOT (d AND NOT c)\n", "")), "reading")
     # Steps for the one formula are none for the other.
-    line = Numbered(Boolean(parse(READ_ALIKE)).ruleset).line
+    line = Numbering(Boolean(parse(READ_ALIKE)).ruleset).line
     steps = f"refuted {' '.join(steps_for(oracle, parse(READ_ALIKE), 'reading'))}"
     said = answers(oracle, [line, "formula reading", steps, "formula conflict", steps, "formula reading", steps])
     assert said[2::2] == ["yes", "no", "yes"]
