@@ -99,9 +99,3 @@ class Amounts(Names):
             self.problem(message, span, "use a larger unit")
             return None
         return found
-
-    def measure_ref(self, name: str) -> MeasureRef:
-        ref = self._refs.get(name)
-        if ref is None:
-            ref = self._refs[name] = MeasureRef(name)
-        return ref

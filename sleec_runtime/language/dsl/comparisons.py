@@ -154,7 +154,7 @@ class Comparisons(Amounts):
             said = f"`{measure.name}` is a scale, but {named} is a number"
             return self._by_place(measure, str(value), number, "number-as-value", said, side.span)
         known = isinstance(value, str) and value in self.kinds
-        near = self._nearest(value, measure.values) if isinstance(value, str) and not known else None
+        near = self.nearest(value, measure.values) if isinstance(value, str) and not known else None
         what = self.described(value) + ", and" if isinstance(value, str) and known else f"{quoted(str(value))} is"
         self.problem(
             f"{what} not a value of {quoted(measure.name)}",

@@ -6,39 +6,34 @@ from dataclasses import replace
 from typing import Literal
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.common.comparisons import Side
-from sleec_runtime.language.common.constant_cycles import circular
 from sleec_runtime.language.common.problems import MAX_PROBLEMS, quoted
+from sleec_runtime.language.common.symbol_table import SymbolTable, WrittenConstants
 from sleec_runtime.model import (
     Constant,
     Declaration,
     Defect,
     Measure,
-    MeasureRef,
     Source,
     Span,
 )
-from sleec_runtime.support.suggestions import Suggester, did_you_mean
+from sleec_runtime.support.suggestions import did_you_mean
 
 NameKind = Literal["event", "boolean", "measure", "constant"]
 _ARTICLE = {"event": "an event", "boolean": "a boolean measure", "measure": "a measure", "constant": "a constant"}
 
 
-class Names:
+class Names(SymbolTable):
     """The names of one text and what they stand for."""
+
+    constant_keyword = "constant"
 
     def __init__(self, source: Source, problems: list[Problem], defined: bool = True) -> None:
         """`defined` says whether the text has a block of definitions at all."""
+        super().__init__(source, problems)
         self.kinds: dict[str, NameKind] = {}
-        self.measures: dict[str, Measure] = {}
-        self.constants: dict[str, Constant] = {}
         self.calculated_with: set[str] = set()
-        """The constants of what is worked out when it is read, and does not name them any more."""
+        """The constants in calculations that are evaluated while parsing and no longer name them."""
         self.defects: list[Defect] = []
-        self.complete = True
-        """False once a definition could not be read: then a name without one is no news."""
-        self._source = source
-        self._problems = problems
         self._spans: dict[str, Span] = {}
         self._definitions: dict[str, Declaration | Measure | Constant] = {}
         self._owners: dict[str, Measure] = {}
@@ -46,23 +41,15 @@ class Names:
         self._values: dict[str, tuple[str, Span]] = {}
         """Each value of a scale with the first measure that has it, and the place of that."""
         self._labels: dict[str, tuple[Span, int]] = {}
-        self._refs: dict[str, MeasureRef] = {}
         self._defined = defined
         self._undefined: dict[str, tuple[int, int]] = {}
         """Names without a definition: which problem says so, and how often each is used."""
-        self._nearest = Suggester().nearest
-
-    def problem(self, message: str, span: Span, hint: str | None) -> None:
-        self._problems.append(Problem(message, span, hint))
-
-    def line(self, span: Span) -> int:
-        return self._source.place(span).line
 
     # Definitions ----------------------------------------------------------------------------------------------
 
     def define(self, kind: NameKind, name: str, span: Span, statement: Declaration | Measure | Constant) -> bool:
-        """Takes a definition in; False if the name is taken. The same definition again is a defect, another one of
-        the same name a problem."""
+        """Adds a definition; False if the name is taken. The same definition again is a defect, another one of the
+        same name a problem."""
         first = self._spans.setdefault(name, span)
         if first is span:
             self.kinds[name] = kind
@@ -83,21 +70,15 @@ class Names:
     def define_measure(self, measure: Measure, span: Span, value_spans: list[Span]) -> None:
         if self.define("measure", measure.name, span, measure):
             self.measures[measure.name] = measure
-        seen: set[str] = set()
+        self.check_scale(measure, value_spans)
         for value, value_span in zip(measure.values, value_spans):
-            if value in seen:
-                self.problem(
-                    f"the scale of {quoted(measure.name)} names {quoted(value)} twice",
-                    value_span,
-                    "each value of a scale has one place in it",
-                )
-            seen.add(value)
             self._values.setdefault(value, (measure.name, value_span))
-            # As in the tools of others, a literal of the wrong scale counts by its place in the last scale with it.
+            # As in other tools, a literal of the wrong scale counts by its place in the last scale with it.
             self._owners[value] = measure
 
     def check_values(self) -> None:
-        """A value of a scale is called like nothing else: a comparison could mean either. Scales may share values."""
+        """Reports values of scales with the name of something else: a comparison could mean either. Scales may share
+        values."""
         for value in self._values.keys() & self.kinds.keys():
             owner, span = self._values[value]
             of_scale, other = f"a value of the scale of {quoted(owner)}", _ARTICLE[self.kinds[value]]
@@ -109,40 +90,10 @@ class Names:
                 "rename one of them",
             )
 
-    def define_constants(self, written: dict[str, tuple[Side, Constant]]) -> None:
-        """The constants with their values: each is a number or the value of another, wherever that stands."""
-        for name in written:
-            chain: dict[str, None] = {}
-            at = name
-            while at not in self.constants and at not in chain:
-                chain[at] = None
-                alias = written[at][0].written
-                if not isinstance(alias, str):
-                    self.constants[at] = written[at][1]
-                elif alias in written:
-                    at = alias
-                else:
-                    self._no_constant(written[at][0], written)
-                    self.constants[at] = written[at][1]
-            if at not in self.constants:
-                self._circular(at, list(chain), written)
-            value = self.constants[at].value
-            for link in chain:
-                self.constants[link] = replace(written[link][1], value=value)
-
-    def _no_constant(self, side: Side, known: dict[str, tuple[Side, Constant]]) -> None:
-        name = str(side.written)
+    def unknown_constant(self, name: str, known: WrittenConstants) -> tuple[str, str]:
         if name in self.kinds or name in self._owners:
-            message = f"{self.described(name)}, not a constant"
-            hint = "a constant is a whole number or another constant"
-        else:
-            message, hint = f"there is no constant {quoted(name)}", did_you_mean(self._nearest(name, known))
-        self.problem(message, side.span, hint or f"write a number, or define it: constant {name} = 18")
-
-    def _circular(self, name: str, chain: list[str], written: dict[str, tuple[Side, Constant]]) -> None:
-        message, hint = circular(chain[chain.index(name) :], "constant")
-        self.problem(message, written[name][0].span, hint)
-        self.constants[name] = written[name][1]
+            return f"{self.described(name)}, not a constant", "a constant is a whole number or another constant"
+        return f"no constant is called {quoted(name)}", did_you_mean(self.nearest(name, known))
 
     def label(self, label: str, span: Span) -> str:
         """The label to call a rule or claim by. Others read texts in which two have the same; the second one becomes
@@ -154,15 +105,15 @@ class Names:
         self.defects.append(
             Defect(
                 "repeated-label",
-                f"there is another {label} in line {self.line(first)}; this one is called {label}#{count + 1} here",
+                f"there is another `{label}` in line {self.line(first)}; this one is called `{label}#{count + 1}`",
                 span,
-                "give each a label of its own",
+                "give each its own label",
             )
         )
         return f"{label}#{count + 1}"
 
     def described(self, name: str) -> str:
-        """What a name is, and where that is said: a name with a definition, or a value of a scale."""
+        """What a name is, and where it is defined: a name with a definition, or a value of a scale."""
         if name not in self.kinds:
             owner = self._owners[name]
             return f"{quoted(name)} is a value of {quoted(owner.name)} (line {self.line(owner.span)})"
@@ -175,7 +126,7 @@ class Names:
     # Uses -----------------------------------------------------------------------------------------------------
 
     def event(self, name: str, span: Span, what: str) -> None:
-        """A name that stands where an event must."""
+        """Uses a name as an event; `what` says for what."""
         kind = self.kinds.get(name)
         if kind == "event" or (kind is None and not self.complete):
             return
@@ -183,15 +134,15 @@ class Names:
             self._without_definition(name, span, "event", "event", f"event {name}")
         else:
             self.problem(
-                f"{self.described(name)}; {what} is an event",
+                f"{self.described(name)}, but {what} is an event",
                 span,
-                "measures belong into conditions, behind and or unless"
+                "use measures in conditions, after and or unless"
                 if kind != "constant"
-                else "constants belong into comparisons and windows",
+                else "use constants in comparisons and times",
             )
 
     def boolean(self, name: str, span: Span) -> None:
-        """A name that stands alone in a condition."""
+        """Uses a name alone as a condition."""
         kind = self.kinds.get(name)
         if kind is None and name not in self._owners:
             if not self.complete:
@@ -201,24 +152,23 @@ class Names:
             return
         elif kind == "event":
             self.problem(
-                f"{self.described(name)}, and here only a measure can stand",
+                f"{self.described(name)}, but a condition is needed here",
                 span,
-                "in a condition of a rule, name the event alone; or define what is to be known as a measure: "
-                f"measure {name[:1].lower()}{name[1:]}: boolean",
+                f"define a condition, for example: measure {name[:1].lower()}{name[1:]}: boolean",
             )
         else:
             self.problem(f"{self.described(name)}, which is not true or false by itself", span, self._compare(name))
 
     def _compare(self, name: str) -> str:
-        """How to compare what is no condition by itself."""
+        """How to compare a name that is not a condition by itself."""
         if name not in self.kinds:
-            return f"compare the measure with it, as in: {self._owners[name].name} = {name}"
+            return f"compare the measure with it, for example: {self._owners[name].name} = {name}"
         if name in self.constants:
-            return f"compare a measure with it, as in: {self.numeric_example()} > {name}"
+            return f"compare a measure with it, for example: {self.numeric_example()} > {name}"
         measure = self.measures.get(name)
         if measure is not None and measure.values:
-            return f"compare it with one of its values, as in: {name} = {measure.values[0]}"
-        return f"compare it with a number, as in: {name} > 0"
+            return f"compare it with one of its values, for example: {name} = {measure.values[0]}"
+        return f"compare it with a number, for example: {name} > 0"
 
     def numeric_example(self) -> str:
         """A numeric measure to write into an example."""
@@ -236,9 +186,9 @@ class Names:
             return
         self._undefined[name] = len(self._problems), 1
         known = [other for other, its in self.kinds.items() if its == kind]
-        near = self._nearest(name, known) if len(self._problems) < MAX_PROBLEMS else None
+        near = self.nearest(name, known) if len(self._problems) < MAX_PROBLEMS else None
         self.problem(
-            f"there is no {what} {quoted(name)}",
+            f"no {what} is called {quoted(name)}",
             span,
             did_you_mean(near) or f"define it, between def_start and def_end: {definition}",
         )
@@ -248,7 +198,7 @@ class Names:
         self.problem(
             "there is no def_start block, so no name in this text is defined",
             Span(0, 0),
-            "begin with definitions, as in: def_start event SmokeDetected measure userAtHome: boolean def_end",
+            "start with definitions, for example: def_start event SmokeDetected measure userAtHome: boolean def_end",
         )
 
     def count_uses(self) -> None:

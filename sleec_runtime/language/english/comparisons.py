@@ -14,7 +14,6 @@ class Comparisons:
 
     def __init__(self, names: Names) -> None:
         self._names = names
-        self._refs: dict[str, MeasureRef] = {}
 
     def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison:
         """``left operator right`` with each side as what it is; whatever does not fit is reported."""
@@ -39,10 +38,7 @@ class Comparisons:
             and not self._is_out_of_place(name, other)
         ):
             self._names.inferred[name] = Measure(name, "number", declared=False, span=side.span)
-        ref = self._refs.get(name)
-        if ref is None:
-            ref = self._refs[name] = MeasureRef(name)
-        return ref
+        return self._names.measure_ref(name)
 
     def _is_out_of_place(self, name: str, other: Measure | None) -> bool:
         """Whether an undeclared name opposite `other` cannot be a number measure, which `_check_fit` reports."""
@@ -57,7 +53,7 @@ class Comparisons:
             self._check_number(right, left)
         elif isinstance(one, Number) and isinstance(two, Number):
             self._names.problem(
-                f"{_written(left)} and {_written(right)} are both fixed numbers, so the answer is always the same",
+                f"{_written(left)} and {_written(right)} are both fixed numbers, so the result is always the same",
                 span,
                 "compare a measure with a number, or write true or false",
             )
@@ -66,7 +62,7 @@ class Comparisons:
         measure = self._names.measures.get(str(name.written))
         if measure is not None and measure.kind == "scale":
             self._names.problem(
-                f"{_written(name)} is a scale and {_written(number)} is a number: they cannot be compared",
+                f"{_written(name)} is a scale and {_written(number)} is a number; they cannot be compared",
                 number.span,
                 f"compare it with one of its values: {scale_text(measure)}",
             )
@@ -77,7 +73,7 @@ class Comparisons:
         one, two = self._measure(left), self._measure(right)
         if one is None and two is None:
             self._names.problem(
-                f"{_written(left)} and {_written(right)} are both values of a scale, so the answer is always the same",
+                f"{_written(left)} and {_written(right)} are both values of a scale, so the result is always the same",
                 span,
                 "compare a measure with one of its values",
             )
@@ -91,7 +87,7 @@ class Comparisons:
         elif (one.kind == "scale") != (two.kind == "scale"):
             scale, other, values = (left, right, one) if one.kind == "scale" else (right, left, two)
             self._names.problem(
-                f"{_written(scale)} is a scale and {_written(other)} is a number: they cannot be compared",
+                f"{_written(scale)} is a scale and {_written(other)} is a number; they cannot be compared",
                 span,
                 f"compare {_written(scale)} with one of its values: {scale_text(values)}",
             )
@@ -100,7 +96,7 @@ class Comparisons:
                 f"{_written(left)} and {_written(right)} have different scales: "
                 f"{scale_text(one)} and {scale_text(two)}",
                 span,
-                "only measures of the same scale can be compared with each other",
+                "compare measures of the same scale only",
             )
 
     def _measure(self, side: Side) -> Measure | None:
@@ -108,10 +104,10 @@ class Comparisons:
 
     def _problem_of_wrong_value(self, measure: Measure, side: Side) -> None:
         owners = self._names.scales.get(str(side.written))
-        of_other = f": it is a value of {quoted(owners[0])}" if owners else ""
+        of_other = f", but of {quoted(owners[0])}" if owners else ""
         near = None if owners else self._names.nearest(str(side.written), measure.values)
         self._names.problem(
-            f"{_written(side)} is no value of {quoted(measure.name)}{of_other}",
+            f"{_written(side)} is not a value of {quoted(measure.name)}{of_other}",
             side.span,
             f"{did_you_mean(near) + ' ' if near else ''}{quoted(measure.name)} can be {scale_text(measure)}",
         )
@@ -122,21 +118,22 @@ class Comparisons:
         values = scale_text(owner) if owner else "low < high"
         if not isinstance(opposite.written, str) or opposite.written in self._names.constants:
             self._names.problem(
-                f"{_written(value)} is a value of a scale and {_written(opposite)} a number: they cannot be compared",
+                f"{_written(value)} is a value of a scale and {_written(opposite)} is a number; "
+                "they cannot be compared",
                 opposite.span,
                 f"compare {quoted(owner.name) if owner else 'its measure'} with it",
             )
         elif opposite.written in self._names.measures:
             self._names.problem(
                 f"{_written(opposite)} is a number, and {_written(value)} is a value of "
-                f"{quoted(owner.name) if owner else 'a scale'}: they cannot be compared",
+                f"{quoted(owner.name) if owner else 'a scale'}; they cannot be compared",
                 value.span,
                 "compare it with a number",
             )
         else:
             near = self._names.nearest(opposite.written, self._names.measures)
             self._names.problem(
-                f"{_written(opposite)} is compared with a value of a scale, but no scale is declared for it",
+                f"{_written(opposite)} is compared with a value of a scale, but is not declared with a scale",
                 opposite.span,
                 did_you_mean(near) or f"declare it: MEASURE {opposite.written}: {values}",
             )

@@ -1,4 +1,4 @@
-"""The statements that say what names are: MEASURE, CONSTANT, TRIGGER, CONDITION, OBLIGATION, EVENT."""
+"""The statements that declare names: MEASURE, CONSTANT, TRIGGER, CONDITION, OBLIGATION, EVENT."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.english.formulas import ConditionParser
 from sleec_runtime.language.english.keywords import PHRASE
 from sleec_runtime.model import Agent, Constant, Declaration, Kind, Measure, MeasureKind, Span
-from sleec_runtime.support.suggestions import nearest
+from sleec_runtime.support.suggestions import did_you_mean, nearest
 
 _KIND: dict[str, Kind] = {"TRIGGER": "trigger", "CONDITION": "condition", "OBLIGATION": "obligation"}
 _BY = "BY"
 _NUMERIC: dict[str, MeasureKind] = {"number": "number", "integer": "integer"}
-_TYPE_SLIPS = {
+_TYPE_SYNONYMS = {
     "numeric": "number",
     "numbers": "number",
     "float": "number",
@@ -26,12 +26,12 @@ _TYPE_SLIPS = {
 
 
 class DeclarationParser(ConditionParser):
-    """Reads declarations. They are global, wherever in the text they stand."""
+    """Reads declarations. They apply to the whole text."""
 
     constants: dict[str, tuple[Side, Constant]]
 
     def declaration(self) -> Declaration | Measure | Constant | None:
-        """The declaration at hand; of a constant the value is not settled before all of them are read."""
+        """The declaration at hand. Constants get their values once all of them are read."""
         keyword = self.kinds[self.at]
         if keyword == "MEASURE":
             return self._measure()
@@ -68,9 +68,7 @@ class DeclarationParser(ConditionParser):
         written = self.token_text(self.at)
         if written not in ("system", "environment"):
             near = nearest(written, ("system", "environment"))
-            self.expected(
-                "system or environment", f"did you mean {near}?" if near else "for example: EVENT SoundAlarm BY system"
-            )
+            self.expected("system or environment", did_you_mean(near) or "for example: EVENT SoundAlarm BY system")
         self.at += 1
         return "system" if written == "system" else "environment"
 
@@ -86,7 +84,7 @@ class DeclarationParser(ConditionParser):
                 break
             self.at += 1
         if self.kinds[self.at] in ("AND", "OR"):
-            self.expected("a comma between the names", "this is a list: write a comma instead")
+            self.expected("a comma between the names", "write a comma instead")
         return tuple(names), tuple(spans)
 
     def _listed_name(self, what: str) -> str:
@@ -99,13 +97,13 @@ class DeclarationParser(ConditionParser):
         name = self._listed_name("the name of a measure")
         name_span = self.span(at_name)
         if self.kinds[self.at] == ",":
-            self.expected("a colon after the name of the measure", "declare each measure by itself")
+            self.expected("a colon after the name of the measure", "declare each measure separately")
         if self.kinds[self.at] != ":":
             self.expected("a colon after the name of the measure", f"for example: MEASURE {name}: number")
         self.at += 1
         at_type = self.at
         if self.kinds[at_type] == "number":
-            self.expected("number, integer, boolean or a scale", f"for numbers write: MEASURE {name}: number")
+            self.expected("number, integer, boolean or a scale", f"for numbers, write MEASURE {name}: number")
         values = [self._listed_name("number, integer, boolean or a scale such as low < high")]
         spans = [self.span(at_type)]
         while self.kinds[self.at] == "operator" and self.token_text(self.at) == "<":
@@ -115,7 +113,7 @@ class DeclarationParser(ConditionParser):
             spans.append(self.span(at_value))
         if self.kinds[self.at] in (",", "operator", "("):
             self.expected(
-                "< between the values of the scale", "write a scale from the lowest value up: low < middle < high"
+                "< between the values of the scale", "write a scale from its lowest value: low < middle < high"
             )
         span = self.span(first)
         comments = self.comments_of(first)
@@ -123,7 +121,7 @@ class DeclarationParser(ConditionParser):
             self.names.declare("condition", name, name_span)
             return Declaration("condition", (name,), span, (name_span,), comments)
         if len(values) == 1:
-            kind = _NUMERIC.get(values[0]) or self._no_type(at_type, values[0], spans[0])
+            kind = _NUMERIC.get(values[0]) or self._refuse_type(at_type, values[0], spans[0])
             measure = Measure(name, kind, (), True, span, comments)
         else:
             measure = Measure(name, "scale", tuple(values), True, span, comments)
@@ -131,18 +129,16 @@ class DeclarationParser(ConditionParser):
             self.names.declare_measure(measure, name_span, spans)
         return measure
 
-    def _no_type(self, first: int, written: str, span: Span) -> MeasureKind:
+    def _refuse_type(self, first: int, written: str, span: Span) -> MeasureKind:
         for token in range(first + 1, self.at):
             if self.starts_line(token) and self.text[span.start : self.ends[token - 1]] in (*_NUMERIC, "boolean"):
                 self.at = token
-                self.expected("the next statement", "a statement begins with a keyword, such as MEASURE, RULE or WHEN")
-        near = _TYPE_SLIPS.get(written) or nearest(written, ("number", "integer", "boolean"))
+                self.expected("the next statement", "a statement starts with a keyword, such as MEASURE, RULE or WHEN")
+        near = _TYPE_SYNONYMS.get(written) or nearest(written, ("number", "integer", "boolean"))
         self.fail(
-            f"{quoted(written)} is no kind of measure",
+            f"{quoted(written)} is not a type of measure",
             span,
-            f"did you mean {near}?"
-            if near
-            else "write number, integer, boolean or a scale of two values or more: low < high",
+            did_you_mean(near) or "write number, integer, boolean or a scale with two or more values: low < high",
         )
 
     def _constant(self) -> Constant | None:

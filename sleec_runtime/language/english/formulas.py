@@ -65,7 +65,8 @@ class ConditionParser(PhraseParser, FormulaParser):
             return None
         word = self.token_text(token)
         if word not in ("true", "false"):
-            self.problem(f"write `{word.casefold()}` in lowercase", self.token_span(token), None)
+            message = f"{quoted(word)} is not a keyword; did you mean `{word.casefold()}`?"
+            self.problem(message, self.token_span(token), "write true and false in lowercase")
         if self.kinds[token + 1] == "operator":
             self.fail(
                 f"`{word}` cannot be compared",

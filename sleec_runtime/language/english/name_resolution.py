@@ -1,48 +1,32 @@
 """What each name is: trigger, condition, obligation, measure, constant or value of a scale.
 
-A parser tells this symbol table of every declaration first, then of every use; whatever clashes is found at the end,
-when all uses are known. Both syntaxes share it.
+The parser reports all declarations first, then every use. Conflicts are found at the end, when all uses are known.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from dataclasses import replace
+from collections.abc import Sequence
 
 from sleec_runtime.errors import Problem
-from sleec_runtime.language.common.comparisons import Side
-from sleec_runtime.language.common.constant_cycles import circular
 from sleec_runtime.language.common.problems import MAX_PROBLEMS, quoted
-from sleec_runtime.model import (
-    NOWHERE,
-    Agent,
-    Atom,
-    Constant,
-    Kind,
-    Measure,
-    MeasureRef,
-    Number,
-    Source,
-    Span,
-)
-from sleec_runtime.support.suggestions import Suggester, did_you_mean
+from sleec_runtime.language.common.symbol_table import SymbolTable, WrittenConstants
+from sleec_runtime.language.english.name_conflicts import Uses, conflicts
+from sleec_runtime.model import Agent, Atom, Constant, Kind, Measure, MeasureRef, Number, Source, Span
+from sleec_runtime.support.suggestions import did_you_mean
 
 _KINDS: tuple[Kind, ...] = ("trigger", "condition", "obligation")
 
 
-class Names:
+class Names(SymbolTable):
     """The names of one text and what they stand for."""
 
+    constant_keyword = "CONSTANT"
+
     def __init__(self, source: Source, problems: list[Problem]) -> None:
-        self.measures: dict[str, Measure] = {}
+        super().__init__(source, problems)
         self.inferred: dict[str, Measure] = {}
-        self.constants: dict[str, Constant] = {}
         self.triggers: set[str] = set()
-        """The triggers of all rules, wherever these stand."""
-        self.complete = True
-        """False once a declaration could not be read: then a name that is not declared is no news."""
-        self._source = source
-        self._problems = problems
+        """The triggers of all rules, wherever these are."""
         self._declared: dict[Kind, dict[str, Span]] = {kind: {} for kind in _KINDS}
         self._used: dict[Kind, dict[str, Span]] = {kind: {} for kind in _KINDS}
         self._events: dict[str, tuple[Span, Agent | None]] = {}
@@ -50,8 +34,8 @@ class Names:
         self.compared: dict[str, Span] = {}
         self._named: dict[str, Span] = {}
         self.scales: dict[str, list[str]] = {}
+        """The measures that have each value of a scale."""
         self._labels: dict[str, tuple[Span, str]] = {}
-        self.nearest = Suggester().nearest
 
     # Declarations ---------------------------------------------------------------------------------------------
 
@@ -59,111 +43,70 @@ class Names:
         self._declared[kind].setdefault(name, span)
 
     def declare_event(self, name: str, span: Span, agent: Agent | None) -> None:
-        """Takes in an event, which may be a trigger and an obligation. Whose it is must be said the same everywhere."""
-        first, its = self._events.setdefault(name, (span, agent))
-        if its != agent:
-            self.problem(
-                f"{quoted(name)} is declared {_owned(agent)} here, and {_owned(its)} in line {self._line(first)}",
-                span,
-                "declare it once",
-            )
+        """Declares an event, which may be a trigger and an obligation. All declarations must name the same agent."""
+        first, other = self._events.setdefault(name, (span, agent))
+        if other != agent:
+            here, there = (f"BY {its}" if its is not None else "without BY" for its in (agent, other))
+            message = f"{quoted(name)} is declared {here} here, and {there} in line {self.line(first)}"
+            self.problem(message, span, "declare it once")
         self.declare("trigger", name, span)
         self.declare("obligation", name, span)
 
-    def declare_measure(self, measure: Measure, name_span: Span, value_spans: Collection[Span]) -> None:
-        """Takes a measure in, unless its name is taken. The values of one scale must differ."""
+    def declare_measure(self, measure: Measure, name_span: Span, value_spans: Sequence[Span]) -> None:
+        """Declares a measure, unless its name is taken. The values of one scale must differ."""
         if self.is_new(measure.name, name_span):
             self.measures[measure.name] = measure
-        seen: dict[str, Span] = {}
-        for value, span in zip(measure.values, value_spans):
-            if value in seen:
-                self.problem(
-                    f"the scale of {quoted(measure.name)} names {quoted(value)} twice",
-                    span,
-                    "each value of a scale has one place in it",
-                )
-            elif value not in self.scales or measure.name not in self.scales[value]:
-                self.scales.setdefault(value, []).append(measure.name)
-            seen.setdefault(value, span)
+        self.check_scale(measure, value_spans)
+        for value in dict.fromkeys(measure.values):
+            owners = self.scales.setdefault(value, [])
+            if measure.name not in owners:
+                owners.append(measure.name)
 
-    def declare_constants(self, written: dict[str, tuple[Side, Constant]]) -> dict[str, Constant]:
-        """The constants with their values: each is a number or the value of another, which may stand further down."""
-        for name in written:
-            self._settle_constant(name, written)
-        return self.constants
-
-    def _settle_constant(self, name: str, written: dict[str, tuple[Side, Constant]]) -> None:
-        chain: dict[str, None] = {}
-        while name not in self.constants and name not in chain:
-            chain[name] = None
-            side, constant = written[name]
-            if not isinstance(side.written, str):
-                self.constants[name] = constant
-            elif side.written in written:
-                name = side.written
-            else:
-                self._undefined_constant(side, written)
-                self.constants[name] = constant
-        if name in chain and name not in self.constants:
-            side, _ = written[name]
-            message, hint = circular(list(chain)[list(chain).index(name) :], "CONSTANT")
-            self.problem(message, side.span, hint)
-            self.constants[name] = written[name][1]
-        value = self.constants[name].value
-        for link in chain:
-            self.constants[link] = replace(written[link][1], value=value)
-
-    def _undefined_constant(self, side: Side, known: Collection[str]) -> None:
-        name = side.written
-        assert isinstance(name, str)
+    def unknown_constant(self, name: str, known: WrittenConstants) -> tuple[str, str]:
         if name in self.measures:
-            message, hint = f"{quoted(name)} is a measure, not a constant", "a constant is a number or another constant"
-        else:
-            message, hint = f"there is no constant {quoted(name)}", did_you_mean(self.nearest(name, known))
-        self.problem(message, side.span, hint or f"write a number, or define it: CONSTANT {name} = 18")
+            return f"{quoted(name)} is a measure, not a constant", "a constant is a number or another constant"
+        return f"no constant is called {quoted(name)}", did_you_mean(self.nearest(name, known))
 
     def check_scales(self) -> None:
-        """A value of a scale must not be called like a measure or a constant: a comparison could mean either."""
+        """Reports values of scales with the name of a measure or constant: a comparison could mean either."""
         for value, owners in self.scales.items():
             if value in self._named:
                 measure = self.measures.get(owners[0])
+                other = "measure" if value in self.measures else "constant"
                 self.problem(
                     f"{quoted(value)} is a value of the scale of {quoted(owners[0])} and the name of another "
-                    f"{'measure' if value in self.measures else 'constant'} (line {self._line(self._named[value])})",
+                    f"{other} (line {self.line(self._named[value])})",
                     measure.span if measure else self._named[value],
                     "rename one of them",
                 )
 
     def label(self, label: str, span: Span, what: str) -> None:
-        """The label of a rule, a concern or a purpose, as `what` says; no two of them may have the same."""
+        """Declares the label of a rule, concern or purpose, as `what` says. Labels must differ."""
         first, other = self._labels.setdefault(label, (span, what))
         if first is span:
             return
         if other == what:
-            message = f"there are two {what}s {quoted(label)}; the first is in line {self._line(first)}"
+            message = f"there are two {what}s {quoted(label)}; the first is in line {self.line(first)}"
         else:
-            message = f"{quoted(label)} is also the label of the {other} in line {self._line(first)}"
-        self.problem(message, span, f"give each {what} a label of its own")
+            message = f"{quoted(label)} is also the label of the {other} in line {self.line(first)}"
+        self.problem(message, span, f"give each {what} its own label")
 
     def numbered(self, labels: dict[str, Span]) -> None:
-        """Rules without a label are called by their number, which no other rule may have for its label."""
+        """Reports labels that are the number of a rule without a label."""
         for label, span in labels.items():
             if label in self._labels:
                 self.problem(
-                    f"{quoted(label)} is also the name of the rule in line {self._line(span)}, which has no label",
+                    f"{quoted(label)} is also the name of the rule without a label in line {self.line(span)}",
                     self._labels[label][0],
                     "give one of them another label",
                 )
 
     def is_new(self, name: str, span: Span) -> bool:
-        """Whether a measure or constant may have this name; if not, that is reported."""
+        """Whether no other measure or constant has this name; if one has, that is reported."""
         first = self._named.setdefault(name, span)
         if first is not span:
-            self.problem(
-                f"{quoted(name)} is declared twice; the first time in line {self._line(first)}",
-                span,
-                "delete or rename one of them",
-            )
+            message = f"{quoted(name)} is declared twice; the first time in line {self.line(first)}"
+            self.problem(message, span, "delete or rename one of them")
         return first is span
 
     # Uses -----------------------------------------------------------------------------------------------------
@@ -174,7 +117,7 @@ class Names:
             used[name] = span
 
     def event(self, name: str, span: Span) -> None:
-        """A name that stands where something happens, be it a trigger, an obligation or both."""
+        """Uses a name as an event: a trigger, an obligation or both."""
         self._events_used.setdefault(name, span)
 
     def has_amount(self, name: str) -> bool:
@@ -182,7 +125,7 @@ class Names:
         return name in self.constants or name in self.measures
 
     def amount(self, name: str, span: Span) -> Number | MeasureRef | None:
-        """The constant or measure that says how long something takes; None, and a problem, if it is nothing of that."""
+        """The constant or measure that is an amount of time; None, and a problem, if the name is neither."""
         constant = self.constants.get(name)
         if constant is not None:
             return self._constant_amount(constant, name, span)
@@ -191,49 +134,48 @@ class Names:
             self.compared.setdefault(name, span)
             return MeasureRef(name)
         if measure is not None:
-            its = "a scale" if measure.kind == "scale" else "any number"
+            kind = "a scale" if measure.kind == "scale" else "a decimal number"
             self.problem(
-                f"{quoted(name)} is {its}, and times are whole numbers",
+                f"{quoted(name)} is {kind}, but a time is a whole number",
                 span,
                 f"declare it as MEASURE {name}: integer, or write a number",
             )
         elif self.complete:
             near = self.nearest(name, [*self.constants, *self.measures])
             self.problem(
-                f"there is no constant or measure {quoted(name)}",
+                f"no constant or measure is called {quoted(name)}",
                 span,
                 did_you_mean(near) or f"declare it: CONSTANT {name} = 5, or MEASURE {name}: integer",
             )
         return None
 
     def _constant_amount(self, constant: Constant, name: str, span: Span) -> Number | None:
-        if constant.value >= 0 and constant.value.denominator == 1:
-            return Number(constant.value, name)
-        wrong = "negative" if constant.value < 0 else "no whole number"
-        self.problem(
-            f"the constant {quoted(name)} is {wrong}, and times are whole numbers from 0",
-            span,
-            "give it another value" if constant.value < 0 else "choose a smaller unit: 90 seconds, not 1.5 minutes",
-        )
-        return None
+        if constant.value < 0:
+            self.problem(f"the constant {quoted(name)} is negative, but a time is not", span, "use another value")
+            return None
+        if constant.value.denominator != 1:
+            message = f"the constant {quoted(name)} is not a whole number, but a time is"
+            self.problem(message, span, "use a smaller unit: 90 seconds, not 1.5 minutes")
+            return None
+        return Number(constant.value, name)
 
     def condition(self, name: str, span: Span) -> Atom:
-        """A leaf of a guard or a hedge: an event if the name is a trigger, which then occurs or not."""
+        """A leaf of a guard or an exception: an event if the name is a trigger, else a condition."""
         if name in self.triggers or name in self._declared["trigger"]:
             return self._atom("trigger", name, span)
         return self._atom("condition", name, span)
 
     def state(self, name: str, span: Span) -> Atom:
-        """A leaf of a relation, which speaks of conditions alone."""
+        """A leaf of a relation, which is always a condition."""
         return self._atom("condition", name, span)
 
     def assumed(self, name: str, span: Span) -> Atom:
-        """A leaf of an ASSUME. It speaks of situations, so it is a trigger or a condition."""
+        """A leaf of an ASSUME. It describes situations, so it is a trigger or a condition."""
         if self._is("trigger", name):
             return self._atom("trigger", name, span)
         if self._is("obligation", name) and not self._is("condition", name):
             self.problem(
-                f"{quoted(name)} is an obligation, and ASSUME speaks of situations: of triggers and conditions",
+                f"{quoted(name)} is an obligation, but ASSUME is about triggers and conditions",
                 span,
                 "to forbid something to the robot, write NEVER",
             )
@@ -241,7 +183,7 @@ class Names:
         return self._atom("condition", name, span)
 
     def forbidden(self, name: str, span: Span) -> Atom:
-        """A leaf of a NEVER: whatever the name is elsewhere, an obligation before all."""
+        """A leaf of a NEVER: an obligation, unless the name is only something else."""
         for kind in ("obligation", "condition", "trigger"):
             if self._is(kind, name):
                 return self._atom(kind, name, span)
@@ -257,120 +199,58 @@ class Names:
     # The end --------------------------------------------------------------------------------------------------
 
     def finish(self) -> None:
-        """Reports the names that are two things at once, and those that are not declared although their kind is."""
-        clashing = self._report_clashes()
+        """Reports names of two kinds, and undeclared names of kinds with declarations."""
+        conflicting = self._report_conflicts()
         if not self.complete:
             return
-        self._report_unknown_events(clashing)
+        self._report_unknown_events(conflicting)
         unknown: list[tuple[Span, str, Kind]] = []
         for kind in _KINDS:
             if self._declared[kind]:
                 for name, span in self._used[kind].items():
-                    if name not in self._declared[kind] and name not in clashing:
+                    if name not in self._declared[kind] and name not in conflicting:
                         unknown.append((span, name, kind))
         for index, (span, name, kind) in enumerate(sorted(unknown)):
-            # Only what can be shown is worth a search for the nearest name.
+            # Only a problem that is shown is worth a search for the nearest name.
             near = self.nearest(name, self._declared[kind]) if index < MAX_PROBLEMS else None
-            first = next(iter(self._declared[kind].values()))
-            article = "an" if kind == "obligation" else "a"
+            first = self.line(next(iter(self._declared[kind].values())))
             self.problem(
-                f"{quoted(name)} is not declared as {article} {kind}",
+                f"no {kind} is called {quoted(name)}",
                 span,
-                did_you_mean(near)
-                or f"this text declares its {kind}s (line {self._line(first)}); add it there: {kind.upper()} {name}",
+                did_you_mean(near) or f"this text declares its {kind}s (line {first}); add {kind.upper()} {name}",
             )
 
-    def _report_unknown_events(self, clashing: set[str]) -> None:
-        """Events that nothing else in a text knows which declares all its triggers and obligations."""
+    def _report_unknown_events(self, conflicting: set[str]) -> None:
+        """Reports unknown events of a text that declares its triggers and obligations."""
         if not (self._declared["trigger"] and self._declared["obligation"]):
             return
         known = {**self._declared["trigger"], **self._declared["obligation"]}
         for name, span in self._events_used.items():
-            if name not in known and name not in clashing:
+            if name not in known and name not in conflicting:
                 near = self.nearest(name, known)
                 self.problem(
-                    f"{quoted(name)} is not declared as an event",
+                    f"no event is called {quoted(name)}",
                     span,
-                    did_you_mean(near) or f"this text declares its triggers and obligations; add it: EVENT {name}",
+                    did_you_mean(near) or f"this text declares its triggers and obligations; add EVENT {name}",
                 )
 
-    def _report_clashes(self) -> set[str]:
-        clashing: set[str] = set()
-        places: dict[str, dict[str, Span]] = {kind: {**self._used[kind], **self._declared[kind]} for kind in _KINDS}
-        places["measure"] = {name: self.compared.get(name, NOWHERE) for name in (*self.inferred,)}
-        for name in self.measures:
-            places["measure"][name] = self._named.get(name, NOWHERE)
-        places["constant"] = {name: self._named[name] for name in self.constants if name in self._named}
-        places["event"] = self._events_used
-        for one, other in _APART:
-            for name in places[one].keys() & places[other].keys():
-                if name not in clashing:
-                    clashing.add(name)
-                    self._report_clash(name, one, places[one][name], other, places[other][name])
-        return clashing
-
-    def _report_clash(self, name: str, one: str, one_span: Span, other: str, other_span: Span) -> None:
-        """At the use that goes against a declaration, or at the later of two."""
-        declared = {one: self._declares(one, name), other: self._declares(other, name)}
-        at_one = one_span > other_span if declared[one] == declared[other] else declared[other]
-        here, span, there, place = (one, one_span, other, other_span) if at_one else (other, other_span, one, one_span)
-        self.problem(
-            f"{quoted(name)} is {self._role(name, here, declared[here])} here, and "
-            f"{self._role(name, there, declared[there])} "
-            f"in line {self._line(place)}",
-            span,
-            self._how_to_part(name, here, there),
-        )
-
-    def _role(self, name: str, kind: str, declared: bool) -> str:
-        if declared and kind in ("trigger", "obligation") and name in self._events:
-            return "declared as an event"
-        article = "an" if kind in ("obligation", "event") else "a"
-        if declared:
-            return f"declared as {article} {kind}"
-        return "compared as a measure" if kind == "measure" else f"used as {article} {kind}"
-
-    def _declares(self, kind: str, name: str) -> bool:
-        if kind == "event":
-            return False
-        if kind in _KINDS:
-            return name in self._declared[kind]
-        return name in self._named
-
-    def _how_to_part(self, name: str, here: str, there: str) -> str:
-        kinds = {here, there}
-        if kinds == {"condition", "measure"}:
-            measure = self.measures.get(name)
-            example = f">= {measure.values[-1]}" if measure and measure.values else "> 0"
-            return f"a measure is compared wherever it stands, for example: {name} {example}"
-        if kinds == {"condition", "obligation"}:
-            return "a condition says how things are, an obligation what is to be done: give the two different names"
-        if kinds in ({"condition", "trigger"}, {"condition", "event"}):
-            return "a trigger is what happens, a condition how things are meanwhile: give the two different names"
-        return "give the two different names"
-
-    def _line(self, span: Span) -> int:
-        return self._source.place(span).line
-
-    def problem(self, message: str, span: Span, hint: str | None) -> None:
-        self._problems.append(Problem(message, span, hint))
-
-
-_APART = (
-    ("condition", "measure"),
-    ("trigger", "measure"),
-    ("obligation", "measure"),
-    ("condition", "constant"),
-    ("trigger", "constant"),
-    ("obligation", "constant"),
-    ("condition", "obligation"),
-    ("condition", "trigger"),
-    ("condition", "event"),
-    ("event", "measure"),
-    ("event", "constant"),
-)
-"""What a name cannot be at once. A trigger may be an obligation of another rule: it happens because it was due."""
-
-
-def _owned(agent: Agent | None) -> str:
-    return f"BY {agent}" if agent is not None else "without BY"
+    def _report_conflicts(self) -> set[str]:
+        inferred = {name: self.compared[name] for name in self.inferred}
+        measures = {name: self._named[name] for name in self.measures}
+        constants = {name: self._named[name] for name in self.constants if name in self._named}
+        uses: dict[str, Uses] = {
+            "measure": Uses({**inferred, **measures}, self._named.keys()),
+            "constant": Uses(constants, self._named.keys()),
+            "event": Uses(self._events_used, set()),
+        }
+        for kind in _KINDS:
+            uses[kind] = Uses({**self._used[kind], **self._declared[kind]}, self._declared[kind].keys())
+        found: set[str] = set()
+        for conflict in conflicts(uses, self._events.keys(), self.measures):
+            found.add(conflict.name)
+            message = (
+                f"{quoted(conflict.name)} is {conflict.here} here, and {conflict.there} in line "
+                f"{self.line(conflict.other)}"
+            )
+            self.problem(message, conflict.span, conflict.hint)
+        return found

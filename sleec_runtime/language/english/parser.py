@@ -1,7 +1,7 @@
-"""The structured-English form: a text as a whole, its constraints and settings (docs/language.md).
+"""A text in structured English as a whole, with its constraints and settings (docs/language.md).
 
-A statement ends where the keyword of the next one stands, so line breaks are only blanks. Declarations are read first,
-wherever they stand, and NEVER and ASSUME last: what a name in them is depends on its use in the rules.
+A statement ends where the keyword of the next one is, so a line break is like a space. Declarations are read first,
+wherever they are, and NEVER and ASSUME last: the kind of a name in them depends on its use in the rules.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from sleec_runtime.model import (
     Statement,
     leaves,
 )
-from sleec_runtime.support.suggestions import nearest
+from sleec_runtime.support.suggestions import did_you_mean, nearest
 
 EVERYWHERE = "everywhere"
 DEFAULT_READING: Reading = "cascade"
@@ -100,15 +100,15 @@ class EnglishParser(RelationParser):
         return [statement for statement in self._found if statement is not None]
 
     def _declarations(self) -> dict[int, tuple[Statement | None, int]]:
-        """The declarations by the token they start at, each with the token behind it."""
+        """The declarations by the token they start at, each with the token after it."""
         declared: dict[int, tuple[Statement | None, int]] = {}
         for token in [token for token, kind in enumerate(self.kinds) if kind in DECLARATIONS]:
             self.at = token
             declared[token] = (self._declaration(), self.at)
-        # A hedge may name the trigger of a rule further down.
+        # An exception may name the trigger of a later rule.
         openings = [token for token, kind in enumerate(self.kinds) if kind in OPENINGS]
         self.names.triggers.update(self.name_at(token + 1) for token in openings)
-        self.names.declare_constants(self.constants)
+        self.names.define_constants(self.constants)
         self.names.check_scales()
         return declared
 
@@ -152,13 +152,13 @@ class EnglishParser(RelationParser):
         if self.at == 0 and self.kinds[0] not in STATEMENTS and self.kinds[0] != "end":
             self.begin_clause()
             try:
-                self._no_statement()
+                self._refuse_statement()
             except Abandon:
                 self.names.complete = False
                 self.skip(STATEMENTS)
         return self.at
 
-    def _no_statement(self) -> None:
+    def _refuse_statement(self) -> None:
         if self.kinds[0] == "word":
             written = self.token_text(0).upper()
             keyword = written if written in STATEMENTS else near_keyword(written)
@@ -169,7 +169,8 @@ class EnglishParser(RelationParser):
             self.at = 1
         if self.kinds[0] == "UNLESS":
             self.expected(
-                "a rule before this UNLESS", "an exception belongs to a rule: WHEN trigger THEN response UNLESS ..."
+                "a rule before this UNLESS",
+                "an exception (UNLESS) is part of a rule: WHEN trigger THEN response UNLESS ...",
             )
         self.expected("a statement, such as RULE or WHEN", "a rule looks like this: WHEN trigger THEN response")
 
@@ -189,10 +190,12 @@ class EnglishParser(RelationParser):
     def _domain(self) -> None:
         self.at += 1
         first = self.at
+        if self.kinds[first] != "word":
+            self.refuse_name("the name of a domain", "for example: DOMAIN hospital")
         names, _ = self.names_in_list("the name of a domain")
         if EVERYWHERE in names and len(names) > 1:
             self.fail(
-                f"{quoted(EVERYWHERE)} is all domains, and cannot stand in a list with others",
+                f"{quoted(EVERYWHERE)} means all domains, so it cannot be in a list with others",
                 self.span(first),
                 "write DOMAIN everywhere, or the names of the domains",
             )
@@ -206,16 +209,16 @@ class EnglishParser(RelationParser):
         if name not in READINGS:
             near = nearest(name, READINGS)
             self.fail(
-                f"there is no reading {quoted(name)}",
+                f"no reading is called {quoted(name)}",
                 self.span(at_name),
-                f"did you mean {near}?" if near else "write READING cascade or READING priority",
+                did_you_mean(near) or "write READING cascade or READING priority",
             )
         if self._reading_span is not None:
             place = self.source.place(self._reading_span)
             self.fail(
-                f"the reading is stated twice; the first time in line {place.line}",
+                f"the reading is set twice; the first time in line {place.line}",
                 self.span(first),
-                "one text has one reading: delete one of them",
+                "a text has one reading; delete one of them",
             )
         self._reading_span = self.span(first)
         self.reading = "cascade" if name == "cascade" else "priority"
@@ -230,9 +233,9 @@ class EnglishParser(RelationParser):
         for name, span in zip(names, spans):
             if name in seen:
                 self.fail(
-                    f"{quoted(name)} stands twice in this EXCLUSIVE",
+                    f"{quoted(name)} is twice in this EXCLUSIVE",
                     span,
-                    f"name it once; if it must never be due at all, write NEVER {name}",
+                    f"delete one of them; to forbid it, write NEVER {name}",
                 )
             seen.add(name)
             if not self.hurt:
@@ -240,7 +243,7 @@ class EnglishParser(RelationParser):
         if len(names) < 2:
             self.expected(
                 "a comma and another obligation",
-                f"EXCLUSIVE says which obligations exclude each other; to forbid one, write NEVER {names[0]}",
+                f"EXCLUSIVE needs two or more obligations; to forbid one, write NEVER {names[0]}",
             )
         return Exclusive(names, self.domains, self.span(first), spans, self.comments_of(first))
 
@@ -252,7 +255,7 @@ class EnglishParser(RelationParser):
         span = self.span(first)
         if not any(isinstance(leaf, Atom) and leaf.kind == "obligation" for leaf in leaves(formula)):
             self.problem(
-                "this NEVER names no obligation, so there is nothing that the robot could avoid",
+                "this NEVER contains no obligation, so the robot cannot avoid it",
                 span,
                 "if this situation cannot occur, write ASSUME NOT (...)",
             )

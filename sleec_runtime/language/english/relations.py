@@ -1,4 +1,4 @@
-"""What a text says besides its rules: CONCERN and PURPOSE, and RELATION among events and conditions."""
+"""Concerns, purposes, and relations between events and conditions."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from sleec_runtime.model import (
     Relation,
     Span,
 )
-from sleec_runtime.support.suggestions import nearest
+from sleec_runtime.support.suggestions import did_you_mean, nearest
 
 OF_EVENTS: dict[str, EventRelationKind] = {
     "WITNESSES": "witness",
@@ -46,7 +46,7 @@ _AS_IN = "for example: RELATION OpenDoor EXCLUDES LockDoor"
 
 
 class RelationParser(RuleParser):
-    """Reads concerns, purposes and relations. They are for the whole text, wherever they stand."""
+    """Reads concerns, purposes and relations. They apply to the whole text."""
 
     def _occasion(self, what: str, resolve: Callable[[str, Span], Atom]) -> tuple[str, Span, Formula | None]:
         """``Event [AND condition]``."""
@@ -60,9 +60,7 @@ class RelationParser(RuleParser):
     def _event_named(self, what: str) -> tuple[str, Span]:
         first = self.at
         if self.kinds[first] != "word":
-            self.refuse_name(
-                what, "an event is one name, without NOT and parentheses; conditions follow it, behind AND"
-            )
+            self.refuse_name(what, "an event is one name, without NOT or parentheses; write conditions after AND")
         name = self.name(what) or self.expected(what)
         span = self.span(first)
         if not self.hurt:
@@ -105,7 +103,7 @@ class RelationParser(RuleParser):
         if self.kinds[self.at] in ("THEN", "WHILE"):
             self.expected(
                 "the end of this claim" if responses else f"{word} and a response",
-                "EXISTS event WHILE response WHILE response, or WHEN event THEN response WHILE response",
+                "write EXISTS event WHILE response WHILE response, or WHEN event THEN response WHILE response",
             )
         meanwhile = self._meanwhile(kind) if self.kinds[self.at] == "MEANWHILE" else None
         return Claim(
@@ -134,7 +132,9 @@ class RelationParser(RuleParser):
         hedges = list(inner)
         while self.kinds[self.at] == "UNLESS":
             if inner:
-                self.expected("WHILE or the next statement", "a chain in parentheses has its exceptions inside them")
+                self.expected(
+                    "WHILE or the next statement", "the exceptions of this chain must be inside its parentheses"
+                )
             hedges.append(self.hedge())
         self.depth -= bare
         if hedges and not inner:
@@ -169,13 +169,13 @@ class RelationParser(RuleParser):
         if word in EFFECTS:
             return self._effect(first, event, EFFECTS[word])
         if word not in OF_EVENTS:
-            self._no_relation(event)
+            self._refuse_relation(event)
         return self._of_events(first, event, OF_EVENTS[word])
 
-    def _no_relation(self, event: str) -> NoReturn:
+    def _refuse_relation(self, event: str) -> NoReturn:
         word = self.kinds[self.at]
         if word in OF_CONDITIONS:
-            hint = f"conditions have ALWAYS before them: RELATION ALWAYS {event} {word} ..."
+            hint = f"write ALWAYS before conditions: RELATION ALWAYS {event} {word} ..."
             self.expected("a word for events", hint)
         self.expected(f"{_listed([*OF_EVENTS, *EFFECTS])} after the event", self._meant(event.split()) or _AS_IN)
 
@@ -191,7 +191,7 @@ class RelationParser(RuleParser):
         for word in words[1:]:
             near = nearest(word, sorted(RELATION_WORDS))
             if near is not None:
-                return f"did you mean {near}?"
+                return did_you_mean(near)
         return None
 
     def _of_events(self, first: int, event: str, relation: EventRelationKind) -> EventRelation:

@@ -1,7 +1,8 @@
-"""Responses: obligations joined by AND, each maybe with a time and with what is due in its place, and chains of hedges.
+"""Responses: obligations joined by AND, each with an optional time and alternatives, and chains of exceptions.
 
 ``OTHERWISE`` and ``ELSE`` belong to the nearest obligation before them, and take one obligation or a chain in
-parentheses. What could be read in two ways must have parentheses: an AND behind them, a choice behind IN WHICH CASE.
+parentheses. Where a text is ambiguous, parentheses are required: for an AND after them,
+and for a choice after IN WHICH CASE.
 """
 
 from __future__ import annotations
@@ -54,12 +55,12 @@ class ResponseParser(TimeParser):
                 self.problem(
                     f"expected {keyword}, but found {self.found(at)}",
                     self.token_span(at),
-                    "the three words IN WHICH CASE stand before what is to be done",
+                    "write the three words IN WHICH CASE before the response",
                 )
 
     def _response_of_hedge(self) -> _Response:
         in_parentheses = self.kinds[self.at] == "("
-        # The printer may write parentheses around the rest: what is nested in that is one level further in.
+        # The printer may write parentheses around the rest, which is then one level deeper.
         self.depth += not in_parentheses
         obligations, hedges = self.response(of_hedge=True)
         self.depth -= not in_parentheses
@@ -75,7 +76,8 @@ class ResponseParser(TimeParser):
         if self.kinds[self.at] == "AND":
             if hedges:
                 self.expected(
-                    "the end of the response", "UNLESS in parentheses is the whole response: write a rule for the rest"
+                    "the end of the response",
+                    "a chain in parentheses must be the whole response; write another rule for the rest",
                 )
             self.at += 1
             self.depth += of_hedge
@@ -94,9 +96,7 @@ class ResponseParser(TimeParser):
         hedges = list(inner)
         while self.kinds[self.at] == "UNLESS":
             if inner:
-                self.expected(
-                    "a closing parenthesis", "a chain in parentheses has its exceptions inside the same parentheses"
-                )
+                self.expected("a closing parenthesis", "the exceptions of a chain must be inside the same parentheses")
             hedges.append(self.hedge())
         self._close(opened)
         return obligations, tuple(hedges)
@@ -117,9 +117,9 @@ class ResponseParser(TimeParser):
             obligation = self._literal()
             if of_hedge and is_choice(obligation):
                 self.problem(
-                    "this leaves a choice where the condition is true, and could be meant for where it is false",
+                    "this choice is ambiguous: it can belong to the exception or to the rule",
                     self.span(first),
-                    "if the choice is meant, put it into parentheses: IN WHICH CASE (A ELSE B)",
+                    "if it belongs to the exception, write parentheses: IN WHICH CASE (A ELSE B)",
                 )
             found.append(obligation)
             return
@@ -138,7 +138,7 @@ class ResponseParser(TimeParser):
             if self.kinds[self.at] in ("(", "NOT"):
                 self.expected(
                     "the name of an obligation after NOT",
-                    "NOT forbids one obligation: write NOT A AND NOT B, or forbid both together with NEVER A AND B",
+                    "write NOT A AND NOT B to forbid each, or NEVER A AND B to forbid both together",
                 )
         at_name = self.at
         if self.kinds[at_name] != "word":
@@ -167,12 +167,12 @@ class ResponseParser(TimeParser):
         return Obligation(name, negated, self.span(first), timing)
 
     def _alternative(self, word: str) -> Clause:
-        """What is due in place of an obligation: another one, or a chain in parentheses."""
+        """What replaces an obligation: another one, or a chain in parentheses."""
         self.deeper(ALTERNATIVE_LEVELS)
         first = self.at
         if self.kinds[first] != "(":
             if self.kinds[first] not in ("word", "NOT"):
-                self.refuse_name(f"an obligation after {word}", f"say what is due instead: {word} CallForHelp")
+                self.refuse_name(f"an obligation after {word}", f"for example: {word} CallForHelp")
             obligations: tuple[Obligation, ...] = (self._literal(),)
             hedges: tuple[Clause, ...] = ()
         else:
@@ -183,12 +183,12 @@ class ResponseParser(TimeParser):
         return Clause(None, obligations, hedges, self.span(first))
 
     def _end_of_alternatives(self, word: str) -> None:
-        """Refuses what could belong to the obligation or to its last alternative, behind `word`."""
+        """Refuses what could belong to the obligation or to its last alternative, after `word`."""
         kind = self.kinds[self.at]
         if kind in ALTERNATIVES:
             self.expected(
                 "the end of the response",
-                "an obligation has one OTHERWISE, then one ELSE; parentheses nest them",
+                "an obligation has one OTHERWISE, then one ELSE; use parentheses to nest them",
             )
         if kind == "AND":
             self.expected(
@@ -205,28 +205,27 @@ class ResponseParser(TimeParser):
     # Small things ---------------------------------------------------------------------------------------------
 
     def leave_room(self, depth: int) -> None:
-        """The printer adds parentheses here, and what it prints must be readable again."""
+        """Gives up if the printer's additional parentheses would nest too deeply to be parsed."""
         if depth >= MAX_DEPTH:
             self.too_deep()
 
     def comma_before(self, keyword: str) -> None:
-        """Prose has commas before its clauses; they do no harm."""
+        """Skips a comma before a clause, as in prose."""
         if self.kinds[self.at] == "," and self.kinds[self.at + 1] in (keyword, keyword[:2]):
             self.at += 1
 
     def no_choice(self) -> None:
         self.expected(
             "the end of the response",
-            "a response is not a choice: join obligations with AND, say with UNLESS when another one is due, "
-            "or write ELSE if either will do",
+            "join obligations with AND; write UNLESS to say when another one applies, or ELSE if either is enough",
         )
 
     def _hint_at_obligation(self) -> str | None:
         kind = self.kinds[self.at]
         if kind in ("AND", "OR", ")"):
-            return f"there is nothing before {kind}" if kind != ")" else "there is nothing in the parentheses"
+            return f"an obligation is missing before {kind}" if kind != ")" else "the parentheses are empty"
         if kind == "end" or kind in RULE_STOPS:
-            return "say what is to be done"
+            return "write what the robot must do, for example: THEN CallForHelp"
         return None
 
 
@@ -234,8 +233,7 @@ _BEHIND_A_NAME = frozenset({"WITHIN", "EVENTUALLY", "OTHERWISE", "ELSE"})
 
 
 def is_choice(obligation: Obligation) -> bool:
-    """Whether another response may be given in place of an obligation from the beginning, and not only when its window
-    has closed."""
+    """Whether another response may replace an obligation from the start, and not only after its window."""
     timing = obligation.timing
     return timing is not None and (
         timing.instead is not None or (timing.otherwise is not None and timing.window is None)

@@ -89,8 +89,8 @@ class RuleParser(ResponseParser):
             self.skip(STATEMENTS)
             return "", NOWHERE
 
-    def label_word(self, keyword: str, example: str, behind: tuple[str, ...]) -> tuple[str, Span]:
-        """Reads the label behind `keyword`; one of the keywords `behind` comes next."""
+    def label_word(self, keyword: str, example: str, following: tuple[str, ...]) -> tuple[str, Span]:
+        """Reads the label after `keyword`; one of the keywords `following` comes next."""
         at = self.at
         match = (
             _LABEL.match(self.text, self.starts[at]) if self.kinds[at] in PHRASE or self.kinds[at] == "dotted" else None
@@ -102,12 +102,12 @@ class RuleParser(ResponseParser):
             self.at += 1
         if self.kinds[self.at] in PHRASE:
             meant = self.keyword_meant(self.at, self.token_text(self.at), at)
-            if meant not in behind:
-                self._long_label(at, keyword)
+            if meant not in following:
+                self._refuse_label(at, keyword)
             self.correct_keyword(self.at, meant)
         return match[0], span
 
-    def _long_label(self, first: int, keyword: str) -> NoReturn:
+    def _refuse_label(self, first: int, keyword: str) -> NoReturn:
         while self.kinds[self.at] in PHRASE:
             self.at += 1
         label = self.text[self.starts[first] : self.ends[self.at - 1]]
@@ -136,7 +136,7 @@ class RuleParser(ResponseParser):
                 self.leave_room(self.deepest)
         self.comma_before("THEN")
         if self.kinds[self.at] != "THEN":
-            self._no_then(guard is not None)
+            self._refuse_then(guard is not None)
         self.at += 1
         obligations, hedges = self.response()
         comments = self.comments_of(first) if labelled else NO_COMMENTS
@@ -154,33 +154,35 @@ class RuleParser(ResponseParser):
             return
         if kind == "OR":
             self.no_choice()
+        if kind == "(":
+            self.expected(what, "write AND or OR before the parenthesis")
         if kind == "THEN":
-            self.expected(what, "a rule has one THEN; each exception is UNLESS condition IN WHICH CASE response")
+            self.expected(what, "a rule has one THEN; write each exception as UNLESS condition IN WHICH CASE response")
         if kind in ("IN", IN_WHICH_CASE):
             self.expected(what, "IN WHICH CASE follows the condition of an UNLESS; is UNLESS missing?")
         self.end_of_statement(what)
 
     # Explanations ---------------------------------------------------------------------------------------------
 
-    def _no_then(self, guarded: bool) -> None:
+    def _refuse_then(self, guarded: bool) -> None:
         kind = self.kinds[self.at]
         if kind == "OR" and not guarded:
-            self.expected("AND or THEN after the trigger", "a rule has one trigger: write one rule for each")
+            self.expected("AND or THEN after the trigger", "a rule has one trigger; write one rule for each")
         if kind == "operator" and not guarded:
             self.expected(
                 "AND or THEN after the trigger",
-                "a rule begins with something that happens: WHEN Trigger AND UserAge < 18 THEN ...",
+                "a rule starts with an event: WHEN Trigger AND UserAge < 18 THEN ...",
             )
         if kind == "end" or kind in RULE_STOPS:
-            self.expected("THEN and a response", "every rule says what is to be done: WHEN trigger THEN response")
+            self.expected("THEN and a response", "a rule needs a response: WHEN trigger THEN response")
         self.expected("THEN after the condition" if guarded else "THEN after the trigger")
 
     def _hint_at_trigger(self) -> str | None:
         kind = self.kinds[self.at]
         if kind == "(":
-            return "the trigger is a single name, without parentheses; what follows it after AND may have them"
+            return "the trigger is a single name; write parentheses only after AND"
         if kind == "NOT":
-            return "a trigger is something that happens; write WHEN Trigger AND NOT condition THEN ..."
+            return "a trigger is an event; write WHEN Trigger AND NOT condition THEN ..."
         if kind == "THEN":
-            return "every rule says what sets it off: WHEN trigger THEN response"
+            return "a rule needs a trigger: WHEN trigger THEN response"
         return None

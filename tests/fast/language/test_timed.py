@@ -205,7 +205,7 @@ def test_events_are_triggers_and_obligations():
         Declaration("event", ("Alarm",)),
     )
     assert print_ruleset(ruleset) == text
-    with pytest.raises(LanguageError, match="not declared as an obligation"):
+    with pytest.raises(LanguageError, match="no obligation is called"):
         parse("EVENT Fire\nWHEN Fire THEN Alarm")
 
 

@@ -56,19 +56,19 @@ def test_a_definition_of_several_lines_is_no_misspelt_one() -> None:
 @pytest.mark.parametrize(
     ("definitions", "message"),
     [
-        ("constant L = L", "the constant `L` is defined as itself, so it has no value"),
-        ("constant L = -> L", "the constant `L` is defined as itself, so it has no value"),
+        ("constant L = L", "the constant `L` is defined by itself, so it has no value"),
+        ("constant L = -> L", "the constant `L` is defined by itself, so it has no value"),
         (
             "constant L = M constant M = L",
-            "constants that are defined in a circle, `L` = `M` = `L`, have no value",
+            "these constants are defined by each other, so they have no value: `L` = `M` = `L`",
         ),
         (
             "constant L = M constant M = N constant N = O constant O = N",
-            "constants that are defined in a circle, `N` = `O` = `N`, have no value",
+            "these constants are defined by each other, so they have no value: `N` = `O` = `N`",
         ),
         (
             "".join(f"constant L{n} = L{(n + 1) % 9} " for n in range(9)),
-            "constants that are defined in a circle, `L0` = `L1` = `L2` = `L3` = ... = `L0`, have no value",
+            "these constants are defined by each other, so they have no value: `L0` = `L1` = `L2` = `L3` = ... = `L0`",
         ),
     ],
 )
@@ -100,4 +100,4 @@ def test_each_misspelt_when_is_told_and_its_rule_read(word: str) -> None:
     with pytest.raises(LanguageError) as caught:
         parse(f"def_start {OTHERS} def_end\nrule_start\n{rules}\nrule_end")
     said = f"`{word}` is not a keyword; did you mean `when`?"
-    assert [p.message for p in caught.value.problems] == [said, said, "there is no event `C`"]
+    assert [p.message for p in caught.value.problems] == [said, said, "no event is called `C`"]

@@ -167,11 +167,11 @@ def test_where_nothing_is_defined_that_is_one_problem():
 def test_a_name_without_a_definition_is_reported_where_it_is_used_first():
     text = "R1 when Aa and {mm} then Bb\nR2 when Aa then Bb unless {mm}\nR3 when A and ({y} > k) then B within k days"
     assert problems_of(f"def_start event A event B def_end rule_start\n{text}\nR4 when Bb then A rule_end") == [
-        (2, "there is no event `Aa`; it is used in 1 more place"),
-        (2, "there is no boolean measure `mm`; it is used in 1 more place"),
-        (2, "there is no event `Bb`; it is used in 2 more places"),
-        (4, "there is no constant or numeric measure `y`"),
-        (4, "there is no constant or numeric measure `k`; it is used in 1 more place"),
+        (2, "no event is called `Aa`; it is used in 1 more place"),
+        (2, "no boolean measure is called `mm`; it is used in 1 more place"),
+        (2, "no event is called `Bb`; it is used in 2 more places"),
+        (4, "no constant or numeric measure is called `y`"),
+        (4, "no constant or numeric measure is called `k`; it is used in 1 more place"),
     ]
 
 
@@ -183,7 +183,7 @@ def test_a_measure_without_a_definition_that_is_compared_with_a_value_of_a_scale
     with pytest.raises(LanguageError) as caught:
         rules(f"R1 when A and {comparison} then B unless ({{level}} > 3)")
     (problem,) = caught.value.problems
-    assert problem.message == "there is no measure `level`; it is used in 1 more place"
+    assert problem.message == "no measure is called `level`; it is used in 1 more place"
     assert problem.hint == "define it, between def_start and def_end: measure level: scale(low, ...)"
     with pytest.raises(LanguageError) as caught:
         rules("R1 when A and {m} = low then B unless rism = low unless ({x} = low)")
@@ -192,7 +192,7 @@ def test_a_measure_without_a_definition_that_is_compared_with_a_value_of_a_scale
             "`m` is a boolean measure (line 5), which cannot be compared with `low`",
             "write m alone, or not m; `risk` can be low < middle < high",
         ),
-        ("there is no measure `rism`", "did you mean `risk`?"),
+        ("no measure is called `rism`", "did you mean `risk`?"),
         (
             "`x` is a numeric measure (line 7), and `low` is a value of `risk` (line 8); they cannot be compared",
             SCALE_OR_NUMBER,
