@@ -38,25 +38,27 @@ def seconds(*arguments: str) -> float:
     return perf_counter() - started
 
 
-def total(paths: Iterable[Path]) -> float:
-    """The seconds of checks of all files, each in its own process. Prints each of them."""
-    spent = 0.0
+def total(paths: Iterable[Path]) -> tuple[float, float]:
+    """The seconds of checks of all files, each in its own process, and of as many empty processes, in turns.
+
+    Prints each check.
+    """
+    spent = empty = 0.0
     for path in paths:
+        empty += seconds("-c", "pass")
         one = seconds("-m", "sleec_verify", "check", "--no-cache", "--format", "json", str(path))
         spent += one
         print(f"{one:6.2f} s  {path.name}", flush=True)
-    return spent
+    return spent, empty
 
 
 def main(folder: Path = Path("../shared/case-studies")) -> None:
-    own = sorted(OWN.glob("*.sleec"))
-    empty = sum(seconds("-c", "pass") for _ in own)
-    spent = total(own)
+    spent, empty = total(sorted(OWN.glob("*.sleec")))
     print(f"{spent:6.2f} s for our studies: {spent / empty:.0f} times as many empty processes")
     if not folder.is_dir():
         print(f"the published case studies are not in {folder}")
         return
-    spent = total(folder / name for name in PUBLISHED)
+    spent, _ = total(folder / name for name in PUBLISHED)
     print(f"{spent:6.2f} s for the published ones: one {LEGOS / spent:.0f}th of LEGOS-SLEEC (at most one {BOUND}th)")
 
 

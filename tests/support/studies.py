@@ -6,10 +6,15 @@ The published ones are not part of the project.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 from pathlib import Path
 
 import pytest
 
+from sleec_runtime.language import load
+from sleec_runtime.model import Ruleset
+from sleec_verify.checks import run_checks
+from sleec_verify.results.finding import CheckResult
 from tests.support.paths import ROOT
 
 OWN = ROOT / "rulesets" / "studies"
@@ -29,3 +34,10 @@ def _each(paths: Iterable[Path]) -> pytest.MarkDecorator:
 _FILES = [*sorted(OWN.glob("*.sleec")), *sorted(PUBLISHED.glob("*/*.sleec"))]
 each_study = _each(_FILES)
 each_dsl_study = _each(path for path in _FILES if "def_start" in path.read_text(encoding="utf-8"))
+
+
+@cache
+def checked(path: Path) -> tuple[Ruleset, dict[str, CheckResult]]:
+    """A ruleset, and the result of each check by its name."""
+    ruleset = load(path)
+    return ruleset, {result.name: result for result in run_checks(ruleset)}

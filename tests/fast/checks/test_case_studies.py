@@ -4,18 +4,14 @@ against what LEGOS-SLEEC answers for them, and every difference with its reason.
 from __future__ import annotations
 
 import json
-from functools import cache
 from pathlib import Path
 
 import pytest
 
-from sleec_runtime.language import load
-from sleec_runtime.model import Ruleset
-from sleec_verify.checks import run_checks
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay.situations import replay_finding
 from sleec_verify.results.finding import CheckResult, Unknown
-from tests.support.studies import PUBLISHED, each_study, published_only
+from tests.support.studies import PUBLISHED, checked, each_study, published_only
 
 FILES = {
     ("ALMI", "initial"): "ALMI/ALMI.sleec",
@@ -35,12 +31,6 @@ BROKEN = "the history that LEGOS-SLEEC shows breaks the rule already; in no othe
 
 NOT_FOUND = {("Autocar", "corrected", "R1b"): BROKEN}
 """The conflicts that LEGOS-SLEEC reports and that are none by the definition, each with the reason."""
-
-
-@cache
-def checked(path: Path) -> tuple[Ruleset, dict[str, CheckResult]]:
-    ruleset = load(path)
-    return ruleset, {result.name: result for result in run_checks(ruleset)}
 
 
 def published(name: str, variant: str) -> dict[str, CheckResult]:

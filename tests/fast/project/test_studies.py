@@ -4,30 +4,21 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from functools import cache
 from pathlib import Path
 
 import pytest
 
 from sleec_runtime.errors import SleecError
 from sleec_runtime.language import load, print_ruleset
-from sleec_runtime.model import Ruleset
-from sleec_verify.checks import CHECKS, run_checks
+from sleec_verify.checks import CHECKS
 from sleec_verify.files.toml import read_toml
-from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted
-from tests.support.paths import ROOT
+from sleec_verify.results.finding import Finding, Proved, Refuted
+from tests.support.studies import OWN, checked
 
-FOLDER = ROOT / "rulesets" / "studies"
-FILES = sorted(FOLDER.glob("*.sleec"))
-EXPECTED = read_toml(FOLDER / "expected.toml", "expected.toml", SleecError)
+FILES = sorted(OWN.glob("*.sleec"))
+EXPECTED = read_toml(OWN / "expected.toml", "expected.toml", SleecError)
 LANGUAGES = {"legos": "LEGOS-SLEEC", "sleec-tk": "SLEEC-TK", None: "English"}
 each_study = pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-
-
-@cache
-def checked(path: Path) -> tuple[Ruleset, tuple[CheckResult, ...]]:
-    ruleset = load(path)
-    return ruleset, run_checks(ruleset)
 
 
 def subject(finding: Finding) -> tuple[str, ...]:
@@ -46,7 +37,7 @@ def subject(finding: Finding) -> tuple[str, ...]:
 def test_check_finds_exactly_what_is_expected(path: Path) -> None:
     ruleset, results = checked(path)
     found: dict[str, list[str]] = {}
-    for result in results:
+    for result in results.values():
         assert isinstance(result.verdict, Refuted if result.findings else Proved), result
         for finding in result.findings:
             line = ruleset.source.place(finding.span).line
@@ -75,7 +66,7 @@ def test_is_in_the_usual_layout(path: Path) -> None:
 
 
 def test_the_page_has_each_study_with_its_size_and_findings() -> None:
-    text = (FOLDER / "README.md").read_text(encoding="utf-8")
+    text = (OWN / "README.md").read_text(encoding="utf-8")
     rows = {}
     for row in re.findall(r"^\| \[([\w.-]+)\]\(\1\) \|(.*)\|$", text, re.MULTILINE):
         _, language, rules, exceptions, _, *counts = (cell.strip() for cell in row[1].split("|"))
@@ -86,6 +77,6 @@ def test_the_page_has_each_study_with_its_size_and_findings() -> None:
 def measured(path: Path) -> tuple[str | int, ...]:
     ruleset, results = checked(path)
     clauses = sum(1 for rule in ruleset.rules for _ in rule.clauses())
-    severities = Counter(finding.severity for result in results for finding in result.findings)
+    severities = Counter(finding.severity for result in results.values() for finding in result.findings)
     counts = (severities[severity] for severity in ("error", "warning", "note"))
     return (LANGUAGES[ruleset.dialect], len(ruleset.rules), clauses - len(ruleset.rules), *counts)
