@@ -219,7 +219,7 @@ def _verdict(check: Check, by_domain: Mapping[str, RulesetIndex]) -> tuple[Verdi
         try:
             for finding in check.run(index):
                 if not replay_finding(index, finding):
-                    unknown.append(f"a witness did not replay, which is a bug in sleec-verify: {finding.message}")
+                    unknown.append(f"the replay rejected a witness; this is a bug in sleec-verify: {finding.message}")
                     continue
                 # What covers a redundant rule may be another rule in each domain; it is one finding all the same.
                 rules = finding.rules[:1] if check.scope == "every domain" else finding.rules

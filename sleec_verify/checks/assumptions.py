@@ -24,14 +24,14 @@ def _contradictory(index: RulesetIndex) -> Iterator[Finding]:
     spans = [index.assumptions[position].span for position in needed]
     place = index.ruleset.source.place
     lines = [str(place(span).line) for span in spans]
-    note = "no situation is left, so every rule is dead and nothing else that is said of this ruleset means anything"
+    note = "no situation remains, so no rule ever applies, and no other result about this ruleset means anything"
     yield ASSUMPTIONS.finding(
-        "the assumption can never be true"
+        "this assumption can never be true"
         if len(spans) == 1
-        else f"the assumptions of lines {listed(lines)} contradict one another",
+        else f"the assumptions in lines {listed(lines)} contradict each other",
         spans[0],
-        note=note if minimal else f"{note}; fewer of these assumptions may be enough",
-        related=tuple((span, "this one too") for span in spans[1:]),
+        note=note if minimal else f"{note}; some of these assumptions may contradict each other without the rest",
+        related=tuple((span, "part of the contradiction") for span in spans[1:]),
     )
 
 
@@ -57,16 +57,16 @@ def _at_odds(index: RulesetIndex) -> tuple[list[int], bool]:
 
 ASSUMPTIONS = Check(
     "assumptions",
-    "Do the assumptions leave any situation possible?",
+    "Do the assumptions allow any situation?",
     (
         FindingKind(
             "SLEEC103",
             "error",
-            "assumptions that contradict one another",
-            "ASSUME removes situations that cannot be. Together these remove every situation, and then whatever one "
-            "asks of the rules holds for want of a counterexample.",
-            "Take out the assumption that goes too far, or say in it when it holds. An ASSUME is for what cannot be, "
-            "not for what should not be.",
+            "assumptions that contradict each other",
+            "ASSUME excludes situations that never occur. Together, these assumptions exclude every situation. Then "
+            "every check passes, because there is no situation in which anything could go wrong.",
+            "Remove the assumption that goes too far, or restrict it with a condition. Use ASSUME for what never "
+            "happens, not for what should not happen.",
             "ASSUME Day OR Night\nASSUME NOT Day\nASSUME NOT Night\nWHEN UserCalls THEN Answer\n"
             "UNLESS Day IN WHICH CASE AnswerLoudly\nUNLESS Night IN WHICH CASE AnswerQuietly\n",
             "ASSUME Day OR Night\nASSUME NOT (Day AND Night)\nWHEN UserCalls THEN Answer\n"

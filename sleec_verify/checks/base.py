@@ -1,4 +1,4 @@
-"""What a check is: the question it asks, the kinds of finding it makes with their documentation, and how it runs."""
+"""A check: the question it asks, the kinds of finding it makes with their documentation, and its function."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from sleec_runtime.model import Clause, Formula, Obligation, Rule, Span
+from sleec_runtime.model import Clause, Formula, Obligation, Span
 from sleec_verify.encoding.equation import guard
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding, Severity, Witness
@@ -22,7 +22,8 @@ the domain, because it is about the text."""
 
 @dataclass(frozen=True)
 class FindingKind:
-    """One code: what it says and why it matters, how to mend it, and a ruleset that has it and one that has not."""
+    """The documentation of one finding code: `bad` is a ruleset with the problem, `good` is `bad` without it, and
+    `mend` says how to fix it."""
 
     code: str
     severity: Severity
@@ -37,8 +38,7 @@ class FindingKind:
 class Check:
     """A question about a ruleset.
 
-    `run` yields the findings; the property is proved where it yields none. It raises `Undecided` where it
-    cannot decide.
+    `run` yields the findings. If it yields none, the property is proved. It raises `Undecided` if it cannot decide.
     """
 
     name: str
@@ -63,7 +63,7 @@ class Check:
         timeline: Timeline | None = None,
         strategy: Strategy | None = None,
     ) -> Finding:
-        """A finding of this check, of its first kind unless told."""
+        """A finding of this check, of its kind number `kind`."""
         code, severity = self.kinds[kind].code, self.kinds[kind].severity
         return Finding(
             self.name,
@@ -81,11 +81,6 @@ class Check:
             timeline=timeline,
             strategy=strategy,
         )
-
-
-def clause_name(rule: Rule, number: int) -> str:
-    """A clause as people call it."""
-    return f"hedge {number} of {rule.label}" if number else f"the default of {rule.label}"
 
 
 def clause_at(index: RulesetIndex, place: ClausePosition) -> Clause:

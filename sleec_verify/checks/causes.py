@@ -54,7 +54,7 @@ def causes(index: RulesetIndex) -> Iterator[tuple[Cause, list[tuple[Inconsistent
         if witness is not None:
             found.setdefault(cause, []).append((clash, witness))
             if len(found) >= most:
-                raise Enough(f"the first {most} causes are listed; there may be more")
+                raise Enough(f"only the first {most} conflicts are listed; there may be more")
         return ()
 
     try:

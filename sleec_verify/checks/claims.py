@@ -10,6 +10,7 @@ from sleec_verify.checks.each import each
 from sleec_verify.checks.relevant_rules import in_words, rules_in
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding, Witness
+from sleec_verify.results.phrases import quoted
 from sleec_verify.traces.index import trace_index_of
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def _concerns(index: RulesetIndex) -> Iterator[Finding]:
-    """A finding for each concern that comes about in some trace that keeps all."""
+    """A finding for each concern that holds in some trace without a violation."""
     from sleec_runtime.model import claims
     from sleec_verify.replay.timeline import timeline_of
     from sleec_verify.traces.questions import find_claim
@@ -29,20 +30,20 @@ def _concerns(index: RulesetIndex) -> Iterator[Finding]:
         timeline = timeline_of(trace_index_of(index), answer.trace)
         moment = next(m for m in timeline.moments if claim.event in m.events)
         yield CONCERN.finding(
-            f"the concern {claim.label} can come about while every rule is kept",
+            f"the concern {quoted(claim.label)} can happen although every rule is followed",
             claim.label_span,
             rules=tuple(dict.fromkeys(due.rule for moment in timeline.moments for due in moment.due)),
             obligations=(claim.label,),
             witness=Witness(moment.events, moment.conditions),
             timeline=timeline,
-            help="add a rule that prevents it, or a hedge to the one that leads to it",
+            help="add a rule that prevents it, or an exception to the rule that causes it",
         )
 
     yield from each(((claim.label, claim) for claim in claims(index.ruleset, "concern")), of)
 
 
 def _purposes(index: RulesetIndex) -> Iterator[Finding]:
-    """A finding for each purpose that comes about in no trace that keeps all."""
+    """A finding for each purpose that holds in no trace without a violation."""
     from sleec_runtime.model import claims
     from sleec_verify.traces.questions import find_claim
 
@@ -54,14 +55,14 @@ def _purposes(index: RulesetIndex) -> Iterator[Finding]:
             return
         blocking = in_words(traces, answer.matter)
         yield PURPOSE.finding(
-            f"the purpose {claim.label} cannot come about",
+            f"the purpose {quoted(claim.label)} is impossible if every rule is followed",
             claim.label_span,
             rules=rules_in(traces, answer.matter),
             obligations=(claim.label,),
             note=f"{listed(blocking)} {'blocks' if len(blocking) == 1 else 'block'} it"
             if blocking
             else "it contradicts itself",
-            help="give the rules that block it a hedge for this case, or drop the purpose",
+            help="add an exception for this case to the rules that block it, or remove the purpose",
         )
 
     yield from each(((claim.label, claim) for claim in claims(index.ruleset, "purpose")), of)
@@ -71,16 +72,16 @@ _EVENTS = "def_start\n  event UserCalls\n  event Answer\n  event Ring\n  measure
 
 CONCERN = Check(
     "concern",
-    "Do the rules rule out every concern?",
+    "Do the rules prevent every concern?",
     (
         FindingKind(
             "SLEEC104",
             "error",
-            "a concern that can come about while every rule is kept",
-            "A concern is what must not come about. The robot can keep every rule and still bring it about: the rules "
-            "are not enough. The timeline shows how.",
-            "Add the rule or the hedge that prevents it. If nothing the robot does could, say with RELATION, or "
-            "ASSUME, what is known of the world.",
+            "a concern that can happen although every rule is followed",
+            "A concern describes something that must not happen. The robot can follow every rule and still cause it, "
+            "so the rules are not sufficient. The timeline shows how.",
+            "Add a rule or an exception that prevents it. If it cannot happen in reality, exclude it with RELATION or "
+            "ASSUME.",
             _EVENTS + "rule_start\n  R1 when UserCalls then Answer unless {asleep} then Ring\nrule_end\n"
             "concern_start\n  c1 when UserCalls and {asleep} then Ring\nconcern_end\n",
             _EVENTS + "rule_start\n  R1 when UserCalls then Answer unless {asleep} then not Ring\nrule_end\n"
@@ -92,15 +93,15 @@ CONCERN = Check(
 
 PURPOSE = Check(
     "purpose",
-    "Do the rules leave room for every purpose?",
+    "Do the rules allow every purpose?",
     (
         FindingKind(
             "SLEEC105",
             "error",
             "a purpose that the rules block",
-            "A purpose is what must be able to come about. Whatever happens, some rule is broken wherever it does: "
-            "the rules ask too much. The rules that block it are named.",
-            "Give the rules that are named a hedge for the purpose, or give up the purpose.",
+            "A purpose describes something that must be possible. Here it never happens unless a rule is broken, so "
+            "the rules demand too much. The finding names the rules that block it.",
+            "Add an exception for the purpose to the named rules, or remove the purpose.",
             _EVENTS + "rule_start\n  R1 when UserCalls then not Answer\nrule_end\n"
             "purpose_start\n  p1 exists UserCalls while Answer\npurpose_end\n",
             _EVENTS + "rule_start\n  R1 when UserCalls then Answer unless {asleep} then not Answer\nrule_end\n"

@@ -1,7 +1,7 @@
-"""Situations in which what is due cannot all be done: every distinct cause, each in a smallest situation.
+"""Situations in which not all obligations can be met: every distinct cause, each with a smallest situation.
 
-Rules without time, relations and chains are asked about situations (`sleec_verify.checks.causes`), the others about
-traces (`sleec_verify.traces.conflicts`). Both give the same findings in the same words.
+Rules without time, relations and chains are checked on situations (`sleec_verify.checks.causes`), the others on
+traces (`sleec_verify.traces.conflicts`). Both yield the same kind of finding in the same words.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.model import Formula, Obligation, Rule, Span, literals
-from sleec_verify.checks.base import Check, FindingKind, clause_at, clause_name, listed
+from sleec_verify.checks.base import Check, FindingKind, clause_at, listed
 from sleec_verify.checks.causes import Cause, causes
 from sleec_verify.checks.each import each
 from sleec_verify.checks.relevant_rules import kind_of, relation_in_words
@@ -18,6 +18,7 @@ from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.query.inconsistent_sets import InconsistentSet, InconsistentSets, opposite
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding, Witness
+from sleec_verify.results.phrases import clause_name, quoted
 from sleec_verify.traces.partition import partition_of, without
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ def conflict_in(
 
 
 class _Deciding(NamedTuple):
-    """A clause of a conflict: its rule and number, what it is called, and where it stands."""
+    """A clause of a conflict: its rule and number, its name for messages, and its place in the text."""
 
     rule: Rule
     number: int
@@ -122,7 +123,8 @@ def _of_trace(traces: TraceIndex, conflict: Conflict) -> Finding:
     for pair in sorted(conflict.pairs, key=lambda pair: rules[pair.rule].trigger not in now.events):
         rule = rules[pair.rule]
         if pair.clause == LATER:
-            clauses.append(_Deciding(rule, LATER, rule.label, rule.label_span if rule.labelled else rule.span))
+            span = rule.label_span if rule.labelled else rule.span
+            clauses.append(_Deciding(rule, LATER, clause_name(rule, 0), span))
         else:
             span = list(rule.clauses())[pair.clause].span
             clauses.append(_Deciding(rule, pair.clause, clause_name(rule, pair.clause), span))
@@ -133,7 +135,7 @@ def _of_trace(traces: TraceIndex, conflict: Conflict) -> Finding:
     labels = [one.rule.label for one in clauses]
     return _conflict(
         clauses,
-        _reason_of_trace(traces, relations, required, forbidden, now.events, is_instant),
+        _reason_of_trace(traces, relations, required, forbidden, now.events),
         sorted(_at_odds(relations, required, forbidden, now.events)),
         [(relation.span, f"the {kind_of(relation)}") for relation in relations],
         Witness(tuple(sorted(now.events)), now.conditions),
@@ -143,12 +145,12 @@ def _of_trace(traces: TraceIndex, conflict: Conflict) -> Finding:
 
 
 def _is_immediate(traces: TraceIndex, clause: _Deciding) -> bool:
-    """Whether a clause demands something of the instant of its trigger only."""
+    """Whether all obligations of a clause concern only the instant of its trigger."""
     return all(atom.is_immediate for atom in traces.atoms(clause.obligations))
 
 
 def _sides(traces: TraceIndex, conflict: Conflict) -> tuple[set[str], set[str]]:
-    """The events that the clauses of a conflict oblige, and those that they forbid."""
+    """The events that the clauses of a conflict require, and those that they forbid."""
     from sleec_verify.traces.conflicts import LATER
 
     sides: dict[bool, set[str]] = {False: set(), True: set()}
@@ -176,7 +178,6 @@ def _reason_of_trace(
     required: set[str],
     forbidden: set[str],
     given: Collection[str],
-    is_instant: bool,
 ) -> str:
     at_odds = _at_odds(relations, required, forbidden, given)
     if relations:
@@ -184,26 +185,24 @@ def _reason_of_trace(
         return _ruled_out(due, [relation_in_words(traces.ruleset, relation) for relation in relations])
     names = sorted(at_odds & forbidden & required)
     if names:
-        return (
-            f"{listed(names)} {'is' if len(names) == 1 else 'are'} due and forbidden{' at once' if is_instant else ''}"
-        )
+        return f"{listed(map(quoted, names))} {'is' if len(names) == 1 else 'are'} both required and forbidden"
     names = sorted(at_odds & forbidden)
     if names:
-        return f"{listed(names)} {'occurs and is' if len(names) == 1 else 'occur and are'} forbidden"
-    return f"{listed(sorted(required))} would have to occur again and again"
+        return f"{listed(map(quoted, names))} {'occurs but is' if len(names) == 1 else 'occur but are'} forbidden"
+    return f"{listed(map(quoted, sorted(required)))} would have to occur again and again without end"
 
 
 def _path(traces: TraceIndex, conflict: Conflict) -> str:
-    """How the response triggers rules of the conflict: ``through TurnOnLight, which triggers dark_rooms``."""
+    """How the response triggers rules of the conflict: ``because `TurnOnLight` triggers rule `dark_rooms` ``."""
     rules = [traces.ruleset.by_label[label] for label in conflict.rules]
     occurred = {event for moment in (*conflict.history, conflict.now) for event in moment.events}
     steps = [
-        f"{rule.trigger}, which triggers {rule.label}"
+        f"{quoted(rule.trigger)} triggers rule {quoted(rule.label)}"
         for rule in rules
         if rule.trigger not in occurred
         and any(o.name == rule.trigger and not o.negated for other in rules for o in responses_of(other))
     ]
-    return f", through {listed(steps)}" if steps else ""
+    return f" because {listed(steps)}" if steps else ""
 
 
 def _conflict(
@@ -217,7 +216,7 @@ def _conflict(
 ) -> Finding:
     spans = [*((one.span, one.name) for one in clauses), *origins]
     obliging = [one for one in clauses if one.number >= 0 and one.obligations]
-    notes = [f"{one.name}: {listed(map(str, one.obligations))}" for one in obliging]
+    notes = [f"{one.name}: {quoted(' AND '.join(map(str, one.obligations)))}" for one in obliging]
     rules = list(dict.fromkeys(one.rule.label for one in clauses))
     return CONFLICT.finding(
         f"{_subject([one.name for one in clauses])}{path}: {reason}",
@@ -235,56 +234,60 @@ def _conflict(
 
 def _help(rules: Sequence[str]) -> str:
     if not rules:
-        return "mend the constraints, or ASSUME that the situation cannot be"
+        return "correct the constraints, or exclude the situation with ASSUME"
     if len(rules) == 1:
-        return "mend the response, or ASSUME that the situation cannot be"
-    return "decide which should give way, and say so with a hedge; or ASSUME that the situation cannot be"
+        return "correct the response, or exclude the situation with ASSUME"
+    if len(rules) == 2:
+        return "choose which rule wins, and add an UNLESS to the other; or exclude the situation with ASSUME"
+    return "choose a rule that gives way, and add an UNLESS to it; or exclude the situation with ASSUME"
 
 
 def _subject(names: Sequence[str]) -> str:
     if not names:
-        return "the constraints cannot all be kept"
+        return "the constraints contradict each other"
     if len(names) == 1:
-        return f"{names[0]} cannot be kept"
-    return f"{listed(names)} cannot {'both' if len(names) == 2 else 'all'} be kept"
+        return f"{names[0]} cannot be followed"
+    return f"{listed(names)} contradict each other"
 
 
 def _reason(index: RulesetIndex, clash: InconsistentSet) -> str:
     positive = sorted(o.name for o in clash.literals if not o.negated)
     negative = sorted(o.name for o in clash.literals if o.negated)
     if not clash.origins:
-        return f"{positive[0]} is due and forbidden at once"
+        return f"{quoted(positive[0])} is both required and forbidden"
     return _ruled_out(
         _sides_in_words(positive, negative), [relation_in_words(index.ruleset, one) for one in clash.origins]
     )
 
 
 def _sides_in_words(positive: Sequence[str], negative: Sequence[str]) -> str:
-    due = [f"{listed(positive)} {'is' if len(positive) == 1 else 'are'} due"] if positive else []
-    due += [f"{listed(negative)} {'is' if len(negative) == 1 else 'are'} forbidden"] if negative else []
-    return " and ".join(due)
+    sides = []
+    for names, word in ((positive, "required"), (negative, "forbidden")):
+        if names:
+            sides.append(f"{listed(map(quoted, names))} {'is' if len(names) == 1 else 'are'} {word}")
+    return " and ".join(sides)
 
 
 def _ruled_out(due: str, relations: Sequence[str]) -> str:
-    rule = "rules" if len(relations) == 1 else "rule"
-    return f"{due}, and {listed(relations)} {rule} that out" if due else f"{listed(relations)} {rule} out any way"
+    excludes = f"{listed(relations)} {'excludes' if len(relations) == 1 else 'exclude'}"
+    return f"{due}, but {excludes} this" if due else f"{excludes} every response"
 
 
 CONFLICT = Check(
     "conflict",
-    "Is there a situation in which what is due cannot all be done?",
+    "Is there a situation in which the rules contradict each other?",
     (
         FindingKind(
             "SLEEC101",
             "error",
-            "rules that cannot be kept together",
-            "In the situation shown, what the named clauses oblige is at odds: a thing is due and forbidden at once, "
-            "or an EXCLUSIVE or NEVER comes true. A robot in this situation must break a rule, and nobody has decided "
-            "which. The clauses are a minimal set: without any one of them there is no conflict. A response that "
-            "triggers another rule counts, and the finding names it. If more than one moment matters, a timeline shows "
-            "how the situation comes about.",
-            "Decide which gives way and say so with a hedge (UNLESS), or state with ASSUME that the situation cannot "
-            "be.",
+            "rules that contradict each other",
+            "In the situation shown, the named rules and exceptions contradict each other: something is both required "
+            "and forbidden, or an EXCLUSIVE or NEVER is violated. A robot in this situation must break a rule, and "
+            "nobody has decided which one. The named clauses are a minimal set: without any one of them there is no "
+            "conflict. If a response triggers another rule, the finding says so. If more than one moment matters, a "
+            "timeline shows what happens.",
+            "Choose which rule wins, and add an exception (UNLESS) to the other. If the situation cannot occur, "
+            "exclude it with ASSUME.",
             "RULE privacy\nWHEN CurtainOpenRequest THEN OpenCurtains\nUNLESS UserUndressed IN WHICH CASE "
             "NOT OpenCurtains\nRULE air\nWHEN CurtainOpenRequest AND RoomStuffy THEN OpenCurtains\n",
             "RULE privacy\nWHEN CurtainOpenRequest THEN OpenCurtains\nUNLESS UserUndressed IN WHICH CASE "

@@ -1,6 +1,6 @@
-"""What a reader takes for something else: look-alike words, mixed scripts, odd letters, turned lines (UTS #39, #55).
+"""Deceptive text: look-alike words, mixed scripts, unusual letters, bidirectional controls (UTS #39, #55).
 
-It takes a character beyond ASCII to do so: a text in ASCII is not looked at.
+All of these need a character outside ASCII, so an ASCII text is not examined.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from sleec_runtime.model import Ruleset, Span
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import quoted
 
 _DIRECTION = re.compile("[\u202a-\u202e\u2066-\u2069]")
 
@@ -71,20 +72,20 @@ def _looks_like(ruleset: Ruleset, words: dict[str, Span], word: str, other: str,
     one, two = _beyond_ascii(word), _beyond_ascii(other)
     what = "the keyword " if is_keyword else ""
     return CONFUSABLE.finding(
-        f"\u201c{word}\u201d looks like {what}\u201c{other}\u201d and is another word: "
-        f"{'it' if one - two else 'the other one'} holds {described(c for c in word + other if c in one ^ two)}",
+        f"{quoted(word)} looks like {what}{quoted(other)}, but it is a different word: "
+        f"{'it' if one - two else 'the other word'} contains {described(c for c in word + other if c in one ^ two)}",
         span,
         rules=_rules_at(ruleset, span),
         note=None
         if is_keyword
-        else "rules about the one are not about the other, so that no conflict of both is found",
-        help=f"if both are meant to be the same, write {other}",
-        related=() if place is None else ((place, "the word that it looks like"),),
+        else "rules about one word do not apply to the other, so no conflict between them is found",
+        help=f"if you mean the same word, write {quoted(other)}",
+        related=() if place is None else ((place, "the similar word"),),
     )
 
 
 def _odd(ruleset: Ruleset, words: dict[str, Span]) -> Iterator[Finding]:
-    """The words with characters that are not what they seem."""
+    """The words with invisible or unusual characters, and those that mix scripts."""
     from sleec_verify.checks.skeleton import described, foreign_letters, odd_characters, plain
 
     for word, span in words.items():
@@ -92,24 +93,24 @@ def _odd(ruleset: Ruleset, words: dict[str, Span]) -> Iterator[Finding]:
             continue
         if odd := odd_characters(word):
             yield CONFUSABLE.finding(
-                f"\u201c{word}\u201d holds {described(odd)}",
+                f"{quoted(word)} contains {described(odd)}",
                 span,
                 kind=2,
                 rules=_rules_at(ruleset, span),
-                help=f"write {plain(word)}",
+                help=f"write {quoted(plain(word))}",
             )
         elif foreign := foreign_letters(word):
             yield CONFUSABLE.finding(
-                f"\u201c{word}\u201d mixes scripts: it holds {described(foreign)}",
+                f"{quoted(word)} mixes scripts: it contains {described(foreign)}",
                 span,
                 kind=1,
                 rules=_rules_at(ruleset, span),
-                help="write it in the letters of one script",
+                help="use the letters of one script",
             )
 
 
 def _directions(ruleset: Ruleset) -> Iterator[Finding]:
-    """The lines with controls that turn the direction of writing, in comments too."""
+    """The lines with bidirectional controls, also in comments."""
     from sleec_verify.checks.skeleton import described
 
     source = ruleset.source
@@ -119,11 +120,11 @@ def _directions(ruleset: Ruleset) -> Iterator[Finding]:
     for places in by_line.values():
         span = Span(places[0], places[-1] + 1)
         yield CONFUSABLE.finding(
-            f"this line holds {described(source.text[at] for at in places)}",
+            f"this line contains {described(source.text[at] for at in places)}",
             span,
             kind=3,
             rules=_rules_at(ruleset, span),
-            note="an editor may show the line in another order than it is read in",
+            note="an editor may show the characters of this line in a different order",
             help="remove these characters",
         )
 
@@ -134,16 +135,16 @@ def _rules_at(ruleset: Ruleset, span: Span) -> tuple[str, ...]:
 
 CONFUSABLE = Check(
     "confusable",
-    "Does every word look like what it is?",
+    "Is every word what it looks like?",
     (
         FindingKind(
             "SLEEC515",
             "warning",
             "two words that look alike",
-            "Two names, or a name and a keyword, look the same and differ in their characters: a Cyrillic \u041e for a "
-            "Latin O, a letter with its accent typed apart. To the rules they are two things. A rule that forbids the "
-            "one does not conflict with a rule that obliges the other.",
-            "Write one of them everywhere. If both are meant, give one a name that looks different.",
+            "Two names, or a name and a keyword, look the same but consist of different characters, for example a "
+            "Cyrillic \u041e instead of a Latin O. For the rules they are different words. A rule that forbids one "
+            "does not conflict with a rule that requires the other.",
+            "Use one spelling everywhere. If you mean two different things, choose names that look different.",
             "WHEN DoorbellRings THEN OpenDoor\nWHEN NightFalls THEN NOT \u041epenDoor\n",
             "WHEN DoorbellRings THEN OpenDoor\nWHEN NightFalls THEN NOT \u00d6ffneFenster\n",
         ),
@@ -151,29 +152,29 @@ CONFUSABLE = Check(
             "SLEEC516",
             "warning",
             "a name that mixes scripts",
-            "A name has letters of several scripts side by side, as a Cyrillic letter among Latin ones. A reader takes "
-            "it for a name in one script. What else names it, such as assertions, policies and code, may do so, too.",
-            "Write the name in the letters of one script.",
+            "A name contains letters of several scripts, for example one Cyrillic letter among Latin ones. Readers "
+            "take it for a name in one script, and may write it so in assertions, policies and code.",
+            "Use the letters of one script.",
             "WHEN D\u043e\u043erbellRings THEN Answer\n",
             "WHEN DoorbellRings THEN \u041e\u0442\u0432\u0435\u0442\u0438\u0442\u044c\n",
         ),
         FindingKind(
             "SLEEC517",
             "warning",
-            "a name with an invisible or unusual form of a letter",
-            "A name holds a character that nobody sees, or a full-width, mathematical or other variant of a letter. "
-            "The name is not the one that a reader sees in it.",
-            "Write the name in plain letters.",
+            "a name with an invisible or unusual character",
+            "A name contains an invisible character, or a full-width, mathematical or other variant of a letter. "
+            "The name differs from the one that readers see.",
+            "Write the name in ordinary letters.",
             "WHEN \uff24oorbellRings THEN Answer\n",
             "WHEN DoorbellRings THEN Answer // \uff24oorbell\n",
         ),
         FindingKind(
             "SLEEC518",
             "warning",
-            "a control that turns the direction of writing",
-            "The text holds a bidirectional control, in a comment or elsewhere. It changes the order in which an "
-            "editor shows the line, so that a reader sees other rules than those that count (CVE-2021-42574).",
-            "Leave it out: scripts that are written from the right need no such control.",
+            "a control character that changes the writing direction",
+            "The text contains a bidirectional control character. It changes the order in which an editor shows the "
+            "line, so readers see different rules than sleec-verify (CVE-2021-42574).",
+            "Remove it. Scripts that are written from right to left do not need it.",
             "WHEN DoorbellRings THEN Answer // \u202eebyam\n",
             "WHEN DoorbellRings THEN Answer // \u05d0\u05d5\u05dc\u05d9\n",
         ),

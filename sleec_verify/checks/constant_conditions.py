@@ -1,4 +1,4 @@
-"""Conditions that are always true, or always false, whatever the situation."""
+"""Conditions that are true in every situation, or false in every situation."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 
 
 class _Place(NamedTuple):
-    """Where a whole condition stands, and what to do if it is always true, or always false. No word on the latter:
-    another check says it."""
+    """A whole condition, the labels of its rule, and advice if it is always true or always false. `if_false` is None
+    where another check reports an always-false condition."""
 
     condition: Formula
     labels: tuple[str, ...]
@@ -67,14 +67,14 @@ def _in_condition(index: RulesetIndex, place: _Place, changing: set[Formula]) ->
             continue
         if _is_defect(part, index.ruleset):
             continue
-        what = "this condition" if part is condition else "this part of a condition"
+        what = "this condition" if part is condition else "this part of the condition"
         whole, value = _with_it(part, constant[id(part)], around)
         yield CONSTANT_CONDITION.finding(
             f"{what} is always {_word(constant[id(part)])}",
             part.span,
             rules=place.labels,
             help=_advice(place, part, whole, value, dsl=index.ruleset.syntax == "dsl"),
-            related=((whole.span, f"so all of this is always {_word(value)}"),) if whole is not part else (),
+            related=((whole.span, f"so this whole part is always {_word(value)}"),) if whole is not part else (),
         )
     if not constant:
         changing.add(condition)
@@ -102,9 +102,9 @@ def _advice(place: _Place, part: Formula, whole: Formula, value: bool, dsl: bool
         assert advice is not None, "that it is never true is said by other checks"
         return advice
     if whole is part:
-        return "mend it, or leave it out"
+        return "correct it, or remove it"
     name = "NOT" if isinstance(whole, Not) else "AND" if isinstance(whole, And) else "OR"
-    return f"mend it, or leave out the whole {name.lower() if dsl else name}, which it makes {_word(value)}"
+    return f"correct it, or remove the whole {name.lower() if dsl else name}, which is always {_word(value)}"
 
 
 def _places(ruleset: Ruleset) -> Iterator[_Place]:
@@ -115,11 +115,10 @@ def _places(ruleset: Ruleset) -> Iterator[_Place]:
             yield _Place(
                 rule.guard,
                 labels,
-                "mend it, or leave out the whole guard: the rule is active wherever its trigger occurs, with it and "
-                "without it",
+                "correct it, or remove the whole condition after the trigger: the rule means the same without it",
             )
         yield from _in_clause(rule.default, ruleset.reading, labels)
-        yield from _in_chain(rule.hedges, ruleset.reading, labels, "the default")
+        yield from _in_chain(rule.hedges, ruleset.reading, labels, "the default response")
     if ruleset.is_timed:
         yield from _beside_rules(ruleset)
 
@@ -132,7 +131,7 @@ def _beside_rules(ruleset: Ruleset) -> Iterator[_Place]:
         if isinstance(statement, Claim):
             yield from _in_claim(statement, ruleset.reading)
         elif isinstance(statement, RELATIONS):
-            advice = "mend it, or look whether the relation is needed"
+            advice = "correct it, or check whether you need the relation"
             yield from (_Place(formula, (), advice, advice) for formula in formulas_of_relation(statement))
 
 
@@ -141,8 +140,8 @@ def _in_claim(claim: Claim, reading: Reading) -> Iterator[_Place]:
         yield _Place(
             claim.condition,
             (),
-            f"mend it, or leave out the whole condition: the {claim.kind} means the same without it",
-            f"mend it: as it stands, the {claim.kind} never comes about",
+            f"correct it, or remove the whole condition: the {claim.kind} means the same without it",
+            f"correct it: at present, the {claim.kind} can never happen",
         )
     for response in claim.responses:
         yield from _in_clause(response, reading, ())
@@ -152,7 +151,7 @@ def _in_claim(claim: Claim, reading: Reading) -> Iterator[_Place]:
 
 def _in_clause(clause: Clause, reading: Reading, labels: tuple[str, ...]) -> Iterator[_Place]:
     """The conditions in the chain that is nested in a clause, and in what is due in place of its responses."""
-    yield from _in_chain(clause.hedges, reading, labels, "what its chain begins with")
+    yield from _in_chain(clause.hedges, reading, labels, "the response before the first UNLESS")
     for obligation in clause.obligations:
         for alternative in obligation.timing.alternatives() if obligation.timing is not None else ():
             yield from _in_clause(alternative, reading, labels)
@@ -166,28 +165,28 @@ def _in_chain(hedges: Sequence[Clause], reading: Reading, labels: tuple[str, ...
             if not labels:
                 # The cascade stops at it, so that no later one decides.
                 later = reading == "cascade" and position + 1 < len(hedges)
-                if_false = f"mend it, or leave out the hedge{' and those after it' if later else ''}"
+                if_false = f"correct it, or remove the exception{' and those after it' if later else ''}"
             yield _Place(hedge.condition, labels, _always_holds(hedges, position, reading, first), if_false)
         yield from _in_clause(hedge, reading, labels)
 
 
 def _always_holds(hedges: Sequence[Clause], position: int, reading: Reading, first: str) -> str:
-    """What follows where the condition of a hedge is always true. It cannot be left out: without it, there is no hedge,
-    and what it keeps from deciding would decide."""
+    """Advice for a hedge whose condition is always true. Removing the hedge would change the meaning: another clause
+    would decide."""
     alone = position == 0 or reading == "priority"
     last = position + 1 == len(hedges)
-    instead = first if alone else "that of the hedge before it"
+    instead = first if alone else "that of the exception before it"
     if position == 0:
-        never, gone = f"{first} never decides", "the hedge"
+        never, gone = f"{first} never applies", "the exception"
     elif reading == "cascade":
-        never, gone = "the hedge before it never decides", "this hedge"
+        never, gone = "the exception before it never applies", "this exception"
     else:
-        never, gone = f"neither {first} nor a hedge before it ever decides", "the hedge and those before it"
-    holds = "always decides" if alone and last else "always holds"
-    said = f"mend it: as it stands, the hedge {holds}, so {never}"
+        never, gone = f"neither {first} nor an exception before it ever applies", "the exception and those before it"
+    holds = "the exception always applies" if alone and last else "the condition of the exception is always true"
+    said = f"correct it: at present, {holds}, so {never}"
     if not hedges[position].obligations:
         return said
-    return f"{said}; if that is meant, put its response in place of {instead}, and leave out {gone}"
+    return f"{said}; if you mean that, replace {instead} by its response, and remove {gone}"
 
 
 def _parts(formula: Formula) -> Iterator[Formula]:
@@ -254,15 +253,14 @@ CONSTANT_CONDITION = Check(
             "SLEEC512",
             "warning",
             "a condition, or a part of one, that never changes",
-            "Whatever the situation, this part of a condition is true, or it is false: it tells no situation from "
-            "another. Mostly a bound is off by one, or AND and OR are mixed up. Guards and hedges whose whole "
-            "condition is never true are dead rules and dead hedges, and reported as these.",
-            "Compare the bounds with what you want to say, and look whether AND should be OR. If all is as it should "
-            "be, leave out of an AND what is always true, and out of an OR what is always false. The other way round, "
-            "leaving it out would change what the rules mean: what is always true makes the whole OR true, what is "
-            "always false makes the whole AND false, and all of that is what can go. A guard that is always true "
-            "can be left out. A hedge that always holds cannot lose its condition: what it keeps from deciding (the "
-            "default, if it is the only hedge) never does, so its response belongs there, and the hedge can go then.",
+            "This part of a condition is true in every situation, or false in every situation, so it has no effect. "
+            "Often a bound is off by one, or AND and OR are mixed up. If the whole condition of a rule or an exception "
+            "is never true, `dead-rule` or `dead-hedge` reports it instead.",
+            "Compare the bounds with what you want to say, and check whether AND should be OR. If the condition is "
+            "correct, simplify it. Remove a part of an AND that is always true, and a part of an OR that is always "
+            "false. If a part of an AND is always false, remove the whole AND. If a part of an OR is always true, "
+            "remove the whole OR. If the condition of an exception is always true, the response before it never "
+            "applies: replace that response by the one of the exception, and remove the exception.",
             "MEASURE Heat: number\nWHEN UserCalls THEN Answer\nUNLESS Heat > 30 OR Heat < 40 IN WHICH CASE Cool\n",
             "MEASURE Heat: number\nWHEN UserCalls THEN Answer\nUNLESS Heat > 40 OR Heat < 0 IN WHICH CASE Cool\n",
         ),

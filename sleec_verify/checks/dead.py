@@ -1,4 +1,4 @@
-"""Rules and hedges that no situation reaches."""
+"""Rules and hedges that are active in no situation."""
 
 from __future__ import annotations
 
@@ -6,11 +6,12 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import RELATIONS, Clause, MeasureRelation, Rule, in_text_order
-from sleec_verify.checks.base import Check, FindingKind, clause_name
+from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.each import each, each_shape, in_both_parts
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
+from sleec_verify.results.phrases import clause_name, exception, quoted
 from sleec_verify.traces.partition import without
 
 if TYPE_CHECKING:
@@ -26,17 +27,17 @@ def _dead_rules(index: RulesetIndex) -> Iterator[Finding]:
             guards = question.guards(position)
             if not question.ask(question.encoder.any_of(guards)):
                 yield DEAD_RULE.finding(
-                    f"{rule.label} is active in no situation",
+                    f"rule {quoted(rule.label)} never applies",
                     rule.label_span if rule.labelled else rule.span,
                     rules=(rule.label,),
-                    help="look at its guard and at the assumptions, or remove it",
+                    help="check its condition and the assumptions, or remove it",
                 )
 
     yield from each_shape(index, of)
 
 
 def _dead_hedges(index: RulesetIndex) -> Iterator[Finding]:
-    """A finding for each hedge that decides nowhere."""
+    """A finding for each hedge that decides in no situation."""
     relations = [law for law in index.ruleset.statements if isinstance(law, RELATIONS)]
     if not relations:
         yield from _hedges_in_situations(index)
@@ -62,11 +63,11 @@ def _hedges_in_traces(traces: TraceIndex, dead: Collection[tuple[ClauseRef, ...]
         rule, number = place
         if (ClauseRef(rule.label, number),) not in dead and find_decision(traces, rule, number).trace is None:
             yield DEAD_HEDGE.finding(
-                f"{clause_name(rule, number)} decides in no situation",
+                f"{clause_name(rule, number)} never applies",
                 list(rule.clauses())[number].span,
                 rules=(rule.label,),
                 clauses=(ClauseRef(rule.label, number),),
-                help="look at its condition and at the relations, or remove it",
+                help="check its condition and the relations, or remove it",
             )
 
     yield from each(places_of_hedges(traces.rules), of)
@@ -95,34 +96,30 @@ def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
             for number, guard in enumerate(guards):
                 if number and not question.ask(guard):
                     yield DEAD_HEDGE.finding(
-                        f"{clause_name(rule, number)} decides in no situation",
+                        f"{clause_name(rule, number)} never applies",
                         clauses[number].span,
                         rules=(rule.label,),
                         clauses=(ClauseRef(rule.label, number),),
                         note=_why(index, position, number),
-                        help="mend its condition, or remove it",
+                        help="correct its condition, or remove it",
                     )
             for number, hedge, guard in nested:
                 # Where the clause itself decides nowhere, that is said already.
                 if question.ask(guards[number]) and not question.ask(guard):
                     yield DEAD_HEDGE.finding(
-                        f"a hedge of what is due in place of {_response_name(rule, number)} decides in no situation",
+                        f"in {clause_name(rule, number)}, {exception(hedge)} inside OTHERWISE or ELSE never applies",
                         hedge.span,
                         rules=(rule.label,),
                         clauses=(ClauseRef(rule.label, number),),
-                        note="hedges inside otherwise and else are decided by what holds when the rule is triggered",
-                        help="mend its condition, or remove it",
+                        note="the conditions inside OTHERWISE and ELSE are evaluated when the rule is triggered",
+                        help="correct its condition, or remove it",
                     )
 
     yield from each_shape(index, of)
 
 
-def _response_name(rule: Rule, number: int) -> str:
-    return f"the response of {clause_name(rule, number)}" if number else f"the response of {rule.label}"
-
-
 def _alternatives_with_hedges(clauses: Iterable[Clause]) -> bool:
-    """Whether something that is due in place of a response, or of what is due in place of it, has hedges."""
+    """Whether an alternative (``OTHERWISE``, ``ELSE``) of these clauses has hedges, at any depth."""
     return any(
         alternative.hedges or _alternatives_with_hedges(in_text_order(alternative))
         for clause in clauses
@@ -135,8 +132,8 @@ def _alternatives_with_hedges(clauses: Iterable[Clause]) -> bool:
 def _guards_inside(
     question: Question, guards: Sequence[int], clauses: Sequence[Clause]
 ) -> Iterator[tuple[int, Clause, int]]:
-    """The hedges inside what is due in place of the responses of these clauses: the number of the clause, the hedge,
-    and the literal "the clause decides, and so does the hedge"."""
+    """The hedges inside the alternatives of these clauses: the number of the clause, the hedge, and the literal "the
+    clause decides, and so does the hedge"."""
     for number, (guard, clause) in enumerate(zip(guards, clauses)):
         for hedge, decides in _hedges_inside(question, guard, clause):
             yield number, hedge, decides
@@ -161,28 +158,28 @@ def _why(index: RulesetIndex, position: int, number: int) -> str:
     with Question(index) as question:
         triggered = question.encoder.any_of(question.guards(position))
         if not question.ask(triggered):
-            return "its rule is active in no situation"
+            return "its rule never applies"
     with Question(index) as question:
         if not question.ask(question.encoder.literal(condition)):
             return "its condition can never be true"
     if len(index.clauses[position]) == 2:
-        return "its condition can be true, but never where the rule is triggered"
-    return "its condition can be true, but never where the rule is triggered and no other hedge decides"
+        return "its condition can be true, but never when the rule is triggered"
+    return "its condition can be true, but never when the rule is triggered and no other exception applies"
 
 
 _EXAMPLE_SCALE = "MEASURE RiskLevel: r_low < r_moderate < r_severe\n"
 
 DEAD_RULE = Check(
     "dead-rule",
-    "Is every rule active in some situation?",
+    "Does every rule apply in some situation?",
     (
         FindingKind(
             "SLEEC201",
             "warning",
-            "a rule that is active in no situation",
-            "The guard of the rule can never be true, or an assumption says that its trigger never occurs. The rule "
-            "reads like a protection and protects nobody.",
-            "Mend the guard or the assumption, or remove the rule.",
+            "a rule that never applies",
+            "The condition of the rule can never be true, or an assumption says that its trigger never occurs. The "
+            "rule looks like a protection but protects nobody.",
+            "Correct the condition or the assumption, or remove the rule.",
             "MEASURE UserAge: number\nWHEN UserCalls AND UserAge < 18 AND UserAge > 65 THEN Answer\n",
             "MEASURE UserAge: number\nWHEN UserCalls AND (UserAge < 18 OR UserAge > 65) THEN Answer\n",
         ),
@@ -193,16 +190,16 @@ DEAD_RULE = Check(
 
 DEAD_HEDGE = Check(
     "dead-hedge",
-    "Does every hedge decide in some situation?",
+    "Does every exception apply in some situation?",
     (
         FindingKind(
             "SLEEC202",
             "warning",
-            "a hedge that decides in no situation",
-            "No situation makes this hedge the one that decides: its condition cannot be true, or whenever it is, "
-            "another hedge of the rule decides instead. The exception that it promises is never made.",
-            "Look at its condition first: a bound may be off by one, or an AND should be an OR. If another hedge "
-            "always decides instead, change their order or the reading, or remove this one.",
+            "an exception that never applies",
+            "This exception applies in no situation: its condition cannot be true, or another exception of the rule "
+            "always applies instead. So its response is never required.",
+            "Check its condition first: a bound may be off by one, or an AND should be an OR. If another exception "
+            "always applies instead, change their order or the reading, or remove this one.",
             _EXAMPLE_SCALE + "WHEN UserSaysStop THEN RobotStop\n"
             "UNLESS RiskLevel < r_low IN WHICH CASE AskToFinishFirst\n",
             _EXAMPLE_SCALE + "WHEN UserSaysStop THEN RobotStop\n"

@@ -1,4 +1,4 @@
-"""Rules that say word for word what an earlier one says."""
+"""Rules with the same trigger, guard and clauses as an earlier rule."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from sleec_runtime.model import Rule
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import quoted
 
 
 def _duplicates(index: RulesetIndex) -> Iterator[Finding]:
@@ -20,10 +21,10 @@ def _duplicates(index: RulesetIndex) -> Iterator[Finding]:
             continue
         where = first.label_span if first.labelled else first.span
         yield DUPLICATE_RULE.finding(
-            f"{rule.label} says the same as {first.label}",
+            f"rule {quoted(rule.label)} says the same as rule {quoted(first.label)}",
             rule.label_span if rule.labelled else rule.span,
             rules=(rule.label, first.label),
-            help="remove one of them, or mend the one that was meant to say something else",
+            help="remove one of them, or correct the one that should say something else",
             related=((where, "the same rule"),),
         )
 
@@ -36,15 +37,15 @@ def _share_a_domain(one: Rule, other: Rule) -> bool:
 
 DUPLICATE_RULE = Check(
     "duplicate-rule",
-    "Does every rule say something of its own?",
+    "Does every rule differ from the others?",
     (
         FindingKind(
             "SLEEC509",
             "warning",
-            "a rule that says the same as another one",
-            "Two rules have the same trigger, guard and clauses under two labels. One of them is left over, or is a "
-            "copy that was never changed to what it should say.",
-            "Remove one of the two, or change the copy to what it should say.",
+            "a rule that says the same as another rule",
+            "Two rules with different labels have the same trigger, condition, response and exceptions. One of them "
+            "is superfluous, or is a copy that was never changed.",
+            "Remove one of them, or change the copy to what it should say.",
             "RULE greet\nWHEN UserEnters THEN Greet\nRULE welcome\nWHEN UserEnters THEN Greet\n",
             "RULE greet\nWHEN UserEnters THEN Greet\nRULE welcome\nWHEN UserEnters THEN OfferSeat\n",
         ),

@@ -1,4 +1,4 @@
-"""Asking one question for each of several things, so that what is undecided of one does not hide the others."""
+"""One question for each of several items, so that an undecided one does not hide the others."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _Asked = TypeVar("_Asked")
 
 
 def each(asked: Iterable[tuple[str, _Asked]], question: Callable[[_Asked], Iterable[Finding]]) -> Iterator[Finding]:
-    """The findings for all that is `asked` about, each with the name it goes by.
+    """The findings of `question` for each item of `asked`, which is given with its name for messages.
 
-    One question spends at most half of the budget that is left, but for the last one, so that hard ones leave something
-    for the others. Raises Undecided, when all are asked, for those that were not decided.
+    Each question but the last spends at most half of the remaining budget, so that hard questions leave some for the
+    others. Raises Undecided after all questions, with the names of the undecided items.
     """
     why: dict[str, list[str]] = {}
     for (name, one), is_last in _with_last(asked):
@@ -44,8 +44,8 @@ def each_shape(
     question: Callable[[int], Iterable[Finding]],
     alone: Callable[[int], bool] = lambda position: True,
 ) -> Iterator[Finding]:
-    """The findings for all rules, by their positions. The question is not asked of a rule that has the shape of one of
-    which nothing was found. `alone` says whether it concerns only the rule itself."""
+    """The findings of `question` for each rule, by position. A rule with the same shape as a rule without findings is
+    skipped. `alone` says whether the answer depends only on the rule itself."""
     nothing_found: set[object] = set()
 
     def shape_of(position: int) -> object:
@@ -74,7 +74,7 @@ def in_both_parts(
     situations: Callable[[RulesetIndex], Iterable[Finding]],
     traces: Callable[[TraceIndex], Iterable[Finding]],
 ) -> Iterator[Finding]:
-    """The findings about both parts of a ruleset. Raises Undecided, after all of them, where one of the parts does."""
+    """The findings about both parts of a ruleset. Raises Undecided, after all findings, if one of the parts does."""
     parts = partition_of(index)
     why: list[str] = []
     try:
@@ -96,7 +96,7 @@ def _named(names: list[str]) -> str:
 
 
 def _with_last(asked: Iterable[_Asked]) -> Iterator[tuple[_Asked, bool]]:
-    """Each of these, and whether it is the last one."""
+    """Each item, and whether it is the last one."""
     iterator = iter(asked)
     for one in iterator:
         for following in iterator:

@@ -6,15 +6,16 @@ from collections.abc import Iterator
 from typing import TypeGuard
 
 from sleec_runtime.model import Declaration, Rule, Statement, literals
-from sleec_verify.checks.base import Check, FindingKind, clause_name, listed
+from sleec_verify.checks.base import Check, FindingKind, listed
 from sleec_verify.encoding.trace_scope import responses_of, speaks_of_traces
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
+from sleec_verify.results.phrases import clause_name, quoted
 
 
 def _forbidden_inputs(index: RulesetIndex) -> Iterator[Finding]:
-    """A finding for each clause that forbids an event which triggers another rule, and which no rule requires and no
-    declaration makes the robot's: it is an input, and the robot cannot keep it from occurring (docs/times.md)."""
+    """A finding for each clause that forbids an input: an event that triggers another rule, that no rule requires and
+    that no declaration assigns to the robot. The robot cannot prevent it (docs/times.md)."""
     if not (index.chains or speaks_of_traces(index.ruleset)):
         return
     acts = {name for one in index.ruleset.statements if _is_the_robots(one) for name in one.names}
@@ -35,29 +36,30 @@ def _is_the_robots(statement: Statement) -> TypeGuard[Declaration]:
 
 def _finding(rule: Rule, number: int, event: str, triggered: list[str]) -> Finding:
     return FORBIDDEN_INPUT.finding(
-        f"{clause_name(rule, number)} forbids {event}, which triggers {listed(triggered)} and which no rule requires",
+        f"{clause_name(rule, number)} forbids {quoted(event)}, which triggers {listed(map(quoted, triggered))} "
+        "and which no rule requires",
         list(rule.clauses())[number].span,
         rules=(rule.label, *triggered),
         clauses=(ClauseRef(rule.label, number),),
         obligations=(event,),
-        note="such an event is an input from the environment, and the robot cannot keep it from occurring",
-        help="forbid an act of the robot instead, or ASSUME that the event does not occur then",
+        note="such an event comes from the environment, and the robot cannot prevent it",
+        help="forbid an action of the robot instead, or state with ASSUME that the event does not occur then",
     )
 
 
 FORBIDDEN_INPUT = Check(
     "forbidden-input",
-    "Does every prohibition forbid an act of the robot?",
+    "Does every prohibition forbid an action of the robot?",
     (
         FindingKind(
             "SLEEC107",
             "warning",
             "a rule that forbids an input",
             "The rule forbids an event that triggers another rule and that no rule requires. Such an event comes from "
-            "the environment: a person calls, an alarm rings. The robot cannot keep it from occurring, so the rule "
-            "asks for nothing that the robot can do.",
-            "Forbid an act of the robot instead, or say with ASSUME that the event does not occur then. If the robot "
-            "causes the event, and the text declares its names, write EVENT … BY system.",
+            "the environment: a person calls, an alarm rings. The robot cannot prevent it, so it cannot follow the "
+            "rule.",
+            "Forbid an action of the robot instead, or state with ASSUME that the event does not occur then. If the "
+            "robot causes the event, and the text declares its names, write EVENT … BY system.",
             "RULE rest\nWHEN UserSleeps THEN NOT DoorbellRings WITHIN 1 hour\n"
             "RULE door\nWHEN DoorbellRings THEN OpenDoor\n",
             "RULE rest\nWHEN UserSleeps THEN NOT RingDoorbell WITHIN 1 hour\n"

@@ -1,4 +1,4 @@
-"""Rules that mean something else under the other reading of a chain of hedges."""
+"""Rules that mean something else under the other reading of their hedges."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from sleec_runtime.model import Clause, Formula, Not, Obligation, Reading, Rule
-from sleec_verify.checks.base import Check, FindingKind, clause_name, listed
+from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.each import each
 from sleec_verify.encoding.equation import conjunction, disjunction, guard, implications
 from sleec_verify.query.question import Question
@@ -15,17 +15,18 @@ from sleec_verify.query.rule_shape import Shape, shape_at
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import ClauseRef, Finding, Witness
+from sleec_verify.results.phrases import exception, quoted
 
 LONG = 30
-"""Chains of more hedges than this get a smallest situation for one pair of clauses, not for all pairs; and whether they
-part is one question, not one for each hedge."""
+"""The longest chain of hedges that is examined for all pairs of clauses. Longer ones are one question, and get a
+smallest situation for one pair of clauses."""
 
 OTHER: dict[Reading, Reading] = {"cascade": "priority", "priority": "cascade"}
 
 
 def _readings(index: RulesetIndex) -> Iterator[Finding]:
-    """Unsatisfiable exactly when the rule means the same: some literal is due under one reading and not under the
-    other. A model is a situation in which the readings part."""
+    """Unsatisfiable exactly if the rule means the same: some literal is due under one reading and not under the
+    other. A model is a situation in which the readings differ."""
 
     known: dict[object, tuple[Shape, _Parted | None]] = {}
 
@@ -39,7 +40,7 @@ def _readings(index: RulesetIndex) -> Iterator[Finding]:
 
 
 class _Parted(NamedTuple):
-    """A smallest situation in which the readings part, and the clause that decides by each."""
+    """A smallest situation in which the readings differ, and the number of the clause that decides under each."""
 
     witness: Witness
     deciding: dict[Reading, int]
@@ -48,7 +49,7 @@ class _Parted(NamedTuple):
 def _parted_by_shape(
     index: RulesetIndex, position: int, known: dict[object, tuple[Shape, _Parted | None]]
 ) -> _Parted | None:
-    """Where the readings part, asked once for all rules of one shape."""
+    """Where the readings differ. Rules of the same shape are one question."""
     shape = shape_at(index, position)
     if shape is None:
         return where_readings_differ(index, position)
@@ -65,7 +66,7 @@ def where_readings_differ(index: RulesetIndex, position: int) -> _Parted | None:
         return None
     rule, reading = index.rules[position], index.ruleset.reading
     witness = smallest_situation(index, situations)
-    assert witness is not None, "the readings part in some situation"
+    assert witness is not None, "the readings differ in some situation"
     with Question(index) as question:
         by_reading = {r: question.encoder.guards(rule, r) for r in (reading, OTHER[reading])}
         question.ask(*question.encoder.assumptions(witness.context()))
@@ -74,8 +75,8 @@ def where_readings_differ(index: RulesetIndex, position: int) -> _Parted | None:
 
 
 def _parting(index: RulesetIndex, position: int) -> Formula | None:
-    """Where the readings part; None if nowhere. Of a long chain, where they part as they do in the situation that was
-    found: all of them, written out, grow with the square of its length."""
+    """The formula for the situations in which the readings differ; None if there are none. For a long chain, only the
+    situations in which the same two clauses decide as in the model: the full formula is quadratic in the length."""
     rule, clauses = index.rules[position], index.clauses[position]
     here, there = index.ruleset.reading, OTHER[index.ruleset.reading]
     if len(clauses) == 1 + len(rule.hedges) and len(rule.hedges) <= LONG:
@@ -94,11 +95,11 @@ def _parting(index: RulesetIndex, position: int) -> Formula | None:
 
 
 def _parts_in_chain(index: RulesetIndex, rule: Rule) -> bool:
-    """Whether they part anywhere, of a chain without chains in it.
+    """Whether the readings differ anywhere, for a chain without nested chains.
 
-    They part where hedge j is the last that is true, and one before hedge j - 1 the last before the first false one,
-    and the two oblige different things. Each j is asked by itself, with clauses beside one another that oblige others
-    than it as one: so the answer "no" needs no search most of the time, and has a short refutation.
+    They differ where hedge j is the last true one, the cascade ends at a clause before hedge j - 1, and the two oblige
+    different things. Each j is one question for each run of adjacent clauses that oblige something else, so most
+    negative answers need no search and have a short refutation.
     """
     with Question(index) as question:
         encoder = question.encoder
@@ -118,8 +119,8 @@ def _parts_in_chain(index: RulesetIndex, rule: Rule) -> bool:
 
 
 def _unequal(rule: Rule, j: int) -> Iterator[tuple[int, int]]:
-    """The clauses before hedge j - 1 that oblige something else than hedge j, in runs: the first, and the one behind
-    the last."""
+    """The runs of clauses before hedge j - 1 that oblige something else than hedge j: for each its first clause, and
+    the clause after its last."""
     due = [frozenset(clause.obligations) for clause in (rule.default, *rule.hedges)]
     first = None
     for k in range(j):
@@ -131,7 +132,7 @@ def _unequal(rule: Rule, j: int) -> Iterator[tuple[int, int]]:
 
 
 def _situations(rule: Rule, here: Reading) -> Formula:
-    """All situations in which the readings part."""
+    """The formula for all situations in which the readings differ."""
     one, other = _due(rule, here), _due(rule, OTHER[here])
     return disjunction([conjunction([a[o], Not(b[o])]) for a, b in ((one, other), (other, one)) for o in one])
 
@@ -140,17 +141,18 @@ def _finding(index: RulesetIndex, position: int, parted: _Parted) -> Finding:
     rule, reading, (witness, deciding) = index.rules[position], index.ruleset.reading, parted
     clauses = index.clauses[position]
     said = [
-        f"read as {r}, {clause_name(rule, n)} decides: {_response(clauses[n], index.ruleset.syntax == 'dsl')}"
-        for r, n in ((r, deciding[r]) for r in (reading, OTHER[reading]))
+        f"with READING {r}, {exception(clauses[deciding[r]]) if deciding[r] else 'no exception'} applies: "
+        f"{_response(clauses[deciding[r]], index.ruleset.syntax == 'dsl')}"
+        for r in (reading, OTHER[reading])
     ]
     return READING.finding(
-        f"what {rule.label} obliges depends on the reading of its hedges",
+        f"what rule {quoted(rule.label)} requires depends on how its exceptions are read",
         rule.label_span if rule.labelled else rule.span,
         rules=(rule.label,),
         clauses=tuple(ClauseRef(rule.label, n) for n in dict.fromkeys(deciding.values())),
         obligations=tuple(sorted({o.name for n in deciding.values() for o in clauses[n].obligations})),
         witness=witness,
-        note=f"with all else false: {'; '.join(said)}",
+        note=f"if nothing else holds: {'; '.join(said)}",
         help=_help(index),
     )
 
@@ -158,17 +160,14 @@ def _finding(index: RulesetIndex, position: int, parted: _Parted) -> Finding:
 def _help(index: RulesetIndex) -> str:
     ruleset = index.ruleset
     if ruleset.syntax == "dsl":
-        return f"this ruleset is read as {ruleset.reading}; the DSL means priority, structured English cascade"
+        return f"this ruleset is read as {ruleset.reading}; the DSL means priority, structured English means cascade"
     if ruleset.reading_stated:
-        return f"the text says READING {ruleset.reading}; other tools may read it otherwise"
-    return (
-        f"this ruleset is read as {ruleset.reading}; if that is what you mean, say it in the text: "
-        f"READING {ruleset.reading}"
-    )
+        return f"the text says READING {ruleset.reading}; other tools may use the other reading"
+    return f"this ruleset is read as {ruleset.reading}; if you mean that, write READING {ruleset.reading} in the text"
 
 
 def _due(rule: Rule, reading: Reading) -> dict[Obligation, Formula]:
-    """For each literal of the rule, where it is due."""
+    """For each literal of the rule, the formula for the situations in which it is due."""
     guards: dict[Obligation, list[Formula]] = {}
     for implication in implications(rule, reading):
         for obligation in implication.clause.obligations:
@@ -177,29 +176,29 @@ def _due(rule: Rule, reading: Reading) -> dict[Obligation, Formula]:
 
 
 def _response(clause: Clause, dsl: bool) -> str:
-    """What a clause calls for, with its times; in rules of the DSL with `not` as it is written there."""
+    """The response of a clause with its windows; in the DSL with `not` in lower case."""
     from sleec_runtime.model import obligation_text
 
     if not clause.obligations:
-        return "nothing is due"
-    words = listed(map(obligation_text, clause.obligations))
+        return "nothing is required"
+    words = quoted(f" {'and' if dsl else 'AND'} ".join(map(obligation_text, clause.obligations)))
     return re.sub(r"\bNOT ", "not ", words) if dsl else words
 
 
 READING = Check(
     "reading",
-    "Does every rule oblige the same under both readings of a chain of hedges?",
+    "Does every rule require the same under both readings of its exceptions?",
     (
         FindingKind(
             "SLEEC401",
             "warning",
             "a rule whose meaning depends on the reading",
-            "Two readings of a chain of hedges are in use. `cascade` stops at the first false condition; `priority` "
-            "lets the last true condition win, whatever came before it. Where a later condition can be true while an "
-            "earlier one is false, they may oblige different things, and tools of others may read this rule unlike "
-            "you.",
-            "Write the rule so that both agree, for example by making each hedge repeat the condition before it. "
-            "`sleec-verify convert --to english --reading …` does it for you.",
+            "There are two ways to read several exceptions. `cascade` stops at the first exception whose condition is "
+            "false. `priority` takes the last exception whose condition is true. If a later condition can be true "
+            "while an earlier one is false, the two readings can require different things, and another tool may read "
+            "this rule differently.",
+            "Write the rule so that both readings agree. For example, repeat the condition of each exception in the "
+            "next one. `sleec-verify convert --to english --reading …` does this for you.",
             "WHEN HumanOnFloor THEN CallEmergencyServices\n"
             "UNLESS UserResponsive IN WHICH CASE AskForUserStatus\n"
             "UNLESS UserWithCompanion IN WHICH CASE AskCompanionToCheck\n",

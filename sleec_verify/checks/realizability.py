@@ -1,4 +1,4 @@
-"""Whether the robot can always keep the rules, whatever the environment does."""
+"""Whether the robot can always follow the rules, whatever the environment does."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from sleec_verify.checks.base import Check, FindingKind, listed
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding, Witness
+from sleec_verify.results.phrases import quoted
 from sleec_verify.traces.index import trace_index_of
 
 if TYPE_CHECKING:
@@ -16,12 +17,12 @@ if TYPE_CHECKING:
 
 
 def realizability(steps: int) -> Check:
-    """The check for an environment that acts up to so many times."""
+    """The check for an environment that acts at most `steps` times."""
     return replace(REALIZABILITY, run=lambda index: _losses(index, steps))
 
 
 def _losses(index: RulesetIndex, steps: int) -> Iterator[Finding]:
-    """A finding for each part of the rules that has nothing to do with the others and cannot always be kept."""
+    """A finding for each independent part of the rules that cannot always be followed."""
     from sleec_verify.encoding.solver import Undecided
     from sleec_verify.games.realizability import losses
 
@@ -44,15 +45,15 @@ def _finding(loss: Loss) -> Finding:
     labels = [rule.label for rule in loss.rules]
     acts = "one act" if loss.steps == 1 else f"{loss.steps} acts"
     places = [rule.label_span if rule.labelled else rule.span for rule in loss.rules]
-    what = f"{listed(labels)} cannot always be kept" if labels else "what the relations ask cannot always be kept"
+    what = f"rule{'s' if len(labels) > 1 else ''} {listed(map(quoted, labels))}" if labels else "the relations"
     return REALIZABILITY.finding(
-        f"{what}: {acts} of the environment {'leaves' if loss.steps == 1 else 'leave'} the robot no way",
+        f"{what} cannot always be followed: {acts} of the environment can make it impossible",
         places[0] if places else loss.place,
         rules=tuple(labels),
         witness=Witness(act.events, act.conditions),
         strategy=loss.strategy,
-        help="decide which should give way, and say so with a hedge; or leave the robot more time",
-        related=tuple((place, "with this one") for place in places[1:]),
+        help="choose which rule wins, and add an UNLESS to the other; or give the robot more time",
+        related=tuple((place, "together with this rule") for place in places[1:]),
     )
 
 
@@ -60,19 +61,19 @@ _EVENTS = "def_start\n  event SmokeDetected\n  event NightBegins\n  event SoundA
 
 REALIZABILITY = Check(
     "realizability",
-    "Can the robot always keep the rules, whatever the environment does?",
+    "Can the robot always follow the rules, whatever the environment does?",
     (
         FindingKind(
             "SLEEC106",
             "error",
-            "rules that the robot cannot always keep",
-            "With every act of the environment the robot may do something at once and plan more for later. Here the "
-            "environment has a strategy: whatever the robot does and plans, in the end no way is left to keep all. The "
-            "strategy is shown, act by act. This check is made if it is asked for: `check --realizable N`, for an "
-            "environment that acts up to N times.",
-            "Decide what should give way when both are called for, and say so with a hedge. Often it is enough to "
-            "leave the robot more time, or to forbid for a shorter one. Where the environment never acts like that, "
-            "say so with a relation.",
+            "rules that the robot cannot always follow",
+            "After each act of the environment, the robot can act immediately and plan further acts. Here the "
+            "environment has a strategy: whatever the robot does and plans, in the end it cannot follow every rule. "
+            "The finding shows the strategy act by act. This check runs only on request: `check --realizable N`, for "
+            "an environment that acts at most N times.",
+            "Choose which rule wins if both apply, and add an UNLESS to the other. Often it is enough to give the "
+            "robot more time, or to shorten a prohibition. If the environment never acts like this, exclude it with a "
+            "RELATION.",
             _EVENTS + "rule_start\n  R1 when SmokeDetected then SoundAlarm within 2 minutes\n"
             "  R2 when NightBegins then not SoundAlarm within 8 hours\nrule_end\n",
             _EVENTS + "rule_start\n  R1 when SmokeDetected then SoundAlarm within 2 minutes\n"

@@ -1,4 +1,4 @@
-"""Rules and hedges that change nothing."""
+"""Rules and hedges without effect."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Clause, Obligation, Rule
-from sleec_verify.checks.base import Check, FindingKind, clause_name, listed, literals_of
+from sleec_verify.checks.base import Check, FindingKind, listed, literals_of
 from sleec_verify.checks.dead import places_of_hedges
 from sleec_verify.checks.each import each, each_shape, in_both_parts
 from sleec_verify.checks.relevant_rules import in_words, rules_in
@@ -16,15 +16,17 @@ from sleec_verify.query.cone import rules_of_same_obligation
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
+from sleec_verify.results.phrases import clause_name, quoted
 
 if TYPE_CHECKING:
     from sleec_verify.traces.index import TraceIndex
 
 
 def with_others(findings: Iterator[Finding]) -> Iterator[Finding]:
-    """The findings about rules that can be removed, with what to do: where one rests on another, both may not go.
+    """The findings about rules that can be removed, with advice: if one is redundant because of another, only one of
+    them can be removed.
 
-    Raises Undecided, after all of them, where `findings` does."""
+    Raises Undecided, after all findings, if `findings` does."""
     found = []
     why: Undecided | None = None
     try:
@@ -35,14 +37,15 @@ def with_others(findings: Iterator[Finding]) -> Iterator[Finding]:
     can_go = {finding.rules[0] for finding in found}
     for finding in found:
         others = [label for label in finding.rules[1:] if label in can_go]
-        remove = f"remove it, and check again before you remove {listed(others)} as well;" if others else "remove it,"
-        yield replace(finding, help=f"{remove} or keep it on purpose and say why in a comment")
+        named = listed(map(quoted, others)) if others else ""
+        remove = f"remove it, and check again before you also remove {named};" if others else "remove it,"
+        yield replace(finding, help=f"{remove} or keep it and say why in a comment")
     if why is not None:
         raise why
 
 
 def _redundant_rules(index: RulesetIndex) -> Iterator[Finding]:
-    """A finding for each rule that changes nothing."""
+    """A finding for each rule without effect."""
     yield from with_others(in_both_parts(index, _rules_in_situations, _rules_in_traces))
 
 
@@ -56,12 +59,10 @@ def _rules_in_traces(traces: TraceIndex) -> Iterator[Finding]:
             return
         others = in_words(traces, answer.matter)
         yield REDUNDANT_RULE.finding(
-            f"{rule.label} can be removed: without it the same is allowed and called for",
+            f"rule {quoted(rule.label)} can be removed: the rules require and allow the same without it",
             rule.label_span if rule.labelled else rule.span,
             rules=(rule.label, *rules_in(traces, answer.matter)),
-            note=f"it is kept wherever {listed(others)} {'is' if len(others) == 1 else 'are'} kept"
-            if others
-            else "nothing can break it",
+            note=f"whoever follows {listed(others)} follows it, too" if others else "nothing can break it",
         )
 
     yield from each(((rule.label, rule) for rule in traces.rules), of)
@@ -78,12 +79,12 @@ def _rules_in_situations(index: RulesetIndex) -> Iterator[Finding]:
         needed = _needed(index, position, others)
         cover = [index.rules[other].label for other in needed]
         yield REDUNDANT_RULE.finding(
-            f"{rule.label} can be removed: every situation obliges the same without it",
+            f"rule {quoted(rule.label)} can be removed: every situation requires the same without it",
             rule.label_span if rule.labelled else rule.span,
             rules=(rule.label, *cover),
-            note=f"what it obliges, {listed(cover)} {'obliges' if len(cover) == 1 else 'oblige'} too"
+            note=f"{listed(map(quoted, cover))} {'requires' if len(cover) == 1 else 'require'} the same"
             if cover
-            else "it obliges nothing in any situation",
+            else "it requires nothing in any situation",
         )
 
     yield from each_shape(index, of, lambda position: not rules_of_same_obligation(index, position))
@@ -132,7 +133,7 @@ def _needed(index: RulesetIndex, position: int, others: Sequence[int]) -> list[i
 
 
 def _redundant_hedges(index: RulesetIndex) -> Iterator[Finding]:
-    """A finding for each hedge that changes nothing."""
+    """A finding for each hedge without effect."""
     yield from in_both_parts(index, _hedges_in_situations, _hedges_in_traces)
 
 
@@ -151,7 +152,7 @@ def _hedges_in_traces(traces: TraceIndex) -> Iterator[Finding]:
             return
         hedge = list(rule.clauses())[number]
         yield REDUNDANT_HEDGE.finding(
-            f"{clause_name(rule, number)} can be removed: without it the same is allowed and called for",
+            f"{clause_name(rule, number)} can be removed: the rules require and allow the same without it",
             hedge.span,
             rules=(rule.label,),
             clauses=(ClauseRef(rule.label, number),),
@@ -177,7 +178,7 @@ def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
                 if question.ask(_differs(question, with_it, without, question.due(others, about))):
                     continue
             yield REDUNDANT_HEDGE.finding(
-                f"{clause_name(rule, number)} can be removed: every situation obliges the same without it",
+                f"{clause_name(rule, number)} can be removed: every situation requires the same without it",
                 clauses[number].span,
                 rules=(rule.label,),
                 clauses=(ClauseRef(rule.label, number),),
@@ -188,10 +189,10 @@ def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
 
 
 def what_to_do(hedge: Clause) -> str:
-    """What to do about a hedge that can be removed."""
+    """Advice for a hedge that can be removed."""
     if not hedge.obligations:
-        return "it calls for nothing: add the response that you meant, if any, or remove it and check again"
-    return "check whether its response is the one you meant, or remove it and check again"
+        return "it has no response: add the response that you meant, or remove it and check again"
+    return "check whether its response is the one that you meant, or remove it and check again"
 
 
 def _not_plainly_needed(index: RulesetIndex, position: int, others: Sequence[int]) -> list[int]:
@@ -234,15 +235,15 @@ def without_hedge(rule: Rule, number: int) -> Rule:
 
 REDUNDANT_RULE = Check(
     "redundant-rule",
-    "Does every rule oblige something, somewhere, that the other rules do not?",
+    "Does every rule require something that the other rules do not?",
     (
         FindingKind(
             "SLEEC301",
             "warning",
-            "a rule without which every situation obliges the same",
-            "Whatever this rule obliges, other rules oblige in the same situations. Two rules that say the same drift "
-            "apart when only one of them is changed.",
-            "Remove the rule. If two are reported because each makes the other redundant, keep one of them.",
+            "a rule without effect",
+            "Other rules require everything that this rule requires, in the same situations. If you later change only "
+            "one of two rules that say the same, they differ.",
+            "Remove the rule. If two rules are reported because each makes the other redundant, keep one of them.",
             "RULE answer\nWHEN UserCalls THEN Answer\nRULE answer_kindly\nWHEN UserCalls THEN Answer AND Smile\n",
             "RULE answer_kindly\nWHEN UserCalls THEN Answer AND Smile\n",
         ),
@@ -253,17 +254,17 @@ REDUNDANT_RULE = Check(
 
 REDUNDANT_HEDGE = Check(
     "redundant-hedge",
-    "Does every hedge change what is obliged in some situation?",
+    "Does every exception change what is required in some situation?",
     (
         FindingKind(
             "SLEEC302",
             "warning",
-            "a hedge without which every situation obliges the same",
-            "The rule with this hedge and the rule without it oblige the same in every situation, as the hedge "
-            "repeats the response that would be due anyway, or never decides. A hedge without a response may take away "
-            "what other rules call for all the same.",
-            "Remove the hedge, or change its response to what it was meant to be; if it has none, give it one, or "
-            "look which other rules call for what it was to take away.",
+            "an exception without effect",
+            "The rules require the same in every situation with and without this exception. Either it repeats the "
+            "response that would be required anyway, or it never applies, or it cancels a response that other rules "
+            "still require.",
+            "Remove the exception, or correct its response. If it has no response, add one, or check which other "
+            "rules require what it should cancel.",
             "WHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE Answer\n",
             "WHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE WaitUntilAwake\n",
         ),

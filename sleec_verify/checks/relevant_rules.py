@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume, Exclusive, Never, Ruleset
+from sleec_verify.results.phrases import quoted
 
 if TYPE_CHECKING:
     from sleec_verify.encoding.relations import Relation
@@ -13,24 +14,25 @@ if TYPE_CHECKING:
 
 
 def in_words(index: TraceIndex, matter: Iterable[str]) -> list[str]:
-    """Labels of rules and keys of relations as people call them: rules first, each kind in the order of the text."""
+    """Labels of rules and keys of relations, in words: rules first, each kind in the order of the text."""
     relations = [index.relation_by_key[key] for key in matter if key in index.relation_by_key]
     relations.sort(key=lambda relation: relation.span)
-    return [*rules_in(index, matter), *(relation_in_words(index.ruleset, relation) for relation in relations)]
+    rules = map(quoted, rules_in(index, matter))
+    return [*rules, *(relation_in_words(index.ruleset, relation) for relation in relations)]
 
 
 def rules_in(index: TraceIndex, matter: Iterable[str]) -> tuple[str, ...]:
-    """The rules among what matters, in the order of the text."""
+    """The labels of the rules in `matter`, in the order of the text."""
     wanted = set(matter)
     return tuple(rule.label for rule in index.rules if rule.label in wanted)
 
 
 def relation_in_words(ruleset: Ruleset, relation: Relation) -> str:
-    """``the EXCLUSIVE of line 1``."""
-    return f"the {kind_of(relation)} of line {ruleset.source.place(relation.span).line}"
+    """``the EXCLUSIVE in line 1``."""
+    return f"the {kind_of(relation)} in line {ruleset.source.place(relation.span).line}"
 
 
 def kind_of(relation: Relation) -> str:
-    """The keyword of a constraint, or that it is a relation."""
+    """The keyword of a constraint; "relation" for any other statement."""
     kinds = {Exclusive: "EXCLUSIVE", Never: "NEVER", Assume: "ASSUME"}
     return kinds.get(type(relation), "relation")

@@ -1,4 +1,4 @@
-"""What can be seen without a solver: names that nothing uses, hedges that say nothing, words that mislead."""
+"""Checks of the text without a solver: unused names, hedges without a response, misleading words."""
 
 from __future__ import annotations
 
@@ -17,10 +17,11 @@ from sleec_runtime.model import (
     leaves,
     literals,
 )
-from sleec_verify.checks.base import Check, FindingKind, clause_name
+from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.encoding.name_uses import constants_used, mentions, names_used
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
+from sleec_verify.results.phrases import clause_name, quoted
 
 
 def _unused(index: RulesetIndex) -> Iterator[Finding]:
@@ -40,19 +41,19 @@ def _unused(index: RulesetIndex) -> Iterator[Finding]:
     for name, span in _constrained(index):
         if name not in obliged:
             yield UNUSED_NAME.finding(
-                f"a constraint names {name}, but no rule obliges or forbids it",
+                f"a constraint names {quoted(name)}, but no rule requires or forbids it",
                 span,
                 kind=1,
                 obligations=(name,),
-                help=f"check the spelling; if {name} says how things are, and not what to do, declare it a CONDITION",
+                help=f"check the spelling; if {quoted(name)} is a fact and not an action, declare it as a CONDITION",
             )
 
 
 def _unused_finding(kind: str, name: str, span: Span) -> Finding:
     return UNUSED_NAME.finding(
-        f"the {kind} {name} is declared and never used",
+        f"the {kind} {quoted(name)} is declared but never used",
         span,
-        help="remove the declaration, or check the spelling where you meant to use it",
+        help="remove the declaration, or check the spelling of the name in the rules",
     )
 
 
@@ -73,12 +74,12 @@ def _empty_hedges(index: RulesetIndex) -> Iterator[Finding]:
         for number, clause in enumerate(clauses):
             if number and not clause.obligations:
                 yield EMPTY_HEDGE.finding(
-                    f"{clause_name(rule, number)} says nothing of what to do",
+                    f"{clause_name(rule, number)} does not say what to do",
                     clause.span,
                     rules=(rule.label,),
                     clauses=(ClauseRef(rule.label, number),),
-                    note="where it decides, the rule obliges nothing, and its default is not executed either",
-                    help=f"if that is meant, keep it; else add {then} and a response",
+                    note="when it applies, the rule requires nothing, not even its default response",
+                    help=f"add {then} and a response; if the rule should require nothing, keep it",
                 )
 
 
@@ -89,21 +90,21 @@ def _two_kinds(index: RulesetIndex) -> Iterator[Finding]:
     for name in sorted((ruleset.triggers - merely_declared) & ruleset.obligations):
         span, rules = mentions(ruleset, name)
         yield TRIGGER_OBLIGATION.finding(
-            f"{name} is a trigger and an obligation",
+            f"{quoted(name)} is both a trigger and an obligation",
             span,
             rules=rules,
             obligations=(name,),
-            note="doing it triggers the rules of that name; with --no-chains it triggers nothing"
+            note="doing it triggers the rules with this trigger; with --no-chains it triggers nothing"
             if index.chains
-            else "doing it triggers nothing here, because of --no-chains",
+            else "doing it triggers nothing because of --no-chains",
         )
 
 
 _KEYWORDS = frozenset(("when", "then", "unless", "and", "or", "otherwise"))
 _TIMES = frozenset(("within", "eventually", "else"))
-"""Keywords behind an obligation; a condition with one of these words can mean nothing but itself."""
+"""Keywords that follow an obligation. In a condition, these words are part of the name."""
 _TOLD = re.compile(rf".\b(?:before|after|in|by) [0-9]+ (?:{'|'.join(sorted(UNITS))})\b", re.IGNORECASE)
-"""A time in a phrase that most likely says when it is due; `wait for 5 minutes` is something to do."""
+"""A time in a phrase that is probably a time limit. `wait for 5 minutes` is an action."""
 
 
 def _lower_case_keywords(index: RulesetIndex) -> Iterator[Finding]:
@@ -118,30 +119,30 @@ def _lower_case_keywords(index: RulesetIndex) -> Iterator[Finding]:
         if len(words) > 1 and found:
             span, rules = mentions(ruleset, name)
             yield PHRASE_KEYWORD.finding(
-                f"\u201c{name}\u201d is read as one name, the word {found[0]} included",
+                f"{quoted(name)} is read as one name, including the word {quoted(found[0])}",
                 span,
                 rules=rules,
-                help=f"if you meant the keyword, write {found[0].upper()}",
+                help=f"if you mean the keyword, write {found[0].upper()}",
             )
         elif name in ruleset.obligations and _TOLD.search(name):
             span, rules = mentions(ruleset, name)
             yield PHRASE_KEYWORD.finding(
-                f"\u201c{name}\u201d is read as one name, the time included",
+                f"{quoted(name)} is read as one name, including the time",
                 span,
                 rules=rules,
-                help="if you meant when it is due, write it behind WITHIN, as in: WITHIN 5 minutes",
+                help="if you mean a time limit, use WITHIN, for example: WITHIN 5 minutes",
             )
 
 
 UNUSED_NAME = Check(
     "unused-name",
-    "Is every name that is declared used, and every constrained name obliged?",
+    "Is every declared name used, and every constrained name required or forbidden?",
     (
         FindingKind(
             "SLEEC501",
             "note",
-            "a name that is declared and never used",
-            "A declaration that nothing uses is either left over or a sign that a rule spells the name otherwise.",
+            "a name that is declared but never used",
+            "Either the declaration is superfluous, or a rule spells the name differently.",
             "Remove the declaration, or use its spelling in the rules.",
             "CONDITION UserAsleep, UserAway\nWHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE Wait\n",
             "CONDITION UserAsleep\nWHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE Wait\n",
@@ -149,10 +150,10 @@ UNUSED_NAME = Check(
         FindingKind(
             "SLEEC502",
             "note",
-            "a constraint on something that no rule obliges",
-            "An EXCLUSIVE or NEVER names an obligation that no rule obliges or forbids. It can matter only through "
-            "other constraints that name it too.",
-            "Usually the name is spelt otherwise in the rules: use one spelling. Otherwise remove it from the "
+            "a constraint on something that no rule requires or forbids",
+            "An EXCLUSIVE or NEVER names an obligation that no rule requires or forbids. It has an effect only if "
+            "another constraint names it, too.",
+            "Usually the rules spell the name differently: use one spelling. Otherwise remove the name from the "
             "constraint.",
             "EXCLUSIVE Answer, StayQuiet\nWHEN UserCalls THEN Answer\nWHEN UserSleeps THEN StaySilent\n",
             "EXCLUSIVE Answer, StaySilent\nASSUME NOT (UserCalls AND UserSleeps)\n"
@@ -165,16 +166,15 @@ UNUSED_NAME = Check(
 
 EMPTY_HEDGE = Check(
     "empty-hedge",
-    "Does every hedge say what to do?",
+    "Does every exception say what to do?",
     (
         FindingKind(
             "SLEEC503",
             "note",
-            "a hedge that says nothing of what to do",
-            "UNLESS without IN WHICH CASE lifts the rule and puts nothing in its place. That may be meant; a reader "
-            "cannot tell it from something forgotten.",
-            "Write what is to be done: IN WHICH CASE and a response. If nothing is, leave it, and say why in a "
-            "comment.",
+            "an exception that does not say what to do",
+            "UNLESS without IN WHICH CASE cancels the rule and requires nothing instead. Readers cannot tell whether "
+            "the response was forgotten.",
+            "Add IN WHICH CASE and a response. If nothing should be done, keep the exception and say why in a comment.",
             "WHEN UserCalls THEN Answer\nUNLESS UserAsleep\n",
             "WHEN UserCalls THEN Answer\nUNLESS UserAsleep IN WHICH CASE WaitUntilAwake\n",
         ),
@@ -190,11 +190,11 @@ TRIGGER_OBLIGATION = Check(
         FindingKind(
             "SLEEC504",
             "note",
-            "a name that is a trigger and an obligation",
-            "The response of one rule has the name of the trigger of another. So the response triggers that rule, and "
-            "`check` counts what follows. With `--no-chains` it triggers nothing.",
-            "If the two are different things, give them different names. If they are the same, leave them: `explain` "
-            "shows what follows.",
+            "a name that is both a trigger and an obligation",
+            "The response of one rule is the trigger of another rule. So the response triggers that rule, and `check` "
+            "includes the consequences. With `--no-chains` it triggers nothing.",
+            "If they are two different things, use two names. If they are the same, keep them: `explain` shows the "
+            "consequences.",
             "WHEN SmokeDetected THEN SoundAlarm\nWHEN SoundAlarm THEN CallOperator\n",
             "WHEN SmokeDetected THEN SoundAlarm\nWHEN AlarmHeard THEN CallOperator\n",
         ),
@@ -205,16 +205,17 @@ TRIGGER_OBLIGATION = Check(
 
 PHRASE_KEYWORD = Check(
     "phrase-keyword",
-    "Does any phrase hold a keyword in lower case?",
+    "Does a phrase contain a keyword in lower case?",
     (
         FindingKind(
             "SLEEC505",
             "note",
-            "a phrase that holds a keyword in lower case",
-            "Keywords are written in capitals. In lower case the word is part of the name, so `the user is alone and "
-            "asleep` is one condition, not two. So is a time without WITHIN, as in `call the nurse after 5 minutes`.",
-            "If you meant the keyword, write it in capitals. If it is part of the name, join the words, as in "
-            "UserAloneAndAsleep, or put it in other words.",
+            "a phrase that contains a keyword in lower case",
+            "Keywords are written in capitals. In lower case, the word is part of the name: `the user is alone and "
+            "asleep` is one condition, not two. A time without WITHIN is also part of the name, as in `call the nurse "
+            "after 5 minutes`.",
+            "If you mean the keyword, write it in capitals. If the word is part of the name, join the words, as in "
+            "UserAloneAndAsleep, or use other words.",
             "WHEN the user calls THEN answer\nUNLESS the user is alone and asleep IN WHICH CASE wait\n",
             "WHEN the user calls THEN answer\nUNLESS the user is alone AND the user is asleep IN WHICH CASE wait\n",
         ),

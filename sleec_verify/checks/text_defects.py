@@ -1,4 +1,4 @@
-"""What is wrong with a text in the DSL that tools of others read all the same."""
+"""Defects of a text in the DSL that other tools accept."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ _DEFINED = "def_start\nevent Called\nevent Answer\nevent Wait\nmeasure risk: sca
 
 DEFECTS = Check(
     "defect",
-    "Does the text keep to its own definitions?",
+    "Does the text agree with its own definitions?",
     (
         FindingKind(
             "SLEEC506",
             "error",
-            "a label that two rules have",
-            "Tools tell of a rule by its label, and some keep only the last rule of each label. The second rule is "
-            "called label#2 here, so that both count. The labels of concerns and purposes are read alike.",
-            "Give each a label of its own.",
+            "a label that two rules share",
+            "Tools identify a rule by its label, and some keep only the last rule with a label. sleec-verify keeps "
+            "both, and calls the second one label#2. The same holds for the labels of concerns and purposes.",
+            "Give each rule its own label.",
             _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nR1 when Answer then Wait\nrule_end\n",
             _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nR2 when Answer then Wait\nrule_end\n",
         ),
@@ -36,9 +36,9 @@ DEFECTS = Check(
             "SLEEC507",
             "error",
             "a value of another scale",
-            "A measure is compared with a value that its scale does not have. Tools that keep the values of all "
-            "scales in one table take its place in the other scale, which need not be what is meant.",
-            "Write a value of the measure's own scale.",
+            "A measure is compared with a value that is not on its scale. Tools that keep the values of all scales in "
+            "one table use the position of the value on its own scale, which is probably not what you mean.",
+            "Use a value of the measure's own scale.",
             _DEFINED + "measure noise: scale(quiet, loud)\ndef_end\nrule_start\n"
             "R1 when Called and ({noise} = high) then Answer\nrule_end\n",
             _DEFINED + "measure noise: scale(quiet, loud)\ndef_end\nrule_start\n"
@@ -48,10 +48,10 @@ DEFECTS = Check(
             "SLEEC508",
             "error",
             "a scale that is compared with a number",
-            "Tools that keep the values of a scale as numbers read over it: the number stands for the value in that "
-            "place, counted from 0, and past the end of the scale the comparison is always true or always false. It "
-            "is read so here, too.",
-            "Write the value that is meant, by its name.",
+            "Tools that store the values of a scale as numbers accept this comparison: the number stands for the "
+            "value at that position, counted from 0. If there is no such position, the comparison is always true or "
+            "always false. sleec-verify does the same.",
+            "Write the name of the value that you mean.",
             _DEFINED + "constant LIMIT = 20\ndef_end\nrule_start\n"
             "R1 when Called and ({risk} > LIMIT) then Answer\nrule_end\n",
             _DEFINED + "def_end\nrule_start\nR1 when Called and ({risk} > low) then Answer\nrule_end\n",
@@ -60,8 +60,8 @@ DEFECTS = Check(
             "SLEEC519",
             "error",
             "a definition that is repeated",
-            "An event, a measure or a constant is defined twice in the same way. The second definition changes nothing "
-            "here, but not every tool reads such a text. Two definitions of one name that differ are refused.",
+            "An event, a measure or a constant is defined twice in the same way. The second definition has no effect, "
+            "but some tools reject the text. Two different definitions of one name are an error.",
             "Delete one of the two definitions.",
             _DEFINED + "event Called\ndef_end\nrule_start\nR1 when Called then Answer\nrule_end\n",
             _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nrule_end\n",

@@ -1,4 +1,4 @@
-"""Events that no rule knows: concerns, purposes and relations that speak past the rules."""
+"""Events in concerns, purposes and relations that no rule mentions."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.encoding.name_uses import events_of_rules
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import quoted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Claim
@@ -30,27 +31,27 @@ def _stray(index: RulesetIndex) -> Iterator[Finding]:
     for claim in (s for s in ruleset.statements if isinstance(s, Claim)):
         said: set[str] = set()
         for name, span in _mentioned(claim):
-            # What a relation ties to something else is not out of the rules' reach.
+            # A relation may connect the event to one that a rule mentions.
             if name in known or name in related or name in said:
                 claimed.add(name)
                 continue
             said.add(name)
             meant = nearest(name, sorted(known))
             yield STRAY_EVENT.finding(
-                f"the {claim.kind} {claim.label} speaks of {name}, which no rule knows",
+                f"the {claim.kind} {quoted(claim.label)} names {quoted(name)}, which no rule mentions",
                 span,
                 obligations=(claim.label,),
-                help=f"did you mean {meant}?" if meant else "check that no rule is missing, or drop it from the text",
+                help=f"did you mean {quoted(meant)}?" if meant else "check whether a rule is missing, or remove it",
             )
     for relation, names in relations:
         for name in sorted(names - known - claimed):
-            # Named by two, it can matter to one by way of the other.
+            # If two relations name the event, it can connect them.
             if related[name] == 1:
                 yield STRAY_EVENT.finding(
-                    f"a relation speaks of {name}, and nothing else does",
+                    f"a relation names {quoted(name)}, which nothing else mentions",
                     relation.span,
                     kind=1,
-                    help="check the name, and whether a rule is missing",
+                    help="check the spelling, and whether a rule is missing",
                 )
 
 
@@ -71,27 +72,26 @@ _RELATION = "relation_start\nhappenBefore CallHelp CallAmbulance\nrelation_end\n
 
 STRAY_EVENT = Check(
     "stray-event",
-    "Does some rule know every event that concerns, purposes and relations speak of?",
+    "Do the rules mention every event that concerns, purposes and relations name?",
     (
         FindingKind(
             "SLEEC510",
             "note",
-            "a concern or purpose that speaks of an event no rule knows",
-            "The event triggers no rule, answers none, and no relation ties it to one that does: nothing in the rules "
-            "brings it about or prevents it. So a purpose that waits for it is reached too easily, and a concern "
-            "about it cannot be ruled out.",
-            "Look for another spelling of the event first, then for a rule that is missing.",
+            "a concern or purpose about an event that no rule mentions",
+            "The event is neither the trigger nor the response of a rule, and no relation connects it to one. So the "
+            "rules neither cause nor prevent it. A purpose that needs it is always possible, and a concern about it "
+            "cannot be prevented.",
+            "Check the spelling of the event first, then look for a missing rule.",
             _EVENTS + _RULES + _PURPOSE,
             _EVENTS + _BOTH + _PURPOSE,
         ),
         FindingKind(
             "SLEEC511",
             "note",
-            "a relation that speaks of an event nothing else speaks of",
-            "The event stands in one relation and nowhere else. Then the relation says next to nothing of what the "
-            "rules are about.",
-            "Look for another spelling of the event first, then for a rule that is missing. If it is neither, remove "
-            "the relation.",
+            "a relation about an event that nothing else mentions",
+            "The event appears in one relation and nowhere else, so the relation has almost no effect on the rules.",
+            "Check the spelling of the event first, then look for a missing rule. If neither is the cause, remove the "
+            "relation.",
             _EVENTS + _RULES + _RELATION,
             _EVENTS + _BOTH + _RELATION,
         ),

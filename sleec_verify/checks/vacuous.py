@@ -1,4 +1,4 @@
-"""Rules that can be triggered, but only where the rules conflict."""
+"""Rules that can be triggered, but only in situations that conflict."""
 
 from __future__ import annotations
 
@@ -21,19 +21,20 @@ from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import quoted
 
 if TYPE_CHECKING:
     from sleec_verify.traces.index import TraceIndex
 
 
 def _vacuous(index: RulesetIndex) -> Iterator[Finding]:
-    """A finding for each rule that is triggered only where the rules conflict."""
+    """A finding for each rule that is triggered only in situations that conflict."""
     yield from in_both_parts(index, _in_situations, partial(_in_traces, index))
 
 
 def _in_situations(index: RulesetIndex) -> Iterator[Finding]:
-    """Unsatisfiable exactly when the rule is vacuous: it is triggered, and nothing that is due clashes. A model is a
-    situation in which the rule can be kept."""
+    """Unsatisfiable exactly if the rule is vacuous: it is triggered, and the obligations are consistent. A model is a
+    situation in which the rule can be followed."""
     if not inconsistent_sets_of(index):
         return
     with ExitStack() as stack:
@@ -64,29 +65,30 @@ def _in_traces(index: RulesetIndex, traces: TraceIndex) -> Iterator[Finding]:
         matter = [key for key in answer.matter if key != rule.label]
         others = in_words(traces, matter)
         yield VACUOUS_CONFLICT.finding(
-            f"{rule.label} can be triggered, but never without a conflict",
+            f"rule {quoted(rule.label)} can be triggered, but never without a conflict",
             rule.label_span if rule.labelled else rule.span,
             rules=(rule.label, *rules_in(traces, matter)),
-            note=f"it always meets {listed(others)}" if others else _alone(traces, rule),
-            help="no course of events is left in which it is triggered and all is kept; mend it, or what it meets",
+            note=f"it always conflicts with {listed(others)}" if others else _alone(traces, rule),
+            help="whenever it is triggered, some rule or relation must be broken: correct it, or what it conflicts "
+            "with",
         )
 
     yield from each(((rule.label, rule) for rule in traces.rules), of)
 
 
 def _alone(traces: TraceIndex, rule: Rule) -> str:
-    """Why a rule that meets no other cannot be kept."""
+    """Why a rule that conflicts with no other rule cannot be followed, in words."""
     from sleec_verify.traces.model import TraceModel
 
     model = TraceModel(traces.part([rule], ()))
     contradicts = False
     with as_far_as_decided():
         contradicts = not model.ask(model.instants[model.instant(model.formula.true)].event(rule.trigger))
-    return "it contradicts itself" if contradicts else "what it calls for never comes to an end"
+    return "it contradicts itself" if contradicts else "its consequences never end"
 
 
 def _is_triggered_by_itself(index: RulesetIndex, rule: Rule) -> bool:
-    """Whether some situation triggers the rule, whatever relations say of it; else it is a dead rule."""
+    """Whether some situation triggers the rule, without regard to relations. Otherwise it is a dead rule."""
     with Question(index) as question:
         return question.ask(question.encoder.any_of(question.guards_of(rule)))
 
@@ -101,13 +103,13 @@ def _finding(index: RulesetIndex, position: int, others: Sequence[int]) -> Findi
     labels = [index.rules[other].label for other in others]
     triggered = [Atom("trigger", rule.trigger), *([] if rule.guard is None else [rule.guard])]
     return VACUOUS_CONFLICT.finding(
-        f"{rule.label} can be triggered, but never without a conflict",
+        f"rule {quoted(rule.label)} can be triggered, but never without a conflict",
         rule.label_span if rule.labelled else rule.span,
         rules=(rule.label, *labels),
         # Whatever the measures are there is a conflict, but each must be something.
         witness=smallest_situation(index, conjunction(triggered), _measures(index, [position, *others])),
-        note=f"it always meets {listed(labels)}" if labels else None,
-        help="the findings of the conflict check say what is at odds; no situation is left in which to keep it",
+        note=f"it always conflicts with {listed(map(quoted, labels))}" if labels else None,
+        help="see the findings of the check `conflict`: whenever the rule is triggered, one of them applies",
     )
 
 
@@ -119,7 +121,7 @@ def _measures(index: RulesetIndex, group: Sequence[int]) -> set[str]:
 
 
 class _Kept:
-    """The formula "nothing that is due clashes" over the rules that may be active with one trigger."""
+    """The formula "the obligations are consistent" over the rules that may be active with one trigger."""
 
     def __init__(self, index: RulesetIndex, trigger: str, group: Sequence[int], clashes: InconsistentSets) -> None:
         self._index = index
@@ -179,16 +181,16 @@ class _Kept:
 
 VACUOUS_CONFLICT = Check(
     "vacuous-conflict",
-    "Can every rule that is triggered somewhere be kept somewhere?",
+    "Can every rule be followed in some situation?",
     (
         FindingKind(
             "SLEEC102",
             "error",
-            "a rule that is triggered only in situations that conflict",
-            "The rule can be triggered, but in each such situation what is due cannot all be done. There is no way to "
-            "keep it: it is written down and never lived by.",
-            "Look at the conflicts that are reported with it: one of them holds wherever the rule is triggered. "
-            "Narrow the guard of this rule or of the other, or give one of them a hedge for the case of both.",
+            "a rule that always leads to a conflict",
+            "The rule can be triggered, but in every such situation the rules contradict each other. So nobody can "
+            "ever follow it.",
+            "Look at the conflicts that are reported with it: whenever the rule is triggered, one of them applies. "
+            "Narrow the condition of this rule or of the other, or add an exception for the case in which both apply.",
             "RULE open\nWHEN UserAsks THEN OpenDoor\nRULE shut\nWHEN UserAsks THEN NOT OpenDoor\n",
             "RULE open\nWHEN UserAsks THEN OpenDoor\nUNLESS NightTime IN WHICH CASE NOT OpenDoor\n",
         ),

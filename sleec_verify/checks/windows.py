@@ -1,4 +1,4 @@
-"""Times that are not what they look like: windows of no length, prohibitions that last for one instant."""
+"""Windows without length, and prohibitions that last only for one instant."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from sleec_runtime.model import Clause, Obligation, Rule, in_text_order, literal
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import quoted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Claim
@@ -20,20 +21,21 @@ def _without_length(index: RulesetIndex) -> Iterator[Finding]:
     for labels, literal in _literals(index):
         window = literal.timing.window if literal.timing is not None else None
         if window is not None and window.end is not None and window.end.seconds == 0:
-            only = "is forbidden" if literal.negated else "is due"
+            role = "forbidden" if literal.negated else "required"
             yield ZERO_WINDOW.finding(
-                f"this window has no length: {literal.name} {only} at one instant only",
+                f"this window has no length: {quoted(literal.name)} is {role} only at the instant of the trigger",
                 window.span,
                 rules=labels,
                 obligations=(literal.name,),
-                help="write the time that you mean; at once is what a response without a window says, too"
+                help="write the time that you mean; if you mean immediately, remove the window"
                 if index.ruleset.dialect != "sleec-tk"
-                else "write the time that you mean; if that is at once, SLEEC-TK has no other way to say so",
+                else "write the time that you mean; if you mean immediately, keep it: SLEEC-TK has no other way to "
+                "say so",
             )
     for statement in index.ruleset.statements:
         if isinstance(statement, Lasting) and statement.duration is not None and statement.duration.seconds == 0:
             yield ZERO_WINDOW.finding(
-                "this time has no length: the relation says nothing",
+                "this time has no length, so the relation has no effect",
                 statement.duration.span,
                 help="write the time that you mean, or remove the relation",
             )
@@ -43,17 +45,17 @@ def _bare(index: RulesetIndex) -> Iterator[Finding]:
     for labels, literal in _literals(index):
         if literal.negated and (literal.timing is None or literal.timing.window is None):
             yield BARE_PROHIBITION.finding(
-                f"{literal.name} is forbidden without a window: at the instant of the trigger, and not later",
+                f"{quoted(literal.name)} is forbidden without a window, so only at the instant of the trigger",
                 literal.span,
                 rules=labels,
                 obligations=(literal.name,),
-                note="SLEEC-TK refuses a prohibition without a window",
-                help=f"say for how long, as in: not {literal.name} within 5 minutes",
+                note="SLEEC-TK rejects a prohibition without a window",
+                help=f"give a duration, for example: not {literal.name} within 5 minutes",
             )
 
 
 def _literals(index: RulesetIndex) -> Iterator[tuple[tuple[str, ...], Obligation]]:
-    """Every response, those of concerns and purposes too, with the label of the rule that it stands in."""
+    """Every response, also of concerns and purposes, with the label of its rule."""
     from sleec_runtime.model import Claim
 
     for statement in index.ruleset.statements:
@@ -80,11 +82,10 @@ ZERO_WINDOW = Check(
         FindingKind(
             "SLEEC513",
             "note",
-            "a window of no length",
-            "A response within 0 minutes is due at the very instant of the trigger, as it is without a window. A "
-            "relation for 0 minutes says nothing. The number, or the constant behind it, is likely not what was "
-            "meant.",
-            "Write the length that is meant, or leave the window out.",
+            "a window without length",
+            "A response within 0 minutes is required at the instant of the trigger, like a response without a window. "
+            "A relation for 0 minutes has no effect. The number, or the constant that gives it, is probably wrong.",
+            "Write the length that you mean, or remove the window.",
             _DEFINED + "R1 when Called then Answer within 0 minutes\nrule_end\n",
             _DEFINED + "R1 when Called then Answer within 1 minute\nrule_end\n",
         ),
@@ -95,15 +96,15 @@ ZERO_WINDOW = Check(
 
 BARE_PROHIBITION = Check(
     "bare-prohibition",
-    "Does every prohibition in SLEEC-TK's dialect say how long it lasts?",
+    "Does every prohibition in SLEEC-TK's dialect have a duration?",
     (
         FindingKind(
             "SLEEC514",
             "note",
             "a prohibition without a window, in SLEEC-TK's dialect",
-            "SLEEC-TK refuses `not` without a window. Here it is read as LEGOS-SLEEC reads it: the event is forbidden "
-            "at the instant of the trigger, and allowed a second later. That is seldom what is meant.",
-            "Say how long: `not E within 1 hour`.",
+            "SLEEC-TK rejects `not` without a window. sleec-verify reads it as LEGOS-SLEEC does: the event is "
+            "forbidden at the instant of the trigger, and allowed a second later. This is rarely what you mean.",
+            "Give a duration: `not E within 1 hour`.",
             _DEFINED + "R1 when Called and asleep then not Answer\nrule_end\n",
             _DEFINED + "R1 when Called and asleep then not Answer within 1 hour\nrule_end\n",
         ),

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def _completed(context: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
-    """The codes and checks that begin so, for a shell."""
+    """The codes and checks that begin with `incomplete`, for shell completion."""
     kinds = by_code()
     names = dict.fromkeys([*kinds, *(entry.check for entry in kinds.values())])
     return [name for name in names if name.startswith((incomplete, incomplete.upper()))]
@@ -35,8 +35,8 @@ def _completed(context: click.Context, parameter: click.Parameter, incomplete: s
 @click.argument("code", required=False, shell_complete=_completed)
 @options.output_format("full", "json")
 def command(code: str | None, form: str) -> int:
-    """List what `check` and `conform` can find, or explain one CODE (or one check by its name): what it means, why it
-    matters, how to mend it, an example that has it and one that has not."""
+    """List all findings of `check` and `conform`, or explain one finding CODE or one check: what it means, why it
+    matters, how to fix it, and an example with the problem and one without."""
     kinds = by_code()
     chosen = kinds if code is None else _matching(kinds, code)
     palette = Palette.of(sys.stdout)
@@ -58,17 +58,16 @@ _ByCode = Mapping[str, Entry]
 def _matching(kinds: _ByCode, code: str) -> _ByCode:
     wanted = {c: entry for c, entry in kinds.items() if code.upper() == c or code == entry.check}
     if not wanted:
-        from sleec_verify.results.phrases import shortened
+        from sleec_verify.results.phrases import quoted, shortened
 
         near = _near(kinds, code)
-        hint = f"did you mean {near}?" if near else "`sleec-verify rules` lists all of them"
-        raise click.UsageError(f"there is no finding code {shortened(code)}; {hint}")
+        hint = f"did you mean {near}?" if near else "`sleec-verify rules` lists all codes"
+        raise click.UsageError(f"there is no finding code or check called {quoted(shortened(code))}; {hint}")
     return wanted
 
 
 def _near(kinds: _ByCode, code: str) -> str | None:
-    """The code or check that was meant. Codes of another hundred are about something else, though a digit or two away:
-    of these only a slip of one letter is near."""
+    """The code or check that is nearest to `code`. Codes of another hundred are near only if one letter differs."""
     from sleec_runtime.support.suggestions import edit_distance, nearest
 
     written = code.upper()
@@ -93,8 +92,8 @@ def _explained(entry: Entry, palette: Palette) -> Iterator[str]:
     yield f"{palette('strong', kind.code)}: {kind.title}"
     yield f"{palette(kind.severity, kind.severity)} of the check {check}: {question}"
     yield from ("", *wrap(kind.explanation, 100))
-    yield from ("", *wrap(f"To mend it: {kind.mend}", 100))
-    for title, example in ((f"{what} that have it:", kind.bad), (f"{what} that have not:", kind.good)):
+    yield from ("", *wrap(f"How to fix it: {kind.mend}", 100))
+    for title, example in ((f"{what} with the problem:", kind.bad), (f"{what}, fixed:", kind.good)):
         yield from ("", title, "", *indent(example.strip(), "    ").split("\n"))
 
 

@@ -20,8 +20,8 @@ class ConditionValue:
 
 @dataclass(frozen=True)
 class ActiveClause:
-    """A clause that is active: what it obliges, when (in words, empty for at once), and the conditions that made it the
-    one.
+    """An active clause: its obligations, their windows (in words, empty for immediate ones), and the conditions that
+    decided for it.
 
     In a cascade these are the true prefix and the first false condition; by priority, the last true condition and
     the false ones after it.
@@ -36,14 +36,14 @@ class ActiveClause:
     times: tuple[str, ...] = ()
 
     def in_words(self) -> tuple[str, ...]:
-        """The obligations, each with when it is due if that is said."""
+        """The obligations, each with its window if it has one."""
         return tuple(f"{what} {when}".rstrip() for what, when in zip(self.obligations, self.times))
 
 
 @dataclass(frozen=True)
 class Consequence:
-    """What the constraints `origins` make of what is due: it must be so, but no rule says so, and nothing executes
-    it."""
+    """A literal that follows from what is due and the constraints `origins`, but that no rule requires: nothing
+    executes it."""
 
     literal: Obligation
     origins: tuple[Exclusive | Never, ...]
@@ -51,10 +51,10 @@ class Consequence:
 
 @dataclass(frozen=True)
 class ConsequenceStep:
-    """Something that is done, and what that makes due: the active clauses of the rules that it triggers, each with the
-    steps that its obligations are. `cycle`: it is being done already, further up; `seen`: its tree stands elsewhere;
-    `more`: it goes on, too deep to be shown. `forbidden` are clauses of the situation and the tree that forbid it at
-    whatever time it may be done."""
+    """An obligation that is done, and its consequences: the active clauses of the rules that it triggers, each with the
+    steps of its obligations. `cycle`: the event is also an ancestor of this step. `seen`: its tree is shown elsewhere.
+    `more`: the tree is too deep to be shown. `forbidden` are the clauses that forbid it at every time at which it can
+    be done."""
 
     name: str
     clauses: tuple[tuple[ActiveClause, tuple[ConsequenceStep, ...]], ...] = ()
@@ -70,11 +70,11 @@ class ConsequenceStep:
 
 @dataclass(frozen=True)
 class ScheduledResponse:
-    """One response with its window, in seconds from the situation, or from when `after` is done. No `end`: at some
-    time. `unknown` is a length that a measure says which is not given; then there are no times.
+    """One response with its window, in seconds from the situation, or from the event `after`. Without `end`, the window
+    has no end. `unknown` names a measure that gives the length and has no value; then there are no times.
 
-    `instead_of` is what it is due in place of, an event or ``NOT`` and an event: once that was not kept in time
-    (`overdue`), or at any time.
+    `instead_of` is the response that this one replaces (an event, or ``NOT`` and an event): after it was missed if
+    `overdue`, otherwise at any time.
     """
 
     event: str
@@ -92,17 +92,16 @@ class ScheduledResponse:
 
 @dataclass(frozen=True)
 class Entailment:
-    """The answer to "what is due here?".
+    """What a ruleset entails in one context.
 
-    Where it is not `consistent`, nothing is listed as due and `conflicts` says why. `timed` are the literals due at
-    some later time; whether they can be kept with all else is not decided, and `consistent` says nothing of them.
-    `chain` is what becomes due once that is done, `at_odds` the events that occur and are forbidden, each with the
-    clauses that do, and `schedule` what is due until when, where they were asked for (`entailment.consequence_tree`,
-    `sleec_verify.entailment.schedule`).
-    `missing` are measures that were asked about and not given: comparisons with them count as false.
-    `broken_assumptions` are the assumptions by which the situation cannot be, and the relations, whatever else occurs;
-    `unsettled` those that do not hold if all comparisons with what is not given are false. `possible` are values of
-    what is not given with which the situation can be, where it cannot without.
+    If it is not `consistent`, the obligations are empty and `conflicts` says why. `timed` are the literals with a
+    window. Whether these can be met together is not decided, and `consistent` does not include them.
+    `chain` are the consequences of doing what is due, `at_odds` the events that occur although they are forbidden,
+    each with the clauses that forbid it, and `schedule` the windows. These three are filled only on request
+    (`sleec_verify.entailment.consequence_tree`, `sleec_verify.entailment.schedule`).
+    `missing` are the measures without a value: comparisons with them count as false.
+    `broken_assumptions` are the assumptions and relations that exclude the situation. `unsettled` are those that do so
+    if all comparisons with missing measures are false. `possible` are values with which the situation is possible.
     """
 
     consistent: bool

@@ -1,8 +1,7 @@
-"""What becomes due once what is due is done, as a tree: doing an obligation triggers the rules of that name.
+"""The consequences of doing what is due, as a tree: an obligation that is done triggers the rules of that name.
 
-The measures stay as they are. What is done at once occurs together with the triggers of the situation. Rules with "it
-happened" and "it is to be done" of one name (docs/semantics.md) are asked one after the other: this is the question of
-its own that their causing each other is.
+Measures and conditions keep their values. An immediate obligation occurs together with the triggers of the situation.
+If a name is both a trigger and an obligation (docs/semantics.md), the tree follows the rules step by step.
 """
 
 from __future__ import annotations
@@ -18,28 +17,28 @@ from sleec_verify.entailment.answer import ActiveClause, ConsequenceStep, Entail
 from sleec_verify.entailment.entailment import entail
 
 DEEPEST = 100
-"""Steps one below the other that are shown."""
+"""The greatest depth of the tree."""
 
 
 class Chain(NamedTuple):
-    """The steps that lead on or are forbidden, and the events of the situation that the rules forbid there, each with
-    the clauses that do."""
+    """The steps with consequences and the forbidden steps; and in `at_odds` the events of the situation that are
+    forbidden in it, each with the clauses that forbid it."""
 
     steps: tuple[ConsequenceStep, ...] = ()
     at_odds: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
 
 def chain(ruleset: Ruleset, context: Context, answer: Entailment, untimed: Untimed = "at") -> Chain:
-    """The steps that the obligations of `answer` are.
+    """The consequences of the obligations of `answer`.
 
-    Each event is expanded once, so the tree is linear in the clauses that it reaches.
+    Each event is expanded once, so the tree is linear in the number of clauses that it reaches.
     """
     if not answer.consistent:
         return Chain()
     tree = _Tree(ruleset, context, untimed)
     done = tree.grow(answer.because)
     steps = tuple(tree.step(node) for node in done)
-    # Where rules say nothing of time, that something happened and that it is to be done are two things.
+    # Without time, an event that occurred and an obligation of the same name are two things.
     happening = sorted(context.triggers) if speaks_of_traces(ruleset) else ()
     at_odds = ((event, tree.forbidding(_Done(event, (), ((0, 0),)))) for event in happening)
     return Chain(
@@ -49,8 +48,8 @@ def chain(ruleset: Ruleset, context: Context, answer: Entailment, untimed: Untim
 
 
 class _Link(NamedTuple):
-    """Something that is done on the way to something else, so many seconds after what is before it on the way. No
-    `end`: at any time from `start` on."""
+    """An event on the way to another one, `start` to `end` seconds after the event before it. Without `end`: at any
+    time from `start` on."""
 
     name: str
     start: int
@@ -61,7 +60,7 @@ _Way = tuple[_Link, ...]
 
 
 class _Done(NamedTuple):
-    """What is done after a way, in one of these windows (none: not known)."""
+    """An event at the end of a way, in one of `windows`. No windows: the time is not known."""
 
     name: str
     way: _Way
@@ -69,13 +68,13 @@ class _Done(NamedTuple):
 
     @property
     def is_at_once(self) -> bool:
-        """Whether it is done at the instant of the situation."""
+        """Whether the event occurs at the instant of the situation."""
         ends = [*self.windows, *((link.start, link.end) for link in self.way)]
         return bool(self.windows) and all(end == (0, 0) for end in ends)
 
 
 class _Forbids(NamedTuple):
-    """What forbids an event, in a window after a way."""
+    """A clause that forbids an event, in a window after a way."""
 
     by: str
     way: _Way
@@ -144,14 +143,14 @@ class _Tree:
         return _Node(done, [(one, self._below((one,), way)) for one in because])
 
     def step(self, node: _Node) -> ConsequenceStep:
-        """What a node is, with what forbids it anywhere in the tree."""
+        """The step of a node, with the clauses anywhere in the tree that forbid it."""
         clauses = tuple((because, tuple(map(self.step, done))) for because, done in node.clauses)
         forbidden = self.forbidding(node.done)
         return ConsequenceStep(node.done.name, clauses, node.cycle, node.seen, node.more, forbidden)
 
     def forbidding(self, done: _Done) -> tuple[str, ...]:
-        """The clauses that forbid what is done at any time that it may be done at. What is due for longer may be done
-        when it is no longer forbidden."""
+        """The clauses that forbid an event at every time at which it can be done. If its window is longer than the
+        prohibition, it can be done later."""
         found = (
             one for one in self._prohibitions.get(done.name, ()) for window in done.windows if _in(done, window, one)
         )
@@ -164,7 +163,7 @@ def _has_alternative(response: WindowedResponse) -> bool:
 
 
 def _in(done: _Done, window: tuple[int, int | None], forbids: _Forbids) -> bool:
-    """Whether all times of a window are forbidden, whenever what is on the way to either is done."""
+    """Whether all times of a window are forbidden, whenever the events on both ways occur."""
     shared = len(list(takewhile(lambda links: links[0] == links[1], zip(done.way, forbids.way))))
     here, there = done.way[shared:], forbids.way[shared:]
     if not here and there and there[0].name == done.name:

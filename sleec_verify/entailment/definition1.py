@@ -13,10 +13,10 @@ from sleec_verify.encoding.solver import MiniSat
 
 
 class Definition1:
-    """Equation 1 of some rules, compiled once for any number of contexts.
+    """Equation 1 of some rules, encoded once for any number of contexts.
 
-    `formulas` get a literal each, so that their truth can be read off as well. `missing` are measures without a
-    value: comparisons with them are false.
+    Each of `formulas` gets a literal, whose truth can be asked, too. `missing` are measures without a value:
+    comparisons with them are false.
     """
 
     def __init__(
@@ -39,8 +39,8 @@ class Definition1:
         self._obligations = {v: key[1] for key, v in encoder.variables.items() if key[0] == "obligation"}
 
     def entailed(self, context: Context) -> frozenset[Obligation] | None:
-        """Every literal over O that Definition 1 entails in `context`, or None where the rules contradict themselves
-        there. One propagation."""
+        """Every literal over O that Definition 1 entails in `context`, or None if the rules are inconsistent there.
+        Needs one unit propagation."""
         consistent, literals = self._solver.propagate([self._in_force, *self._encoder.assumptions(context)])
         if not consistent:
             return None
@@ -49,7 +49,7 @@ class Definition1:
 
     def entails(self, context: Context, obligation: Obligation) -> bool | None:
         """Whether Definition 1 entails one literal in `context`: no model of the rules and the context makes it
-        false. To the letter, so true of everything where the rules contradict themselves. None if undecided."""
+        false. This is literal: if the rules are inconsistent there, everything is entailed. None if undecided."""
         variable = self._encoder.variables.get(("obligation", obligation.name))
         refuted = [] if variable is None else [variable if obligation.negated else -variable]
         answer = self._solver.solve([self._in_force, *self._encoder.assumptions(context), *refuted])

@@ -24,10 +24,10 @@ from sleec_verify.results.finding import Witness
 
 
 def entail(ruleset: Ruleset, context: Context, domain: str | None = None) -> Entailment:
-    """What `ruleset` entails in `context` (Definition 1), in `domain` if one is named.
+    """What `ruleset` entails in `context` (Definition 1), in `domain` if one is given.
 
-    Only the rules of the triggers that occur are compiled. Raises `Undecided` where the constraints are too entangled
-    to say whether what is due can be done.
+    Only the rules of the triggers that occur are encoded. Raises `Undecided` if the solver cannot decide within its
+    budget whether the constraints allow what is due.
     """
     if domain is not None:
         ruleset = ruleset.in_domain(domain)
@@ -142,8 +142,8 @@ def _looked_at(rule: Rule, reading: str, truth: dict[int, bool]) -> list[tuple[C
 
 
 def _consequences(index: RulesetIndex, due: set[Obligation], context: Context) -> Iterator[Consequence]:
-    """What must be so where the constraints hold and what is due is done, though no rule says so. Two questions for
-    each obligation that is tied to what is due."""
+    """The literals that follow from what is due and the constraints, but that no rule requires. Needs two questions
+    for each obligation that shares a constraint with what is due."""
     names = {literal.name for literal in due}
     constraints = index.constraints_about(names)
     tied = sorted({name for constraint in constraints for name in obligations_in(constraint)} - names)

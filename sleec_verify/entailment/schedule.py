@@ -1,5 +1,4 @@
-"""What is due until when, in one situation: windows as clock times, what is due in place of what was not done, and what
-becomes due once something is done."""
+"""The schedule of one situation: the windows in seconds, the alternatives, and the consequences of obligations."""
 
 from __future__ import annotations
 
@@ -14,9 +13,9 @@ from sleec_verify.entailment.answer import ActiveClause, ConsequenceStep, Entail
 def schedule(
     ruleset: Ruleset, context: Context, answer: Entailment, untimed: Untimed = "at"
 ) -> tuple[ScheduledResponse, ...]:
-    """The schedule of what is due in `context`, and after it of what that leads to, each event of a chain once.
+    """The schedule of what is due in `context`, followed by its consequences, each event once.
 
-    Empty for rules that say nothing of time, and where they contradict one another. Linear in the clauses reached.
+    Empty for rules without time, and if the rules contradict each other. Linear in the number of clauses reached.
     """
     if not (answer.consistent and speaks_of_traces(ruleset)):
         return ()

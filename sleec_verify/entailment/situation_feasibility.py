@@ -1,4 +1,4 @@
-"""Whether a situation can be: what assumptions and relations make of what is given, and of what is not."""
+"""Whether a situation is possible: assumptions and relations on the values that are given and not given."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 
 class SituationLaw(NamedTuple):
-    """An assumption or relation, what it says of one situation, and whether that is true if what is not given is false,
-    as are comparisons with measures that have no value."""
+    """An assumption or relation, its formula for one situation, and whether that formula is true if everything that is
+    not given counts as false, including comparisons with measures without a value."""
 
     said: Assume | Relation
     formula: Formula
@@ -24,10 +24,10 @@ class SituationLaw(NamedTuple):
 
 
 class Feasibility(NamedTuple):
-    """`broken` are laws by which the situation cannot be, whatever the measures are worth that are not given. Without
-    any, `unsettled` are those that do not hold if all comparisons with these measures are false. `possible` are values
-    of what is not given with which all laws hold, if there are any: measures of these laws, and, where some are broken,
-    as few conditions as will do, which would have to be true."""
+    """`broken` are the laws that exclude the situation for all values of the measures that are not given. If there are
+    none, `unsettled` are the laws that are false if all comparisons with these measures are false. `possible` are
+    values with which all laws hold, if there are any: of the measures in these laws, and, if some laws are broken, a
+    minimal set of conditions that must be true."""
 
     broken: tuple[Assume | Relation, ...] = ()
     unsettled: tuple[Assume | Relation, ...] = ()
@@ -35,25 +35,25 @@ class Feasibility(NamedTuple):
 
 
 def check_feasibility(laws: Sequence[SituationLaw], context: Context, measures: Mapping[str, Measure]) -> Feasibility:
-    """What `laws` say of a situation of which not all is given."""
+    """The result of `laws` for a situation in which some values are not given."""
     failing = [law for law in laws if not law.holds]
     if not failing:
         return Feasibility()
     try:
         return _Asked(laws, context, measures).check(context, measures)
     except Undecided:
-        # What cannot be decided for all values is not said of any.
+        # Undecided for all values: report only the laws without missing measures.
         return Feasibility(tuple(law.said for law in failing if not _missing([law], context, measures)))
 
 
 def _missing(laws: Iterable[SituationLaw], context: Context, measures: Mapping[str, Measure]) -> list[str]:
-    """The measures without a value that laws speak of."""
+    """The measures in `laws` without a value."""
     names = (name for law in laws for _, name in names_in(law.formula))
     return [name for name in dict.fromkeys(names) if name in measures and name not in context.conditions]
 
 
 class _Asked:
-    """The laws as clauses, each of which may be let in, over the situation."""
+    """The laws as clauses over the situation, each with a literal that activates it."""
 
     def __init__(self, laws: Sequence[SituationLaw], context: Context, measures: Mapping[str, Measure]) -> None:
         encoder = self._encoder = Encoder(measures)
@@ -70,7 +70,7 @@ class _Asked:
         self._given = [literal for literal in encoder.assumptions(context) if -literal not in self._names]
 
     def check(self, context: Context, measures: Mapping[str, Measure]) -> Feasibility:
-        """What is broken or unsettled, and what would mend it."""
+        """The broken or unsettled laws, and values with which all laws hold."""
         all_laws = [literal for literal, _ in self._laws]
         failing = [law for _, law in self._laws if not law.holds]
         open_ones = {-variable for variable in self._names}
@@ -80,7 +80,7 @@ class _Asked:
         said = tuple(law.said for law in broken)
         if broken and not self._ask(*all_laws):
             return Feasibility(said)
-        # Without anything broken, the last question left all conditions as they are.
+        # If no law is broken, the model of the last question keeps all conditions false.
         true = self._made_true(all_laws, open_ones) if broken else []
         decoded = self._encoder.measures.decode(self._solver.holds)
         assert not isinstance(decoded, list), "a model is accepted only if its order has room"
@@ -89,7 +89,7 @@ class _Asked:
         return Feasibility(said, () if broken else tuple(law.said for law in failing), possible)
 
     def _made_true(self, laws: Sequence[int], open_ones: Collection[int]) -> list[str]:
-        """A minimal set of conditions that have to be true for the laws to hold; the solver's model has them so."""
+        """A minimal set of conditions that must be true for the laws to hold. The solver keeps the model."""
         false: list[int] = []
         for literal in sorted(open_ones, reverse=True):
             if self._ask(*laws, *false, literal):
@@ -110,7 +110,7 @@ class _Asked:
         while True:
             answer = self._solver.solve([*self._given, *literals])
             if answer is None:
-                raise Undecided("the solver gave up after its budget of conflicts")
+                raise Undecided("the solver reached its limit of conflicts")
             refused = self._encoder.measures.refused(self._solver.holds) if answer else None
             if refused is None:
                 return answer

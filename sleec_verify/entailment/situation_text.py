@@ -1,4 +1,4 @@
-"""Situations as people type them: ``--when Fall,Night --given "UserAsleep, not Undressed, UserAge=15"``."""
+"""Situations on the command line: ``--when Fall,Night --given "UserAsleep, not Undressed, UserAge=15"``."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import SleecError
-from sleec_verify.results.phrases import shortened
+from sleec_verify.results.phrases import quoted, shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Measure, Ruleset, Value
@@ -18,17 +18,18 @@ _TRUTHS = {"true": True, "false": False}
 
 
 class SituationError(SleecError):
-    """A situation that does not fit the ruleset: an unknown name, a value of another type, a contradiction."""
+    """A situation that does not fit the ruleset: an unknown name, a value of the wrong type, or two values for a
+    name."""
 
 
 def parse_situation(ruleset: Ruleset, when: str, given: str) -> Context:
-    """The context in which the triggers listed in `when` occur and what `given` lists is the case.
+    """The context with the triggers in `when` and the values in `given`.
 
-    `when` is a list of triggers, `given` one of ``Name``, ``not Name``, ``Name=true`` and ``Measure=value``, both
-    separated by commas. Phrases are names. Numbers are exact; a constant of the ruleset may stand for its number.
+    `when` is a list of triggers. `given` is a list of ``Name``, ``not Name``, ``Name=true`` and ``Measure=value``. Both
+    are separated by commas. Phrases are names. Numbers are exact. A constant of the ruleset can replace its number.
 
     Raises:
-        SituationError: the first item that does not fit, with what would.
+        SituationError: for the first item that does not fit, with a suggestion.
     """
     from sleec_runtime.model import Context
 
@@ -37,18 +38,18 @@ def parse_situation(ruleset: Ruleset, when: str, given: str) -> Context:
     for item in _items(given):
         name, value = parse_assignment(ruleset, item)
         if name in values and values[name] != value:
-            raise SituationError(f"two values are given for {name}", "give one")
+            raise SituationError(f"two values are given for {quoted(name)}", "give one value")
         values[name] = value
     return Context(triggers, values)
 
 
 def _items(text: str) -> Iterator[str]:
-    """The items of a list. Blanks within an item count as one, as they do in the rules."""
+    """The items of a list. Several blanks in an item count as one, as in the rules."""
     return (" ".join(item.split()) for item in text.split(",") if item.strip())
 
 
 def _triggers(ruleset: Ruleset) -> frozenset[str]:
-    """What can occur: in rules with time every event, also those that only a relation, a concern or a purpose names."""
+    """The names that can occur. In rules with time: every event, also those that only relations and claims name."""
     if not ruleset.is_timed:
         return ruleset.triggers
     from sleec_runtime.model import Atom, leaves
@@ -74,7 +75,7 @@ def _trigger(ruleset: Ruleset, name: str) -> str:
     if name in _triggers(ruleset):
         return name
     if name in _conditions(ruleset) or name in ruleset.measures:
-        raise SituationError(f"{name} is not a trigger", "give conditions and measures with --given")
+        raise SituationError(f"{quoted(name)} is not a trigger", "use --given for conditions and measures")
     raise _unknown(name, "trigger", _triggers(ruleset))
 
 
@@ -90,8 +91,8 @@ def parse_assignment(ruleset: Ruleset, item: str) -> tuple[str, Value]:
             return name, _measured(ruleset, ruleset.measures[name], written)
         if written.lower() not in _TRUTHS and name in _conditions(ruleset):
             raise SituationError(
-                f"{name} is a condition, true or false, and {shortened(written) or 'nothing'} is neither",
-                f"write {name} or not {name}",
+                f"the condition {quoted(name)} must be true or false, not {_shown(written)}",
+                f"write {quoted(name)} or {quoted(f'not {name}')}",
             )
         return _condition(ruleset, name), _TRUTHS.get(written.lower(), True)
     negation, blank, rest = item.partition(" ")
@@ -101,18 +102,19 @@ def parse_assignment(ruleset: Ruleset, item: str) -> tuple[str, Value]:
 
 
 def _check_form(ruleset: Ruleset, item: str, name: str, equals: bool) -> None:
-    """Refuse what no name could make right: no name at all, a comparison, a negation of a value, a number alone."""
-    shown = shortened(item)
+    """Raises SituationError for what is wrong whatever the names are: a missing name, a comparison, a negated value, a
+    number alone."""
+    shown = quoted(shortened(item))
     if not name:
-        raise SituationError(f"there is no name before the = in {shown}", "write Name=value, as in UserAge=15")
+        raise SituationError(f"a name is missing before the = in {shown}", "write Name=value, for example UserAge=15")
     if not equals and item.lower() == "not" and item not in _conditions(ruleset):
-        raise SituationError(f"there is no name after {item}", "write not and a name, as in not UserAsleep")
+        raise SituationError(f"a name is missing after {shown}", "write not and a name, for example not UserAsleep")
     if _COMPARES.search(item):
-        raise SituationError(f"{shown} is a comparison", "a situation gives each measure one value, as in UserAge=15")
+        raise SituationError(f"{shown} is a comparison", "give each measure one value, for example UserAge=15")
     if equals and name not in _conditions(ruleset) and name.lower().startswith("not "):
-        raise SituationError(f"{shown} says both not and =", "write not Name, or Name=false")
+        raise SituationError(f"{shown} has both not and =", "write not Name, or Name=false")
     if not equals and _NUMBER.fullmatch(item):
-        raise SituationError(f"{shown} is a number without a name", "write decimals with a point, as in 36.6")
+        raise SituationError(f"{shown} is a number without a name", "write decimals with a point, for example 36.6")
 
 
 def _condition(ruleset: Ruleset, name: str) -> str:
@@ -120,11 +122,15 @@ def _condition(ruleset: Ruleset, name: str) -> str:
         return name
     if name in ruleset.measures:
         example = ruleset.measures[name].values[:1] or ("15",)
-        raise SituationError(f"{name} is a measure, neither true nor false", f"give its value: {name}={example[0]}")
+        raise SituationError(
+            f"{quoted(name)} is a measure, not true or false", f"give a value, for example {name}={example[0]}"
+        )
     if name in _triggers(ruleset):
-        raise SituationError(f"{name} is a trigger", "give what occurs with --when")
+        raise SituationError(f"{quoted(name)} is a trigger", "use --when for triggers")
     if name in ruleset.obligations:
-        raise SituationError(f"{name} is an obligation", "a situation says what is the case, the rules what is due")
+        raise SituationError(
+            f"{quoted(name)} is an obligation", "a situation consists of triggers, conditions and measures"
+        )
     raise _unknown(name, "condition or measure", {*_conditions(ruleset), *ruleset.measures})
 
 
@@ -133,16 +139,19 @@ def _measured(ruleset: Ruleset, measure: Measure, written: str) -> Value:
         if written in measure.values:
             return written
         if not written:
-            raise SituationError(f"{measure.name} is given no value", f"its scale is {' < '.join(measure.values)}")
+            raise SituationError(
+                f"a value for {quoted(measure.name)} is missing", f"its scale is {' < '.join(measure.values)}"
+            )
         raise SituationError(
-            f"{measure.name} is never {shortened(written)}", f"its scale is {' < '.join(measure.values)}"
+            f"{quoted(shortened(written))} is not a value of {quoted(measure.name)}",
+            f"its scale is {' < '.join(measure.values)}",
         )
     if written in ruleset.constants:
         return ruleset.constants[written].value
     if not _NUMBER.fullmatch(written):
         raise SituationError(
-            f"{measure.name} is a number, and {shortened(written) or 'nothing'} is not",
-            f"write it with digits, as in {measure.name}=15 or {measure.name}=36.6",
+            f"{quoted(measure.name)} must be a number, not {_shown(written)}",
+            f"write it with digits, for example {measure.name}=15 or {measure.name}=36.6",
         )
     from fractions import Fraction
 
@@ -150,8 +159,14 @@ def _measured(ruleset: Ruleset, measure: Measure, written: str) -> Value:
     if number.denominator == 1:
         return number.numerator
     if measure.kind == "integer":
-        raise SituationError(f"{measure.name} is a whole number, and {shortened(written)} is not", "round it")
+        raise SituationError(
+            f"{quoted(measure.name)} must be a whole number, not {quoted(shortened(written))}", "round it"
+        )
     return number
+
+
+def _shown(written: str) -> str:
+    return quoted(shortened(written)) if written else "empty"
 
 
 def _unknown(name: str, what: str, known: frozenset[str] | set[str]) -> SituationError:
@@ -159,10 +174,10 @@ def _unknown(name: str, what: str, known: frozenset[str] | set[str]) -> Situatio
 
     near = nearest(name, sorted(known))
     if near is not None:
-        hint = f"did you mean {near}?"
+        hint = f"did you mean {quoted(near)}?"
     elif known:
         shown = sorted(known)
-        hint = f"the rules know {', '.join(shown[:10])}{' and more' if len(shown) > 10 else ''}"
+        hint = f"the rules have {', '.join(shown[:10])}{' and more' if len(shown) > 10 else ''}"
     else:
         hint = f"the ruleset has no {what}"
-    return SituationError(f"there is no {what} {shortened(name)}", hint)
+    return SituationError(f"there is no {what} called {quoted(shortened(name))}", hint)

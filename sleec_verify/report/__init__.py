@@ -1,7 +1,7 @@
-"""What people and programs read: one renderer a format, over the same outcomes and findings.
+"""Output for people and programs: one renderer for each format, over the same outcomes and findings.
 
-A renderer is a module of this package with ``render(outcomes, palette) -> Iterator[str]``, whose strings are
-written one after the other as they are. It decides nothing: what is wrong, and how bad that is, stands in the findings.
+A renderer is a module of this package with ``render(outcomes, palette) -> Iterator[str]``. Its strings are written one
+after the other without change. A renderer decides nothing: the findings contain all results.
 """
 
 from __future__ import annotations
@@ -19,6 +19,6 @@ FORMATS: tuple[str, ...] = ("full", "concise", "json", "sarif", "junit", "github
 
 
 def renderer(name: str) -> Callable[[Sequence[Outcome], Palette], Iterator[str]]:
-    """The renderer of a format. Only its module is imported."""
+    """The renderer of a format. Imports only the module of that format."""
     render: Callable[[Sequence[Outcome], Palette], Iterator[str]] = import_module(f"{__name__}.{name}").render
     return render

@@ -1,4 +1,4 @@
-"""Every kind of finding by its code, of `check` and of `conform`, for those who list or explain them."""
+"""All kinds of finding of `check` and `conform`, by code."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from sleec_verify.conformance import structure
 
 
 class Entry(NamedTuple):
-    """A kind of finding, the check that makes it, and what its examples are."""
+    """A kind of finding, its check, and what its examples consist of."""
 
     check: str
     question: str
@@ -26,5 +26,5 @@ def by_code() -> Mapping[str, Entry]:
 
 
 def questions() -> Mapping[str, str]:
-    """What each check asks, by its name."""
+    """The question of each check, by the name of the check."""
     return {entry.check: entry.question for entry in by_code().values()}

@@ -1,4 +1,4 @@
-"""For lists and logs: one line a finding, and one line on all."""
+"""For lists and logs: one line for each finding, and a summary line."""
 
 from __future__ import annotations
 

@@ -19,11 +19,11 @@ def lines(steps: tuple[ConsequenceStep, ...], indent: str = "  ") -> Iterator[st
 def _said(step: ConsequenceStep) -> str:
     words = []
     if step.cycle:
-        words.append("which happens already: a cycle")
+        words.append("already in progress: a cycle")
     elif step.seen:
         words.append("as above")
     elif step.more:
         words.append("and so on")
     if step.forbidden:
-        words.append(f"which {' and '.join(step.forbidden)} {'forbids' if len(step.forbidden) == 1 else 'forbid'}")
+        words.append(f"forbidden by {' and '.join(step.forbidden)}")
     return f" ({'; '.join(words)})" if words else ""

@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING
 from sleec_verify.report.difference_phrases import (
     RELATION_ROLES,
     WORDS,
-    clause_text,
     conflict_rules,
     contradiction_text,
+    deciding_text,
     effect_text,
     extent_text,
-    obligation_text,
-    place_text,
     relation_text,
     rule_text,
     witness_text,
@@ -84,27 +82,22 @@ def _before_and_after(
     found: Difference, before: Sequence[DecidingClause], after: Sequence[DecidingClause], palette: Palette
 ) -> Iterator[str]:
     for word, deciding, ruleset in (("before", before, found.old), ("after", after, found.new)):
-        lines = [
-            f"{obligation_text(one)}, by {clause_text(one)} ({place_text(ruleset.source, one.span)})"
-            for one in deciding
-        ]
-        for at, line in enumerate(lines or ["no rule says anything"]):
+        for at, line in enumerate(_decisions(deciding, ruleset)):
             yield f"      {palette('faint', f'{word if at == 0 else str():7}')} {line}"
 
 
 def _decisions(deciding: Sequence[DecidingClause], ruleset: Ruleset) -> list[str]:
-    """What each clause obliges, and where it stands."""
-    source = ruleset.source
-    lines = [f"{obligation_text(one)}, by {clause_text(one)} ({place_text(source, one.span)})" for one in deciding]
-    return lines or ["no rule says anything"]
+    """The obligations of each clause, with its place."""
+    return [deciding_text(one, ruleset) for one in deciding] or ["no rule applies"]
 
 
 def _conflict(found: Difference, conflict: ConflictChange, palette: Palette) -> Iterator[str]:
     added = conflict.way == "added"
     ruleset = found.new if added else found.old
-    head = palette("error", "new conflict") if added else palette("good", "conflict gone")
+    head = palette("error", "new conflict") if added else palette("good", "resolved conflict")
     lines = sorted({ruleset.source.place(span).line for span in conflict.origins})
-    by = f", by the constraint{'s' if len(lines) > 1 else ''} of line {listed(map(str, lines))}" if lines else ""
+    several = "s" if len(lines) > 1 else ""
+    by = f" (constraint{several} in line{several} {listed(map(str, lines))})" if lines else ""
     yield ""
     yield f"  {head}: {conflict_rules(conflict)}: {contradiction_text(conflict)}{by}"
     yield f"    {witness_text(conflict.witness)}:"
@@ -115,19 +108,19 @@ def _conflict(found: Difference, conflict: ConflictChange, palette: Palette) -> 
 def _situation(one: SituationChange, palette: Palette) -> Iterator[str]:
     yield ""
     if one.way == "added":
-        yield f"  {palette('strong', 'situations')}: no longer taken for granted: {one.what}"
+        yield f"  {palette('strong', 'situations')}: removed assumption: {one.what}"
     else:
-        yield f"  {palette('strong', 'situations')}: now taken for granted: {one.what}"
+        yield f"  {palette('strong', 'situations')}: new assumption: {one.what}"
     if one.witness is not None and one.extent is not None:
-        word = "is now possible" if one.way == "added" else "no longer counts"
+        word = "is now possible" if one.way == "added" else "is now excluded"
         occurs = f"when {occurring(one.witness.triggers)}" if one.witness.triggers else ""
         facts = ", ".join(part for part in (occurs, *given(one.witness.conditions)) if part) or "any situation"
-        yield f"    {word}, among others: {facts}"
+        yield f"    {word}, for example: {facts}"
         yield f"    {extent_text(one.extent)}{in_domains(one.domains)}"
 
 
 def _names(found: Difference, palette: Palette) -> Iterator[str]:
-    for way, title in (("added", "new names"), ("removed", "names gone")):
+    for way, title in (("added", "new names"), ("removed", "removed names")):
         names = [f"{quoted(one.name)} ({one.kind})" for one in found.names if one.way == way]
         if names:
             yield f"  {palette('strong', title)}: {listed(names)}"
@@ -135,13 +128,13 @@ def _names(found: Difference, palette: Palette) -> Iterator[str]:
 
 def _same_meaning(found: Difference, palette: Palette) -> Iterator[str]:
     if found.renamed:
-        named = listed(f"{old} is now {new}" for old, new in found.renamed)
-        yield f"  {palette('strong', 'renamed')}: {named}, and says the same"
+        named = listed(f"{quoted(old)} is now {quoted(new)}" for old, new in found.renamed)
+        yield f"  {palette('strong', 'renamed')}: {named} (same meaning)"
     if found.rewritten:
-        rules = listed(labels[-1] for labels in found.rewritten)
-        yield f"  {palette('strong', 'rewritten')}: {rules}, and oblige{'s' * (len(found.rewritten) == 1)} the same"
+        rules = listed(quoted(labels[-1]) for labels in found.rewritten)
+        yield f"  {palette('strong', 'rewritten')}: {rules} (same meaning)"
     if found.reordered:
-        yield f"  {palette('strong', 'reordered')}: the rules stand in another order, which means nothing"
+        yield f"  {palette('strong', 'reordered')}: the rules are in a different order (same meaning)"
     if found.old.reading != found.new.reading:
         yield f"  {palette('strong', 'readings')}: {found.old.reading} before, {found.new.reading} after"
 
@@ -159,11 +152,7 @@ def on_assertions(asked: Sequence[AssertionResult], palette: Palette) -> Iterato
         elif isinstance(answer, Violation):
             yield f"{palette('error', 'broken')}: {assertion.text} ({path})"
             yield f"  {witness_text(answer.witness)}{in_domains((answer.domain,) if answer.domain else ())}:"
-            lines = [
-                f"{obligation_text(one)}, by {clause_text(one)} ({place_text(ruleset.source, one.span)})"
-                for one in answer.deciding
-            ]
-            yield from (f"    {line}" for line in lines or ["no rule says anything"])
+            yield from (f"    {line}" for line in _decisions(answer.deciding, ruleset))
         else:
             yield f"{palette('unknown', 'unknown')}: {assertion.text} ({path}): {answer}"
 

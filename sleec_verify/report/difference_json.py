@@ -1,4 +1,4 @@
-"""What `diff` says, for programs: one JSON object (docs/diff.md)."""
+"""The output of `diff` for programs: one JSON object (docs/schema/diff.schema.json)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 def render(report: DifferenceReport, palette: Palette) -> Iterator[str]:
-    """Everything that was asked, as one object."""
+    """All results as one object."""
     del palette  # a program reads this
     found = report.differences
     yield dump(

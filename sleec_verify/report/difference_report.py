@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class RulesetDifference(NamedTuple):
-    """One ruleset on both sides: what differs, or what is wrong with a side."""
+    """One ruleset on both sides: the difference, or the errors of a side."""
 
     path: str
     difference: Difference | None
@@ -24,7 +24,7 @@ class RulesetDifference(NamedTuple):
 
 
 class DifferenceReport(NamedTuple):
-    """All that was asked: each ruleset, how many texts are the same on both sides, and the assertions."""
+    """The results: each compared ruleset, the number of files with equal texts, and the assertions."""
 
     compared: tuple[RulesetDifference, ...]
     unchanged: int = 0
@@ -36,7 +36,7 @@ class DifferenceReport(NamedTuple):
 
     @property
     def relation(self) -> Relation:
-        """One word for all rulesets together."""
+        """The relation of all rulesets together."""
         found = self.differences
         unusable = any(one.errors for one in self.compared)
         return relation(

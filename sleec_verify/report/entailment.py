@@ -1,4 +1,4 @@
-"""What `entail` says: what is due in a situation, and by which clauses."""
+"""The output of `entail`: what is required and forbidden in a situation, and by which clauses."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ def _full(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palet
         yield from finding_lines(finding, source, palette)
         yield ""
     if answer.consistent:
-        yield f"{palette('strong', 'due')}: {', '.join(answer.obligations) or 'nothing'}"
+        yield f"{palette('strong', 'required')}: {', '.join(answer.obligations) or 'nothing'}"
         if answer.prohibitions:
             yield f"{palette('strong', 'forbidden')}: {', '.join(answer.prohibitions)}"
     else:
-        yield f"{palette('error', 'The rules contradict one another here')}: nothing is listed as due."
+        yield f"{palette('error', 'The rules contradict each other here')}, so no obligations are listed."
     for because in answer.because:
         line = source.place(because.span).line
         says = " AND ".join(because.in_words()) or "nothing"
@@ -40,7 +40,7 @@ def _full(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palet
 
 
 def _concise(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
-    del context  # asked about by who reads this
+    del context  # the reader knows the question
     yield from answer.obligations
     yield from (f"NOT {name}" for name in answer.prohibitions)
     for finding in answer.conflicts:
@@ -52,7 +52,7 @@ def _concise(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pa
 def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
     from sleec_verify.results.json_values import dump, finding_json, span_json, values_json
 
-    del context, palette  # a program reads this, and knows what it asked
+    del context, palette  # for programs, which know the question
     source = ruleset.source
     due: list[Json] = [*answer.obligations]
     forbidden: list[Json] = [*answer.prohibitions]
@@ -65,7 +65,7 @@ def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palet
             for b in answer.because
         ],
     }
-    # What is out of the ordinary is said only where it is so: the object stays what the usual reader expects.
+    # Rare keys are present only if they have a value.
     if answer.conflicts:
         said["conflicts"] = [finding_json(finding, source) for finding in answer.conflicts]
     if answer.broken_assumptions:
@@ -90,14 +90,14 @@ def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palet
 
 
 def once_done(answer: Entailment, palette: Palette) -> Iterator[str]:
-    """What becomes due once what is due is done, where anything does."""
+    """The consequences of doing what is required, if there are any."""
     if answer.chain:
-        yield f"{palette('strong', 'once that is done')}:"
+        yield f"{palette('strong', 'consequences')}:"
         yield from lines(answer.chain)
 
 
 def scheduled(answer: Entailment, context: Context, palette: Palette) -> Iterator[str]:
-    """What is due until when, where anything is due at another time than at once."""
+    """The schedule, if any obligation is not immediate."""
     if not _has_times(answer):
         return
     from sleec_verify.report.schedule import chart, in_words
@@ -133,55 +133,52 @@ def _chain_json(steps: tuple[ConsequenceStep, ...]) -> Json:
 
 
 def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
-    """What to know about the situation itself: that it cannot be, or is not wholly given."""
+    """Warnings about the situation: it is excluded by an assumption, or some of its values are not given."""
     with_these = listed(_as_given(answer)) if answer.possible else ""
     if answer.broken_assumptions:
         by = _named(ruleset, answer.broken_assumptions)
-        yield f"{palette('warning', 'warning')}: this situation cannot be, by {by}; checks leave it out"
+        yield f"{palette('warning', 'warning')}: this situation is excluded by {by}; checks ignore it"
         if answer.possible:
-            yield f"{palette('help', 'help')}: what is not given counts as false; it can be with {with_these}"
+            yield f"{palette('help', 'help')}: names that are not given count as false; add {with_these}"
     elif answer.unsettled:
         names = [quoted(name) for name, _ in answer.possible]
         are, them = ("is", "it") if len(names) == 1 else ("are", "them")
         by = _named(ruleset, answer.unsettled)
         yield (
-            f"{palette('warning', 'warning')}: {listed(names)} {are} not given, and if all that compares with {them} "
-            f"is false, this situation cannot be, by {by}"
+            f"{palette('warning', 'warning')}: {listed(names)} {are} not given; if every comparison with {them} is "
+            f"false, this situation is excluded by {by}"
         )
-        yield f"{palette('help', 'help')}: give {them}; it can be with {with_these}"
+        yield f"{palette('help', 'help')}: give {them}, for example {with_these}"
     for event, forbidding in answer.at_odds:
-        verb = "forbids" if len(forbidding) == 1 else "forbid"
-        yield f"{palette('warning', 'warning')}: {quoted(event)} occurs, and {listed(forbidding)} {verb} it"
+        by = listed(map(quoted, forbidding))
+        yield f"{palette('warning', 'warning')}: {quoted(event)} occurs, but {by} {_forbids(forbidding)} it"
     if answer.timed:
         yield (
-            f"{palette('note', 'note')}: what is due at other times is not weighed here; `sleec-verify check` tells "
-            "whether it can all be kept"
+            f"{palette('note', 'note')}: `entail` does not look for conflicts at later times; `sleec-verify check` does"
         )
     if answer.missing:
         yield (
-            f"{palette('note', 'note')}: {listed(answer.missing)} {'is' if len(answer.missing) == 1 else 'are'} "
-            f"not given: what compares with {'it' if len(answer.missing) == 1 else 'them'} counts as false"
+            f"{palette('note', 'note')}: {listed(map(quoted, answer.missing))} "
+            f"{'is' if len(answer.missing) == 1 else 'are'} not given, so every comparison with "
+            f"{'it' if len(answer.missing) == 1 else 'them'} counts as false"
         )
 
 
+def _forbids(by: Sequence[str]) -> str:
+    return "forbids" if len(by) == 1 else "forbid"
+
+
 def _named(ruleset: Ruleset, said: Sequence[Assume | Relation]) -> str:
-    """Assumptions and relations by their lines."""
+    """Assumptions and relations by their lines: ``ASSUME (line 3)``."""
     laws: dict[str, list[str]] = {}
     for law in said:
-        kind = "ASSUME" if isinstance(law, Assume) else "relation"
+        kind = "ASSUME" if isinstance(law, Assume) else "RELATION"
         laws.setdefault(kind, []).append(str(ruleset.source.place(law.span).line))
-    by = listed(
-        f"the {_plural(kind, lines)} of {_plural('line', lines)} {listed(lines)}" for kind, lines in laws.items()
-    )
-    return f"{by} of {ruleset.source.path}"
-
-
-def _plural(word: str, several: Sequence[str]) -> str:
-    return f"{word}s" if len(several) > 1 and word.islower() else word
+    return listed(f"{kind} (line{'s' if len(lines) > 1 else ''} {listed(lines)})" for kind, lines in laws.items())
 
 
 def _as_given(answer: Entailment) -> list[str]:
-    """What would have to be given as ``--given`` takes it."""
+    """Values with which the situation is possible, as ``--given`` takes them."""
     return [name if value is True else f"{name}={value_text(value)}" for name, value in answer.possible]
 
 

@@ -1,7 +1,7 @@
-"""The one place through which text for people goes: names, paths and reasons in it cannot steer what shows it.
+"""Escapes for all text for people: names, paths and reasons in it cannot control the terminal or a CI service.
 
-A renderer for people yields lines without their ends, with the text of users as it is. `as_text` makes of them what is
-written. Renderers for programs use the escapes of their formats.
+A renderer for people yields lines without line ends, with the unescaped text of users. `as_text` escapes them.
+Renderers for programs use the escapes of their formats.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ _Arguments = TypeVar("_Arguments", bound=Callable[..., Iterator[str]])
 
 
 def as_line(text: str) -> str:
-    """One line of output, without its end, that holds nothing but what it shows and the colours of the palette."""
+    """One line of output without its line end: escaped, with the colours of the palette."""
     return painted(without_commands(escaped(text), "\\x{:02x}"))
 
 
 def as_text(render: _Arguments) -> _Arguments:
-    """A renderer of lines as one of text."""
+    """Turn a renderer of unescaped lines into a renderer of text."""
 
     @wraps(render)
     def text(*arguments: object) -> Iterator[str]:
@@ -33,7 +33,7 @@ def as_text(render: _Arguments) -> _Arguments:
 
 
 def in_one_column(text: str) -> str:
-    """`text` with one printable character for each of its own, so that marks below it stand where they should."""
+    """`text` with a printable character for each character, so that marks below it are aligned."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else " " if c == "\t" else "\ufffd" for c in text)

@@ -1,4 +1,4 @@
-"""Lines of a source with marks under what is spoken of."""
+"""Lines of a source with marks under the relevant places."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ _MOST_LINES = 6
 
 
 class Mark(NamedTuple):
-    """A place to mark: the main one with ``^`` in the colour of `role`, others with ``-``, each maybe with a word."""
+    """A place to mark: with ``^`` if it is the main place, otherwise with ``-``, in the colour of `role`, and with a
+    `word` after it."""
 
     span: Span
     role: str = "faint"
@@ -25,7 +26,7 @@ class Mark(NamedTuple):
 
 
 class _Stretch(NamedTuple):
-    """The part of a mark that is on one line, as columns from 0."""
+    """The part of a mark on one line, as columns from 0."""
 
     start: int
     end: int
@@ -34,7 +35,7 @@ class _Stretch(NamedTuple):
 
 
 def excerpt(source: Source, marks: Sequence[Mark], palette: Palette) -> Iterator[str]:
-    """The lines that hold the marks, in the order of the text, numbered, with the marks below them."""
+    """The lines with marks, in the order of the text, numbered, with the marks below them."""
     stretches: dict[int, list[_Stretch]] = {}
     for mark in marks:
         for number, stretch in _lines_of(source, mark):
@@ -77,7 +78,7 @@ def _lines_of(source: Source, mark: Mark) -> Iterator[tuple[int, _Stretch]]:
 
 
 def _left_edge(line: str, here: Sequence[_Stretch]) -> int:
-    """Where to begin a line that is too long to show: a little before the first mark."""
+    """The first column to show of a line: 0, or a little before the first mark if the line is too long."""
     return 0 if len(line) <= _WIDTH else max(0, min(s.start for s in here) - _WIDTH // 3)
 
 
@@ -87,7 +88,7 @@ def _shown(line: str, left: int) -> str:
 
 
 def _columns(text: str) -> int:
-    """How many columns of a terminal `text` takes."""
+    """The number of terminal columns of `text`."""
     if text.isascii():
         return len(text)
     from unicodedata import combining, east_asian_width

@@ -1,4 +1,4 @@
-"""What `explain` says: which clause of which rule decides in a situation, by which conditions, and what follows."""
+"""The output of `explain`: the clause of each rule that decides in a situation, the reasons, and the consequences."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from sleec_verify.report.entailment import caveats, once_done, scheduled
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.full import finding_lines
-from sleec_verify.results.phrases import context_text, counted, listed, quoted, value_text
+from sleec_verify.results.phrases import context_text, counted, exception, listed, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Formula, Rule, Ruleset, Span
@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 
 @as_text
 def render(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
-    """The situation, then a paragraph for each rule that is triggered in it, and what comes of it all."""
+    """The situation, a paragraph for each triggered rule, and the result."""
     source = ruleset.source
     size = counted(len(ruleset.rules), "rule")
-    yield f"{context_text(context)}, by the {size} of {source.path}, reading {ruleset.reading}:"
+    yield f"{context_text(context)}, according to the {size} in {source.path} (reading {ruleset.reading}):"
     yield ""
     decided = {because.rule: because for because in answer.because}
     triggered = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
@@ -29,7 +29,7 @@ def render(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pale
         if rule.label in decided:
             yield from _decided(ruleset, context, decided[rule.label], palette)
         else:
-            assert rule.guard is not None, "a rule without a guard decides wherever it is triggered"
+            assert rule.guard is not None, "a rule without a guard decides whenever it is triggered"
             yield from _guarded(ruleset, context, rule, rule.guard, palette)
     if not triggered:
         yield from ("No rule is triggered.", "")
@@ -37,7 +37,7 @@ def render(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pale
         yield from finding_lines(finding, source, palette)
         yield ""
     if answer.consequences:
-        yield "By the constraints, and by no rule, so that nothing executes it:"
+        yield "From the constraints alone (no rule says so, so the robot does not act on it):"
         yield from (_consequence(ruleset, consequence) for consequence in answer.consequences)
         yield ""
     yield from once_done(answer, palette)
@@ -47,54 +47,54 @@ def render(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pale
 
 
 def _decided(ruleset: Ruleset, context: Context, because: ActiveClause, palette: Palette) -> Iterator[str]:
-    number = because.clause
-    clause = f"its hedge {number} decides, the layer {because.layer}" if number else "its default decides"
-    head = f"{palette('strong', because.rule)} is triggered by {_trigger(ruleset, because)}, and {clause}"
+    rule = ruleset.by_label[because.rule]
+    head = f"{quoted(rule.trigger)} triggers rule {palette('strong', quoted(rule.label))}"
+    if because.clause:
+        hedge = list(rule.clauses())[because.clause]
+        head = f"{head}, and {exception(hedge)} ({because.layer}) applies"
+    elif rule.hedges or rule.default.hedges:
+        head = f"{head}, and no exception applies"
     yield f"{head}: {_due(because.in_words())} ({_at(ruleset, because.span)})."
     for position, decision in enumerate(because.decisions):
         yield f"    {'because' if position == 0 else 'and'} {_truth(ruleset, context, decision)}"
     yield ""
 
 
-def _trigger(ruleset: Ruleset, because: ActiveClause) -> str:
-    return quoted(ruleset.by_label[because.rule].trigger)
-
-
 def _due(obligations: tuple[str, ...]) -> str:
-    due = [name for name in obligations if not name.startswith("NOT ")]
-    forbidden = [name[4:] for name in obligations if name.startswith("NOT ")]
+    due = [quoted(name) for name in obligations if not name.startswith("NOT ")]
+    forbidden = [quoted(name[4:]) for name in obligations if name.startswith("NOT ")]
     parts = []
     if due:
-        parts.append(f"{listed(due)} {'is' if len(due) == 1 else 'are'} due")
+        parts.append(f"{listed(due)} {'is' if len(due) == 1 else 'are'} required")
     if forbidden:
         parts.append(f"{listed(forbidden)} {'is' if len(forbidden) == 1 else 'are'} forbidden")
-    return " and ".join(parts) or "nothing is due"
+    return " and ".join(parts) or "nothing is required"
 
 
 def _truth(ruleset: Ruleset, context: Context, decision: ConditionValue) -> str:
-    which = "its guard " if decision.clause is None else ""
     value = "true" if decision.truth else "false"
     return (
-        f"{which}{_spelled(decision.formula)} is {value}"
+        f"{_spelled(decision.formula)} is {value}"
         f"{_values(ruleset, context, decision.formula)} ({_at(ruleset, decision.span)})"
     )
 
 
 def _guarded(ruleset: Ruleset, context: Context, rule: Rule, guard: Formula, palette: Palette) -> Iterator[str]:
-    yield f"{palette('strong', rule.label)} is triggered by {quoted(rule.trigger)} and obliges nothing,"
+    name = palette("strong", quoted(rule.label))
+    yield f"{quoted(rule.trigger)} triggers rule {name}, but its condition is false: nothing is required."
     values = _values(ruleset, context, guard)
-    yield f"    because its guard {_spelled(guard)} is false{values} ({_at(ruleset, guard.span)})"
+    yield f"    because {_spelled(guard)} is false{values} ({_at(ruleset, guard.span)})"
     yield ""
 
 
 def _spelled(formula: Formula) -> str:
     from sleec_runtime.language import print_formula
 
-    return print_formula(formula)
+    return quoted(print_formula(formula))
 
 
 def _values(ruleset: Ruleset, context: Context, formula: Formula) -> str:
-    """The parts of a formula that is no single condition, each with what it is worth here."""
+    """The values of the names in a formula; empty for a single condition."""
     from sleec_runtime.model import Atom, Comparison, leaves, measures_of
 
     if isinstance(formula, Atom):
@@ -113,9 +113,9 @@ def _values(ruleset: Ruleset, context: Context, formula: Formula) -> str:
 
 def _consequence(ruleset: Ruleset, consequence: Consequence) -> str:
     literal = consequence.literal
-    must = "must not be done" if literal.negated else "must be done"
-    origins = [f"{_text(ruleset, origin.span)} ({_at(ruleset, origin.span)})" for origin in consequence.origins]
-    return f"    {literal.name} {must}: {listed(origins)}"
+    role = "forbidden" if literal.negated else "required"
+    origins = [f"{quoted(_text(ruleset, origin.span))} ({_at(ruleset, origin.span)})" for origin in consequence.origins]
+    return f"    {quoted(literal.name)} is {role} by {listed(origins)}"
 
 
 def _text(ruleset: Ruleset, span: Span) -> str:
@@ -129,6 +129,7 @@ def _at(ruleset: Ruleset, span: Span) -> str:
 def _in_all(answer: Entailment, palette: Palette) -> str:
     if not answer.consistent:
         conflicts = counted(len(answer.conflicts), "conflict")
-        return f"{palette('error', 'The rules contradict one another here')} ({conflicts}): nothing is listed as due."
+        where = palette("error", "The rules contradict each other here")
+        return f"{where} ({conflicts}), so no obligations are listed."
     forbidden = f"; forbidden: {', '.join(answer.prohibitions)}" if answer.prohibitions else ""
-    return f"{palette('strong', 'Due in all')}: {', '.join(answer.obligations) or 'nothing'}{forbidden}"
+    return f"{palette('strong', 'Required')}: {', '.join(answer.obligations) or 'nothing'}{forbidden}"

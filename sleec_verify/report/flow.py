@@ -1,4 +1,4 @@
-"""How a finding comes about, step by step: what occurs, what is the case, which clauses decide, what is found."""
+"""The steps that lead to a finding: events, conditions, the clauses that decide, and the finding."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.model import Atom, Exclusive, formulas_of, leaves, measures_of
-from sleec_verify.results.phrases import listed, quoted, value_text
+from sleec_verify.results.phrases import clause_name, quoted, value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Formula, Ruleset, Source, Span, Value
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Step(NamedTuple):
-    """One step: where it stands in which text, what happens, what is known from here on, and at which moment."""
+    """One step: its place in a text, its description, the values that it adds, and the number of its moment."""
 
     source: Source
     span: Span
@@ -26,10 +26,10 @@ class Step(NamedTuple):
 
 
 def steps(ruleset: Ruleset, finding: Finding) -> list[Step]:
-    """The steps to a finding that has a witness, or that code departs from a clause; the finding is the last of them.
-    None for what a look at one place shows.
+    """The steps to a finding with a witness, or about code and a clause; the last step is the finding. Empty for other
+    findings.
 
-    O(size of the rules that the finding names), and of the constraints where a name stands only there.
+    O(size of the rules that the finding names), plus the constraints if only these contain a name.
     """
     source = finding.source or ruleset.source
     if finding.timeline is not None:
@@ -63,14 +63,14 @@ def _of_moment(ruleset: Ruleset, finding: Finding, moment: Moment, number: int) 
     for due in moment.due:
         span = list(ruleset.by_label[due.rule].clauses())[due.clause].span
         if due.overdue:
-            words = f"after {duration(due.start)}, in place of {due.instead_of}, {says(due)}"
+            words = f"after {duration(due.start)}, instead of {quoted(due.instead_of or '')}, {says(due)}"
             yield Step(ruleset.source, span, words, {}, number)
         elif due.instead_of is None:
             yield Step(ruleset.source, span, f"{when}{says(due)}", {}, number)
 
 
 def _of_strategy(ruleset: Ruleset, finding: Finding, strategy: Strategy, number: int = 1) -> Iterator[Step]:
-    """The acts of the environment, the first branch of each."""
+    """The acts of the environment, along the first branch of each."""
     from sleec_verify.report.timeline import duration
 
     act = strategy.act
@@ -84,13 +84,13 @@ def _of_strategy(ruleset: Ruleset, finding: Finding, strategy: Strategy, number:
 def _happening(
     ruleset: Ruleset, finding: Finding, triggers: Iterable[str], conditions: Mapping[str, Value]
 ) -> Iterator[Step]:
-    """What occurs and what is the case, each where the rules of the finding first speak of it."""
+    """The events and conditions, each at its first place in the rules of the finding."""
     rules = [ruleset.by_label[label] for label in finding.rules if label in ruleset.by_label]
     told = _places(formula for rule in rules for formula in formulas_of(rule))
     for rule in rules:
         told.setdefault(rule.trigger, rule.trigger_span)
     if not told.keys() >= {*triggers, *conditions}:
-        # It is a constraint or an assumption that makes the others matter.
+        # Constraints and assumptions contain the other names.
         told = {**_places(c.formula for c in ruleset.constraints if not isinstance(c, Exclusive)), **told}
     for trigger in triggers:
         yield _step(ruleset, finding, told.get(trigger), f"{quoted(trigger)} occurs", {trigger: True})
@@ -99,14 +99,14 @@ def _happening(
 
 
 def _step(ruleset: Ruleset, finding: Finding, span: Span | None, words: str, state: Mapping[str, Value]) -> Step:
-    """A step at `span` of the rules; where they do not speak of it, at the finding."""
+    """A step at `span` of the rules; without `span`, at the finding."""
     if span is None:
         return Step(finding.source or ruleset.source, finding.span, words, state)
     return Step(ruleset.source, span, words, state)
 
 
 def _places(formulas: Iterable[Formula]) -> dict[str, Span]:
-    """Where each name stands first."""
+    """The first place of each name."""
     places: dict[str, Span] = {}
     for formula in formulas:
         for leaf in leaves(formula):
@@ -119,7 +119,7 @@ def _clauses(ruleset: Ruleset, finding: Finding) -> Iterator[Step]:
     from sleec_runtime.model import obligation_text
 
     for label, number in finding.clauses:
-        clause = list(ruleset.by_label[label].clauses())[number]
-        name = f"hedge {number} of {label}" if number else f"the default of {label}"
-        due = listed(map(obligation_text, clause.obligations)) if clause.obligations else "nothing"
-        yield Step(ruleset.source, clause.span, f"{name}: {due}", {})
+        rule = ruleset.by_label[label]
+        clause = list(rule.clauses())[number]
+        due = quoted(" AND ".join(map(obligation_text, clause.obligations))) if clause.obligations else "nothing"
+        yield Step(ruleset.source, clause.span, f"{clause_name(rule, number)}: {due}", {})

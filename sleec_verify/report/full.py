@@ -1,4 +1,4 @@
-"""For people: each finding with its place in the text, the situation that shows it, and what to do."""
+"""For people: each finding with an excerpt of the text, a situation that shows it, and a suggestion."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @as_text
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
-    """The findings of each ruleset and a line on it; at the end, if there are several, a line on all."""
+    """The findings of each ruleset and a summary line; if there are several rulesets, a summary of all at the end."""
     for outcome in outcomes:
         if isinstance(outcome, UnusableInput):
             yield f"{outcome.path}: {palette('error', 'unusable')}: {error_summary(outcome.error)}"
@@ -42,7 +42,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
 
 
 def finding_lines(finding: Finding, source: Source, palette: Palette) -> Iterator[str]:
-    """One finding, without the blank line after it."""
+    """The lines of one finding, without the blank line after it."""
     place = source.place(finding.span)
     label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
     yield f"{source.path}:{place.line}:{place.column}: {label} {palette('strong', finding.message)}"
@@ -72,7 +72,7 @@ def finding_lines(finding: Finding, source: Source, palette: Palette) -> Iterato
 
 
 def error_lines(error: SleecError, palette: Palette) -> Iterator[str]:
-    """An error of the input, with its places in the text if it has any."""
+    """The lines of an error of the input, with excerpts of the text if it has places."""
     from sleec_runtime.errors import CertificateRefused, LanguageError
 
     if not isinstance(error, LanguageError):
@@ -93,18 +93,18 @@ def error_lines(error: SleecError, palette: Palette) -> Iterator[str]:
 
 def _on(outcome: CheckedRuleset, palette: Palette) -> str:
     ruleset = outcome.ruleset
-    size = f"{counted(len(ruleset.rules), 'rule')}, {counted(outcome.hedges, 'hedge')}"
+    size = f"{counted(len(ruleset.rules), 'rule')}, {counted(outcome.hedges, 'exception')}"
     if outcome.undecided:
         verdict = palette("unknown", f"{_counts([outcome])}, {len(outcome.undecided)} unknown")
     elif outcome.findings:
         verdict = palette(_gravest(outcome), _counts([outcome]))
     else:
         verdict = palette("good", f"{counted(len(outcome.results), 'check')} passed")
-    due = f"; responses without a window are due {_DUE[outcome.untimed]}" if outcome.untimed is not None else ""
+    due = f"; responses without a window: {_DUE[outcome.untimed]}" if outcome.untimed is not None else ""
     return f"{ruleset.source.path}: {verdict} (reading {ruleset.reading}; {size}{due})"
 
 
-_DUE: Mapping[Untimed, str] = {"at": "at once", "eventually": "eventually"}
+_DUE: Mapping[Untimed, str] = {"at": "immediately", "eventually": "eventually"}
 
 
 def _gravest(outcome: CheckedRuleset) -> str:

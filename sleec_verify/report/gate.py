@@ -1,4 +1,4 @@
-"""What `gate` says: on the terminal, as a summary in Markdown for a pull request, and in every other format."""
+"""The output of `gate`: for the terminal, as a Markdown summary for a pull request, and in every other format."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ if TYPE_CHECKING:
     from sleec_verify.report.palette import Palette
 
 MARK = "<!-- written by sleec-verify gate -->"
-"""The first line of every summary: only a file that begins with it is replaced by the next."""
+"""The first line of every summary. `gate` overwrites only files that begin with it."""
 
 MOST = 50
-"""Entries of each list of a summary."""
+"""The most entries of a list in a summary."""
 
 VERDICTS: Mapping[Status, str] = {
     "passed": "passed",
     "blocked": "blocked",
-    "unknown": "not decided",
-    "unusable": "something cannot be read",
+    "unknown": "inconclusive",
+    "unusable": "invalid input",
 }
 _ROLES: Mapping[Status, str] = {"passed": "good", "blocked": "error", "unknown": "unknown", "unusable": "error"}
 
 
 def render(found: GateResult, form: str, palette: Palette) -> Iterator[str]:
-    """All that was found, in one of the formats of `check`."""
+    """All results, in one of the formats of `check`."""
     if form == "full":
         yield from _full(found, palette)
     elif form == "json":
@@ -50,7 +50,7 @@ def render(found: GateResult, form: str, palette: Palette) -> Iterator[str]:
 
 
 def verdict(found: GateResult, palette: Palette) -> str:
-    """The line on all."""
+    """The summary line."""
     return f"{palette(_ROLES[found.status], VERDICTS[found.status])}: {_in_short(found)}"
 
 
@@ -85,12 +85,12 @@ def _full(found: GateResult, palette: Palette) -> Iterator[str]:
     yield from (f"{palette('note', 'changes')}: {_line(block)}" for block in found.tolerated)
     if found.stale:
         word = "entry of the baseline is" if found.stale == 1 else "entries of the baseline are"
-        yield f"{palette('note', 'note')}: {found.stale} {word} found no more; renew it with --write-baseline"
+        yield f"{palette('note', 'note')}: {found.stale} {word} obsolete; update the baseline with --write-baseline"
     yield verdict(found, palette)
 
 
 def _errors(found: GateResult) -> list[tuple[str, SleecError]]:
-    """What could not be used, with its path."""
+    """The errors, each with its path."""
     errors = [(one.path, error) for one in found.examined for error in one.errors]
     return [*errors, *((one.target.code, one.error) for one in found.conformed if one.error is not None)]
 
@@ -106,27 +106,27 @@ def _what(block: Block) -> str:
 def _set_aside(one: RulesetExamination, palette: Palette) -> Iterator[str]:
     for finding, suppression in one.allowed:
         message = f"{finding.message}{in_domains(finding.domains)}"
-        what = f"{finding.code} {message}, because {suppression.reason}"
+        what = f"{finding.code} {message} (reason: {suppression.reason})"
         yield f"{one.path}: {palette('faint', 'allowed')}: {what}"
     if one.known:
-        yield f"{one.path}: {palette('faint', 'baseline')}: {counted(len(one.known), 'finding')} that the baseline has"
+        yield f"{one.path}: {palette('faint', 'baseline')}: {counted(len(one.known), 'known finding')}"
     if one.certificate is not None and not isinstance(one.certificate, str):
         from sleec_verify.report.certificate import covered
 
-        yield f"{one.path}: {palette('faint', 'certificate')}: it holds ({covered(one.certificate.whole)})"
+        yield f"{one.path}: {palette('faint', 'certificate')}: valid ({covered(one.certificate.whole)})"
     for unused in one.unused:
-        what = f"line {one.line(unused.span)} allows {unused.allowed}, and there is no such finding"
+        what = f"line {one.line(unused.span)} allows {unused.allowed}, but there is no such finding"
         yield f"{one.path}: {palette('warning', 'unused suppression')}: {what}"
 
 
 def _in_short(found: GateResult) -> str:
-    parts = [f"{counted(len(found.examined), 'ruleset')} examined, {found.unchanged} the same as in {found.base}"]
+    parts = [f"{counted(len(found.examined), 'ruleset')} examined, {found.unchanged} unchanged since {found.base}"]
     if found.blocks:
         parts.append(f"{counted(len(found.blocks), 'reason')} to block")
     if found.unknown:
-        parts.append(f"{len(found.unknown)} unknown")
+        parts.append(f"{len(found.unknown)} inconclusive")
     if found.tolerated:
-        parts.append(f"{counted(len(found.tolerated), 'change')} of the policy")
+        parts.append(counted(len(found.tolerated), "policy change"))
     return "; ".join(parts)
 
 
@@ -134,7 +134,7 @@ def _in_short(found: GateResult) -> str:
 
 
 def markdown(found: GateResult) -> str:
-    """The summary. Names and messages are escaped, so that none of them is taken for Markdown or HTML."""
+    """The summary. Names and messages are escaped, so that they are not interpreted as Markdown or HTML."""
     return "\n".join(_markdown(found)) + "\n"
 
 
@@ -144,9 +144,9 @@ def _markdown(found: GateResult) -> Iterator[str]:
     yield ""
     yield f"Compared with {_code(found.base)}: {_plain(_in_short(found))}."
     lists = (
-        ("What blocks", found.blocks),
-        ("What is not decided", found.unknown),
-        ("What changes in the policy", found.tolerated),
+        ("Reasons to block", found.blocks),
+        ("Inconclusive checks", found.unknown),
+        ("Policy changes", found.tolerated),
     )
     for title, blocks in lists:
         if blocks:
@@ -154,7 +154,7 @@ def _markdown(found: GateResult) -> Iterator[str]:
             lines = [f"- **{block.policy}**, {_code(block.where)}: {_plain(_what(block))}" for block in blocks]
             yield from _cut(lines, "reason")
     if found.unusable:
-        yield from ("", "### What cannot be read", "")
+        yield from ("", "### Unreadable files", "")
         yield from (f"- {_code(path)}: {_plain(str(error).splitlines()[0])}" for path, error in _errors(found))
     if found.examined:
         yield from ("", "| ruleset | change | findings |", "| --- | --- | --- |")
@@ -164,13 +164,13 @@ def _markdown(found: GateResult) -> Iterator[str]:
         if one.difference is not None and (one.difference.changes or one.difference.conflicts):
             changes = list(_changes(one.difference))
             if told < MOST:
-                yield from ("", f"### What changes in {_code(one.path)}", "")
+                yield from ("", f"### Changes in {_code(one.path)}", "")
                 yield from _cut(changes, "change")
             told += len(changes)
 
 
 def _cut(lines: Sequence[str], noun: str, last: str = "- {}") -> Iterator[str]:
-    """The first of many: a summary is to be read, and services cut off, or refuse, what is too long."""
+    """At most `MOST` lines: services cut off or reject long summaries."""
     yield from lines[:MOST]
     if len(lines) > MOST:
         yield last.format(f"… and {counted(len(lines) - MOST, f'more {noun}')}: see the log")
@@ -185,7 +185,7 @@ def _row(one: RulesetExamination) -> str:
     counts += [f"{len(one.known)} in the baseline"] if one.known else []
     counts += [f"{counted(len(one.unused), 'unused suppression')}"] if one.unused else []
     if one.coverage is not None and one.coverage.why is None:
-        counts.append(f"{one.coverage.reached} of {one.coverage.clauses} clauses reached")
+        counts.append(f"{one.coverage.reached} of {one.coverage.clauses} clauses covered")
     moved = "" if one.was is None else f", was {_code(one.was)}"
     return f"| {_code(one.path)}{moved} | {_plain(change)} | {', '.join(counts)} |"
 
@@ -219,6 +219,6 @@ def _plain(text: str) -> str:
 
 
 def _code(text: str) -> str:
-    """As code, which nothing in it can end or turn into a cell of a table."""
+    """`text` as inline code. Characters that would end the code or a table cell are replaced."""
     cleaned = escaped(text).replace("`", "'").replace("|", "¦")
     return f"`{cleaned}`"

@@ -1,4 +1,4 @@
-"""What `gate` says, for programs: one JSON object (docs/schema/gate.schema.json)."""
+"""The output of `gate` for programs: one JSON object (docs/schema/gate.schema.json)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def render(found: GateResult, palette: Palette) -> Iterator[str]:
-    """Everything that was found, as one object."""
+    """All results as one object."""
     del palette  # a program reads this
     sources = {path: ruleset.source for _, ruleset, _ in found.asked for path in [found.paths[ruleset.source.path]]}
     sources |= {one.path: one.ruleset.source for one in found.examined if one.ruleset is not None}

@@ -1,4 +1,4 @@
-"""What `gate` found, as outcomes of checks, so that every format can tell them as it tells those of `check`."""
+"""The results of `gate` as outcomes of checks, so that every format of `check` can show them."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ if TYPE_CHECKING:
     from sleec_verify.changes.gate.result import GateResult, RulesetExamination, TargetConformance
 
 _OWN = ("findings", "dead-hedges")
-"""Policies whose reasons to block are findings, which are there already."""
+"""Policies that block because of findings, which are outcomes already."""
 
 
 def outcomes(found: GateResult) -> list[Outcome]:
-    """An outcome for each file of settings that changed, for each ruleset that was examined or that an assertion was
-    asked of, and for each target.
+    """An outcome for each changed settings file, for each ruleset that was examined or has an assertion, and for each
+    target.
 
-    Findings that are allowed, or that the baseline has, are left out. A reason to block that is no finding of a check
-    is told as one of a check that is called as the policy is; so is what the policy allows to change.
+    Findings that are allowed or in the baseline are omitted. A reason to block that is not the finding of a check
+    becomes a finding of a check with the name of the policy. The same holds for changes that the policy allows.
     """
     made: list[Outcome] = [*_of_settings(found)]
     blocks = _by_path(found)
@@ -45,7 +45,7 @@ def outcomes(found: GateResult) -> list[Outcome]:
 
 
 def _of_settings(found: GateResult) -> Iterator[Outcome]:
-    """What changed in each file of settings."""
+    """The changes in each settings file."""
     grouped: dict[Source, list[Finding]] = {}
     for change in found.changes:
         if change.policy == POLICY_CHANGES and change.finding is not None and change.finding.source is not None:
@@ -56,7 +56,7 @@ def _of_settings(found: GateResult) -> Iterator[Outcome]:
 
 
 def _by_path(found: GateResult) -> dict[str, list[CheckResult]]:
-    """What is shown of rulesets besides the findings of checks, and assertions that are not decided."""
+    """The results of policies and undecided assertions, by ruleset."""
     grouped: dict[str, dict[str, list[Finding]]] = {}
     for block in (*found.blocks, *found.tolerated):
         if block.policy not in (*_OWN, POLICY_CHANGES) and block.finding is not None:
@@ -73,7 +73,7 @@ def _by_path(found: GateResult) -> dict[str, list[CheckResult]]:
 
 
 def _counted(verdict: Verdict, counting: Iterable[Finding]) -> Verdict:
-    """A verdict without the findings that do not count."""
+    """A verdict with only the findings in `counting`."""
     if isinstance(verdict, Proved):
         return verdict
     wanted = {id(finding) for finding in counting}
@@ -84,7 +84,7 @@ def _counted(verdict: Verdict, counting: Iterable[Finding]) -> Verdict:
 
 
 def _of_policies(one: RulesetExamination) -> Iterator[CheckResult]:
-    """What the comparison and the cases leave open."""
+    """The undecided parts of the comparison and of the coverage."""
     for what, why in () if one.difference is None else one.difference.undecided:
         yield CheckResult("comparison", Unknown(f"{what}: {why}"), 0.0)
     if one.coverage is not None and one.coverage.why is not None:
@@ -92,7 +92,7 @@ def _of_policies(one: RulesetExamination) -> Iterator[CheckResult]:
 
 
 def _of_path(error: SleecError, one: RulesetExamination) -> SleecError:
-    """An error as one of the file as it is now: of what is wrong in the base, the places are places of another text."""
+    """An error without places if it is about the base, whose text is another one."""
     from sleec_runtime.errors import LanguageError, SleecError
 
     if not isinstance(error, LanguageError) or one.ruleset is None:
@@ -101,7 +101,7 @@ def _of_path(error: SleecError, one: RulesetExamination) -> SleecError:
 
 
 def _gone(one: RulesetExamination) -> Ruleset | None:
-    """No rules, under the path at which there were some."""
+    """An empty ruleset for a file that the change removes."""
     if one.difference is None:
         return None
     return replace(one.difference.new, source=replace(one.difference.new.source, path=one.path))

@@ -1,4 +1,4 @@
-"""For GitHub Actions: workflow commands, which it shows as annotations beside the lines of a pull request."""
+"""For GitHub Actions: workflow commands, which GitHub shows as annotations of a pull request."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ _COMMANDS: Mapping[Severity, str] = {"error": "error", "warning": "warning", "no
 
 
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
-    """A command for each finding, for each check without a verdict (as an error: it is not fine) and for each problem
-    of a text that cannot be read; then a line on all."""
+    """A command for each finding, for each inconclusive check (as an error) and for each problem of a text that cannot
+    be read; then a summary line."""
     del palette  # a program reads this
     for outcome in outcomes:
         if not isinstance(outcome, CheckedRuleset):
-            title = "internal error" if isinstance(outcome.error, InternalError) else "not a usable ruleset"
+            title = "internal error" if isinstance(outcome.error, InternalError) else "unusable ruleset"
             for path, message, place in troubles(outcome):
                 yield _annotation("error", path, place, title, message)
             continue
@@ -37,7 +37,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
         for name, why in outcome.unlisted:
             yield _annotation("notice", path, None, name, why)
         for name, why in outcome.undecided:
-            yield _annotation("error", path, None, f"unknown: {name}", f"{name} is unknown: {why}")
+            yield _annotation("error", path, None, f"unknown: {name}", f"{name} is inconclusive: {why}")
     yield f"{in_short(outcomes)}\n"
 
 
@@ -53,7 +53,7 @@ def _annotation(command: str, path: str, place: Place | None, title: str, messag
 
 
 def _data(text: str) -> str:
-    """`text` as the message of a command: no line break may end it, and start another command."""
+    """`text` as the message of a command, with escaped line breaks: a line break would start another command."""
     return escaped(text, "\r\n").replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
 
 

@@ -1,4 +1,4 @@
-"""For GitLab: a code quality report, which it shows in merge requests, new findings apart from old ones."""
+"""For GitLab: a code quality report. GitLab shows it in merge requests and separates new findings from old ones."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SEVERITIES: Mapping[Severity, str] = {"error": "critical", "warning": "major", 
 
 
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
-    """A list of findings. A check without a verdict is ``critical``, a text that cannot be read a ``blocker``."""
+    """A list of findings. An inconclusive check is ``critical``; a text that cannot be read is a ``blocker``."""
     del palette  # a program reads this
     seen: dict[str, int] = {}
     issues: list[Json] = []
@@ -36,13 +36,13 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
         for name, why in outcome.unlisted:
             issues.append(_issue(name, "info", path, None, why, _hash("unlisted", path, name)))
         for name, why in outcome.undecided:
-            text = f"{name} is unknown: {why}"
+            text = f"{name} is inconclusive: {why}"
             issues.append(_issue(name, "critical", path, None, text, _hash("unknown", path, name)))
     yield dump(issues)
 
 
 def _issue(check: str, severity: str, path: str, place: Place | None, text: str, fingerprint: str) -> Json:
-    # A place is asked for; what is about a whole file stands at its first line.
+    # The format requires a line: issues about a whole file are at its first line.
     lines: dict[str, Json] = {"begin": 1} if place is None else {"begin": place.line, "end": place.end_line}
     return {
         "description": text,

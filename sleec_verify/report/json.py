@@ -1,4 +1,4 @@
-"""For programs: everything, as one JSON object."""
+"""For programs: all results as one JSON object (docs/schema/check.schema.json)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
-    """The object of the design: tool, rulesets, summary."""
+    """One object with the keys ``tool``, ``rulesets`` and ``summary``."""
     del palette  # a program reads this
     counts = tally(finding for outcome in checked(outcomes) for finding in outcome.findings)
     yield dump(

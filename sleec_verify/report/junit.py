@@ -1,7 +1,7 @@
 """For build servers: JUnit XML, with a test suite for each ruleset and a test case for each check.
 
-A check that is refuted is a failure, whatever the severity of its findings; one without a verdict is an error, and so
-is a text that cannot be read. Only what is proved passes.
+A refuted check is a failure, whatever the severity of its findings. An inconclusive check is an error, and so is a text
+that cannot be read. Only proved checks pass.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ if TYPE_CHECKING:
 _NOT_IN_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 _CONTROLS = {ord(c): f"&#{ord(c)};" for c in "\t\r\x7f"}
-"""What ElementTree leaves as it is in a text: a carriage return would read as a line feed."""
+"""Controls that ElementTree does not escape. A parser would read a carriage return as a line feed."""
 
 
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
-    """The whole document, in ASCII, so that it is the same in every encoding."""
+    """The document, in ASCII, so that it is the same in every encoding."""
     del palette  # a program reads this
     root = Element("testsuites", name="sleec-verify")
     for outcome in outcomes:
@@ -53,7 +53,7 @@ def _suite(root: Element, outcome: CheckedRuleset) -> None:
         case = _case(suite, path, result.name, result.seconds)
         text = _sayable("\n\n".join(_words(finding, finding.source or source) for finding in _sorted(result)))
         if isinstance(result.verdict, Unknown):
-            message = _sayable(f"unknown: {result.verdict.why}")
+            message = _sayable(f"inconclusive: {result.verdict.why}")
             SubElement(case, "error", message=message, type="unknown").text = "\n\n".join(filter(None, (message, text)))
         elif isinstance(result.verdict, Refuted):
             gravest = min((finding.severity for finding in result.findings), key=SEVERITIES.index)
@@ -103,5 +103,5 @@ def _words(finding: Finding, source: Source) -> str:
 
 
 def _sayable(text: str) -> str:
-    """`text` with an escape such as ``\\x1b`` for each character that XML 1.0 has no way to write."""
+    """`text` with an escape such as ``\\x1b`` for each character that XML 1.0 does not allow."""
     return _NOT_IN_XML.sub(lambda found: escaped(found[0]), text)

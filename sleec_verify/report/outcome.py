@@ -1,4 +1,4 @@
-"""What came of each text of rules that was asked about: it was checked, or it could not be read."""
+"""The outcome for each file: its checks, or the error why it cannot be read."""
 
 from __future__ import annotations
 
@@ -17,9 +17,8 @@ if TYPE_CHECKING:
 
 
 class CheckedRuleset(NamedTuple):
-    """A ruleset and the results of the checks, in their order. `untimed` is what a response without a window was taken
-    to mean; None where the rules are about situations, which know no later. `settings` is whether it is a file of
-    settings that was looked at, and the ruleset only has its path."""
+    """A ruleset and the results of its checks, in order. `untimed` is the meaning of a response without a window; None
+    for rules without time. `settings`: it is a settings file, and the ruleset only holds its path."""
 
     ruleset: Ruleset
     results: tuple[CheckResult, ...]
@@ -28,28 +27,28 @@ class CheckedRuleset(NamedTuple):
 
     @property
     def findings(self) -> list[Finding]:
-        """All findings, in the order of the texts, that of the rules first; at one place, the gravest first."""
+        """All findings, sorted by file, place, severity (highest first) and code."""
         found = (finding for result in self.results for finding in result.findings)
         return sorted(found, key=lambda f: (_path(f), f.span, SEVERITIES.index(f.severity), f.code))
 
     @property
     def deduplicated(self) -> list[Finding]:
-        """The findings as people are told of them: once, where two checks find the same."""
+        """The findings without duplicates, for people."""
         return deduplicate(self.findings)
 
     @property
     def undecided(self) -> list[tuple[str, str]]:
-        """The checks without a verdict, each with the reason."""
+        """The inconclusive checks, each with the reason."""
         return [(r.name, r.verdict.why) for r in self.results if isinstance(r.verdict, Unknown)]
 
     @property
     def unlisted(self) -> list[tuple[str, str]]:
-        """The checks that found more than they list, each with a word on it."""
+        """The checks that list only a part of their findings, each with a message."""
         return [(r.name, r.reason) for r in self.results if r.reason is not None]
 
     @property
     def hedges(self) -> int:
-        """How many hedge clauses the rules have."""
+        """The number of hedge clauses in the rules."""
         return sum(sum(1 for _ in rule.clauses()) - 1 for rule in self.ruleset.rules)
 
 
@@ -58,7 +57,7 @@ def _path(finding: Finding) -> str:
 
 
 class UnusableInput(NamedTuple):
-    """A text that is not a ruleset, or cannot be read."""
+    """A file that is not a ruleset, or cannot be read."""
 
     path: str
     error: SleecError
@@ -73,7 +72,7 @@ def checked(outcomes: Sequence[Outcome]) -> Iterator[CheckedRuleset]:
 
 
 def tally(findings: Iterable[Finding]) -> dict[Severity, int]:
-    """How many findings there are of each severity."""
+    """The number of findings of each severity."""
     counts: dict[Severity, int] = dict.fromkeys(SEVERITIES, 0)
     for finding in findings:
         counts[finding.severity] += 1
@@ -81,12 +80,12 @@ def tally(findings: Iterable[Finding]) -> dict[Severity, int]:
 
 
 def deduplicated_findings(outcomes: Sequence[Outcome]) -> list[Finding]:
-    """All that people are told."""
+    """All findings without duplicates, for people."""
     return [finding for outcome in checked(outcomes) for finding in outcome.deduplicated]
 
 
 def in_short(outcomes: Sequence[Outcome]) -> str:
-    """``2 rulesets: 1 error, no warnings, no notes, 1 unknown, 1 unusable``; the last two where there are any."""
+    """``2 rulesets: 1 error, no warnings, no notes, 1 unknown, 1 unusable``; the last two only if they are not 0."""
     parts = [counted(number, severity) for severity, number in tally(deduplicated_findings(outcomes)).items()]
     undecided = sum(len(outcome.undecided) for outcome in checked(outcomes))
     unusable = sum(isinstance(outcome, UnusableInput) for outcome in outcomes)

@@ -1,4 +1,4 @@
-"""Colours, where there is a terminal to show them."""
+"""Colours for terminals."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ _CODES = {
 
 
 _MARK = os.urandom(8).hex()
-"""What stands for the start of a colour until its line is escaped. No text of a user can hold it."""
+"""A placeholder for the start of a colour until the line is escaped. It is random, so no user text contains it."""
 
 
 def painted(line: str) -> str:
-    """`line` with the colours of its palette as a terminal wants them."""
+    """`line` with terminal colours in place of the placeholders."""
     return line.replace(_MARK, "\033[") if _MARK in line else line
 
 
 class Palette:
-    """Paints words by what they are, or leaves them plain."""
+    """Colours words by their role, or leaves them plain."""
 
     def __init__(self, coloured: bool) -> None:
         self._coloured = coloured
@@ -39,7 +39,7 @@ class Palette:
         return cls(wanted and stream.isatty())
 
     def __call__(self, role: str, text: str) -> str:
-        """`text` in the colour of `role`: a severity, or one of good, strong, faint, help, unknown. To be `painted`."""
+        """`text` in the colour of `role` (a severity, or good, strong, faint, help, unknown), for `painted`."""
         return f"{_MARK}{_CODES[role]}m{text}{_MARK}0m" if self._coloured and text else text
 
 

@@ -1,4 +1,4 @@
-"""What the renderers for other programs share: paths, findings and errors as plain words, fingerprints."""
+"""Shared parts of the renderers for other programs: paths, fingerprints, findings and errors in words."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Located(NamedTuple):
-    """A finding with the text that it is about and its fingerprint."""
+    """A finding with its source and its fingerprint."""
 
     finding: Finding
     source: Source
@@ -25,8 +25,8 @@ class Located(NamedTuple):
 def located(outcome: CheckedRuleset, seen: dict[str, int]) -> Iterator[Located]:
     """The findings of an outcome in the order of the text.
 
-    The fingerprint is a hash of what is found in which words of which file, so that it stays where lines move. Where
-    that does not tell two findings apart, their order does; `seen` counts, over all the outcomes of a report.
+    The fingerprint is a hash of the code, the path and the marked text, so it does not change if lines move. Equal
+    findings are numbered; `seen` counts them over all outcomes of a report.
     """
     from hashlib import sha256
 
@@ -48,8 +48,8 @@ def located(outcome: CheckedRuleset, seen: dict[str, int]) -> Iterator[Located]:
 
 
 def in_project(path: str) -> str:
-    """A path as services name the files of a project: from the working folder, with slashes, without a leading ``./``.
-    One outside of that folder stays absolute."""
+    """A path as CI services expect it: relative to the working folder, with slashes, without a leading ``./``. A path
+    outside that folder stays absolute."""
     path = os.path.normpath(path)
     if os.path.isabs(path):
         inside = os.path.relpath(path)
@@ -58,7 +58,7 @@ def in_project(path: str) -> str:
 
 
 def described(finding: Finding) -> Iterator[str]:
-    """What goes with a finding's message: the situation or timeline, the domains, the note, the help; a line each."""
+    """The details of a finding, one per line: the situation or timeline, the domains, the note, the help."""
     if finding.timeline is not None:
         from sleec_verify.report.timeline import in_words
 
@@ -80,7 +80,7 @@ def described(finding: Finding) -> Iterator[str]:
 
 
 class Trouble(NamedTuple):
-    """One thing that keeps a text from being a ruleset, and where, if that is some place in it."""
+    """One problem of a file, with its place if it has one."""
 
     path: str
     message: str
@@ -88,7 +88,7 @@ class Trouble(NamedTuple):
 
 
 def troubles(unusable: UnusableInput) -> Iterator[Trouble]:
-    """What is wrong with a text that cannot be used, each with what to try."""
+    """The problems of an unusable file, each with its hint."""
     from sleec_runtime.errors import LanguageError
 
     error = unusable.error

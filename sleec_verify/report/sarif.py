@@ -1,7 +1,7 @@
-"""For code scanning: SARIF 2.1.0 (OASIS), with the way to each finding as a code flow.
+"""For code scanning: SARIF 2.1.0 (OASIS), with the steps to each finding as a code flow.
 
-A check without a verdict is a result of the kind ``open``, and a notification besides; a text that cannot be read is a
-notification, and the run is then no successful one.
+An inconclusive check is a result of kind ``open`` and a notification. A text that cannot be read is a notification.
+In both cases the run is not successful.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
 
 
 def _descriptors(codes: set[str], undecided: set[str]) -> list[_Object]:
-    """What the results are about: the kinds of finding, and the checks without a verdict."""
+    """The descriptors of the results: kinds of finding, and inconclusive checks."""
     if not codes and not undecided:
         return []
     from sleec_verify.report.catalogue import by_code, questions
@@ -69,7 +69,7 @@ def _descriptors(codes: set[str], undecided: set[str]) -> list[_Object]:
             "name": "".join(word.capitalize() for word in entry.check.split("-")),
             "shortDescription": _message(entry.kind.title),
             "fullDescription": _message(entry.kind.explanation),
-            "help": _message(f"{entry.kind.explanation}\n\nMore: sleec-verify rules {code}"),
+            "help": _message(f"{entry.kind.explanation}\n\nHow to fix it: {entry.kind.mend}"),
             "defaultConfiguration": {"level": _LEVELS[entry.kind.severity]},
             "properties": {"tags": [entry.check]},
         }
@@ -78,7 +78,7 @@ def _descriptors(codes: set[str], undecided: set[str]) -> list[_Object]:
     ]
     asked = dict(questions())
     others = codes - by_code().keys()
-    if others or undecided - asked.keys():  # what only a gate asks for
+    if others or undecided - asked.keys():  # policies of the gate
         from sleec_verify.changes.gate.policy import POLICIES
 
         asked |= POLICIES
@@ -124,13 +124,13 @@ def _result(ruleset: Ruleset, one: Located, index: Mapping[str, int]) -> _Object
 
 
 def _open(source: Source, name: str, why: str, index: Mapping[str, int]) -> _Object:
-    """A question that was not decided. The standard has no level for it; the notification has one."""
+    """The result of an inconclusive check. The standard requires the level ``none``; the notification has a level."""
     return {
         "ruleId": name,
         "ruleIndex": index[name],
         "kind": "open",
         "level": "none",
-        "message": _message(f"{name} is unknown: {why}"),
+        "message": _message(f"{name} is inconclusive: {why}"),
         "locations": [{"physicalLocation": {"artifactLocation": {"uri": _uri(source.path)}}}],
     }
 
@@ -147,7 +147,7 @@ def _invocation(outcomes: Sequence[Outcome]) -> _Object:
         deduplicated += [_notification("note", path, f"{name}: {why}", None) for name, why in outcome.unlisted]
         for name, why in outcome.undecided:
             failed = True
-            deduplicated.append(_notification("error", path, f"{name} is unknown: {why}", None))
+            deduplicated.append(_notification("error", path, f"{name} is inconclusive: {why}", None))
     return {"executionSuccessful": not failed, "toolExecutionNotifications": deduplicated}
 
 
@@ -181,13 +181,13 @@ def _region(place: Place) -> _Object:
 
 
 def _uri(path: str) -> str:
-    """A file's path as a URI: of its own if it is absolute, else from the folder in which the command ran."""
+    """The URI of a path: absolute, or relative to the folder in which the command ran."""
     path = in_project(path)
-    # The bytes of the name, whatever they mean: a name need not be UTF-8.
+    # A file name is bytes, not necessarily UTF-8.
     quoted = quote(os.fsencode(path))
     return f"file://{quoted}" if os.path.isabs(path) else quoted
 
 
 def _message(text: str) -> _Object:
-    """A message object; braces, which stand for arguments there, are doubled (SARIF 2.1.0, 3.11.5)."""
+    """A message object. Braces mark arguments there, so they are doubled (SARIF 2.1.0, 3.11.5)."""
     return {"text": text.replace("{", "{{").replace("}", "}}")}

@@ -1,4 +1,4 @@
-"""Schedules: what is due until when, as lines of text and as a small chart."""
+"""Schedules: obligations and their windows, as lines of text and as a small chart."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def in_words(entries: Sequence[ScheduledResponse]) -> Iterator[str]:
-    """A line for each entry, those after an event below it, in columns."""
+    """A line with columns for each entry. The entries that follow an event are below a line for that event."""
     groups: dict[str | None, list[ScheduledResponse]] = {}
     for entry in entries:
         groups.setdefault(entry.after, []).append(entry)
@@ -23,28 +23,29 @@ def in_words(entries: Sequence[ScheduledResponse]) -> Iterator[str]:
     time = max(len(_when(entry)) for entry in entries)
     for after, group in groups.items():
         if after is not None:
-            yield f"once {quoted(after)} is done, counted from then:"
+            yield f"after {quoted(after)} (times count from then):"
         for entry in group:
             indent = "  " if after is not None else ""
             yield f"{indent}{_what(entry).ljust(name)}  {_when(entry).ljust(time)}  {_by(entry)}"
 
 
 def _what(entry: ScheduledResponse) -> str:
-    name = f"not {quoted(entry.event)}" if entry.negated else quoted(entry.event)
+    name = f"not {entry.event}" if entry.negated else entry.event
     return name if entry.instead_of is None else f"or {name}"
 
 
 def _when(entry: ScheduledResponse) -> str:
     if entry.unknown is not None:
-        return f"within {entry.unknown}, of which the length is not given"
-    assert entry.start is not None, "what is known has a beginning"
+        return f"within {entry.unknown}, whose value is not given"
+    assert entry.start is not None, "a known window has a start"
     if entry.end is None:
         start = f" from {duration(entry.start)} on" if entry.start else ""
-        return (f"never{start}" if start else "never") if entry.negated else f"at some time{start}"
+        return f"always{start}" if entry.negated else f"eventually{start}"
     if entry.end == entry.start:
-        return "at once" if entry.start == 0 else f"after {duration(entry.start)}"
-    begins = f"from {duration(entry.start)} " if entry.start else ""
-    return f"{begins}until {duration(entry.end)}"
+        return "immediately" if entry.start == 0 else f"after {duration(entry.start)}"
+    if entry.start:
+        return f"from {duration(entry.start)} to {duration(entry.end)}"
+    return f"{'for' if entry.negated else 'within'} {duration(entry.end)}"
 
 
 def _by(entry: ScheduledResponse) -> str:
@@ -55,11 +56,11 @@ def _by(entry: ScheduledResponse) -> str:
         return f"{why}, if {quoted(entry.instead_of)} was not done in time"
     if entry.overdue:
         return f"{why}, if {quoted(entry.instead_of.removeprefix('NOT '))} was done"
-    return f"{why}, in place of {quoted(entry.instead_of)}"
+    return f"{why}, instead of {quoted(entry.instead_of)}"
 
 
 def chart(entries: Sequence[ScheduledResponse], context: Context) -> list[str]:
-    """The windows that count from the situation, with a column for each time at which one opens or closes."""
+    """The windows that start with the situation, with a column for each time at which one opens or closes."""
     from sleec_verify.results.timeline import Due, Moment, Timeline
 
     now = [entry for entry in entries if entry.after is None and entry.start is not None]
@@ -77,7 +78,8 @@ def chart(entries: Sequence[ScheduledResponse], context: Context) -> list[str]:
 
 
 def as_json(entries: Sequence[ScheduledResponse]) -> Json:
-    """Times are seconds from the situation, or from when `after` is done; `until` null: at some time."""
+    """The schedule for programs. Times are seconds from the situation, or from the event `after`. If `until` is null,
+    the window has no end."""
     return [
         {
             "obligation": entry.event,

@@ -1,11 +1,10 @@
 """Timelines: in words, and as a small chart of text.
 
-The chart has a column for each moment, and for each time at which something falls due in place of what was not kept;
-and a row for each event: ``*`` where it occurs, ``-`` while it is due, ``x`` while it is forbidden, ``!`` while it is
-forbidden and is due, or occurs. ``>``: and so on, past the last column.
+The chart has a column for each moment, and for each time at which an alternative becomes due. It has a row for each
+event: ``*`` where it occurs, ``-`` while it is due, ``x`` while it is forbidden, ``!`` where it is forbidden and due,
+or forbidden and occurs. ``>`` means that this continues after the last column.
 
-Where the same happens second by second, or every so many seconds, only the first and the last of these moments are
-told.
+If the same happens at regular intervals, only the first and the last of these moments are shown.
 """
 
 from __future__ import annotations
@@ -34,12 +33,11 @@ def duration(seconds: int) -> str:
 
 
 FEW_ALIKE = 3
-"""Moments alike, as far from each other, that are told one by one."""
+"""The most equal moments, at equal distances, that are shown one by one."""
 
 
 def _alike(timeline: Timeline) -> list[list[Moment]]:
-    """The moments, together where the same happens each second, or every so many seconds; the one that is now stands
-    alone."""
+    """The moments, in groups of equal moments at equal distances. The moment `now` is a group of its own."""
 
     def same(moment: Moment, after: int) -> Moment:
         due = tuple(
@@ -68,13 +66,13 @@ def _alike(timeline: Timeline) -> list[list[Moment]]:
 
 
 def _step(run: Sequence[Moment]) -> int:
-    """How far the moments of a run are from each other."""
+    """The distance between two moments of a run, in seconds."""
     return run[1].time - run[0].time if len(run) > 1 else 0
 
 
 def in_words(timeline: Timeline) -> Iterator[str]:
-    """A line for each moment, or for several that are alike, and one below it for each thing that is due by it; a line
-    for each time at which something falls due in place of what was not kept in time."""
+    """A line for each moment or group of equal moments, with a line below it for each obligation that it creates, and a
+    line for each time at which an alternative becomes due."""
     told: list[tuple[int, str, list[str]]] = []
     late: list[tuple[int, str, str]] = []
     for moment, *others in _alike(timeline):
@@ -82,11 +80,11 @@ def in_words(timeline: Timeline) -> Iterator[str]:
         told.append((moment.time, _up_to(moment.time, lasts, step) + _happens(moment), []))
         for due in moment.due:
             if due.overdue and due.start > moment.time:
-                late.append((due.start, _up_to(due.start, lasts, step), f"in place of {due.instead_of}, {says(due)}"))
+                late.append((due.start, _up_to(due.start, lasts, step), _instead(due)))
             elif due.instead_of is None:
                 told[-1][2].append(f"  {says(due)}")
     for time, up_to, owed in sorted(late, key=lambda one: one[0]):
-        # What falls due at a moment that is told of is told there.
+        # At a moment that has a line already, it is a line below that one.
         below = next((lines for at, _, lines in told if at == time and not up_to), None)
         if below is None:
             told.append((time, up_to + owed, []))
@@ -98,19 +96,23 @@ def in_words(timeline: Timeline) -> Iterator[str]:
         yield f"{when}, {happens}"
         yield from dict.fromkeys(below)
     if timeline.now is not None:
-        yield "and then there is no way to keep every rule"
+        yield "after this, it is impossible to follow every rule"
 
 
 def _up_to(time: int, lasts: int, step: int) -> str:
-    every = "each second" if step == 1 else f"every {duration(step)}"
+    every = "every second" if step == 1 else f"every {duration(step)}"
     return f"and {every} up to {duration(time + lasts)}, " if lasts else ""
 
 
 def says(due: Due) -> str:
-    """What a rule, relation or constraint calls for or forbids."""
-    if due.negated:
-        return f"{due.rule} forbids {due.words.removeprefix('NOT ')}"
-    return f"{due.rule} calls for {due.words}"
+    """``rule `a` requires `E within 5 minutes` ``, or ``forbids``."""
+    verb = "forbids" if due.negated else "requires"
+    return f"rule {quoted(due.rule)} {verb} {quoted(due.words.removeprefix('NOT ') if due.negated else due.words)}"
+
+
+def _instead(due: Due) -> str:
+    assert due.instead_of is not None, "only an alternative is required instead of something"
+    return f"instead of {quoted(due.instead_of)}, {says(due)}"
 
 
 def _happens(moment: Moment) -> str:
@@ -120,11 +122,11 @@ def _happens(moment: Moment) -> str:
         else "nothing occurs"
     )
     facts = [f"{quoted(name)} is {value_text(moment.conditions[name])}" for name in moment.telling]
-    return f"{events}, with {listed(facts)}" if facts else events
+    return f"{events} while {listed(facts)}" if facts else events
 
 
 def chart_of(timeline: Timeline) -> list[str]:
-    """The moments as columns, the events that occur or are due as rows."""
+    """The chart of a timeline, as lines: moments are columns, events that occur or are due are rows."""
     shown = [moment for run in _alike(timeline) for moment in (run if len(run) == 1 else (run[0], run[-1]))]
     late = {due.start for moment in shown for due in moment.due if due.overdue}
     columns = sorted({*(moment.time for moment in shown), *late})
@@ -150,8 +152,8 @@ def chart_of(timeline: Timeline) -> list[str]:
 def _marks(
     name: str, moments: Sequence[Moment], columns: Sequence[int], demands: Sequence[Due]
 ) -> list[tuple[str, str]]:
-    """For each column the mark of an event at its time, and those of the time up to the next column, one for each
-    stretch in which nothing changes. What comes after all demands is not among those of the last column."""
+    """For each column, the mark of an event at its time, and the marks of the time up to the next column, one for each
+    interval without a change. In the last column, these end with the last demand."""
     times = [moment.time for moment in moments if name in moment.events]
     mine = [_while_open(due, times) for due in demands if due.event == name]
 
@@ -176,13 +178,13 @@ def _marks(
 
 
 def _while_open(due: Due, times: Sequence[int]) -> Due:
-    """The demand for as long as it is one: what is called for is due until it is done, what is forbidden stays so."""
+    """The demand with the end of its validity: an obligation ends when it is met, a prohibition with its window."""
     done = [time for time in times if due.start <= time and (due.end is None or time <= due.end)]
     return replace(due, end=min(done)) if done and not due.negated else due
 
 
 def _spread(marks: str, width: int) -> str:
-    """The marks over so many characters, each of them about as many times."""
+    """The marks stretched to `width` characters, each repeated about equally often."""
     return "".join(marks[place * len(marks) // width] for place in range(width)) if marks else " " * width
 
 

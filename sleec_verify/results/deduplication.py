@@ -26,7 +26,7 @@ def deduplicate(findings: Iterable[Finding]) -> list[Finding]:
         if finding.check in _ALSO and _of(finding, _ALSO[finding.check]) in dead
     }
     return [
-        replace(finding, help=f"{finding.help}: nothing changes without it")
+        replace(finding, help=f"{finding.help}; the rules mean the same without it")
         if finding.check == "dead-hedge" and _of(finding, finding.check) in removable
         else finding
         for finding in found

@@ -21,18 +21,18 @@ Json = Union[None, bool, int, float, str, "list[Json]", "dict[str, Json]"]
 
 
 def dump(value: Json) -> str:
-    """`value` as text with a line break at its end; printable ASCII, which no stream can fail to write and nothing that
-    shows it obeys."""
+    """`value` as text with a line break at its end. The text is printable ASCII, so that every stream can write it and
+    no terminal or service interprets it."""
     text = json.dumps(value, indent=2).replace("\x7f", "\\u007f")
     return without_commands(text, "\\u{:04x}") + "\n"
 
 
 VERDICTS: dict[type, str] = {Proved: "proved", Refuted: "refuted", Unknown: "unknown"}
-"""What a verdict is called where programs read it."""
+"""The names of verdicts in output for programs."""
 
 
 def finding_json(finding: Finding, source: Source) -> dict[str, Json]:
-    """A finding with its places as lines and columns."""
+    """A finding, with places as lines and columns."""
     return {
         "code": finding.code,
         "check": finding.check,
@@ -54,7 +54,7 @@ def finding_json(finding: Finding, source: Source) -> dict[str, Json]:
 
 
 def error_json(error: SleecError) -> Json:
-    """An error of the input: what is wrong, what to try, and each place where."""
+    """An error of the input: message, hint, and each problem with its place."""
     from sleec_runtime.errors import LanguageError
 
     if not isinstance(error, LanguageError):
@@ -72,13 +72,14 @@ def span_json(span: Span, source: Source) -> dict[str, Json]:
 
 
 def witness_json(witness: Witness) -> Json:
-    """A situation: what occurs, what is the case, and, if it matters, what does not occur."""
+    """A situation: its triggers, its conditions, and, if there are any, the triggers that must be absent."""
     absent: dict[str, Json] = {"absent": list(witness.absent)} if witness.absent else {}
     return {"triggers": list(witness.triggers), "conditions": values_json(witness.conditions), **absent}
 
 
 def _timeline(timeline: Timeline) -> Json:
-    """Times are seconds from the first moment; `now` is the moment after which all is open, or null."""
+    """A timeline. Times are seconds from the first moment. `now` is the position of the last moment that is fixed, or
+    null."""
     moments: list[Json] = [
         {
             "time": moment.time,
@@ -88,7 +89,7 @@ def _timeline(timeline: Timeline) -> Json:
                 {
                     "rule": due.rule,
                     "clause": due.clause,
-                    # Kept for programs that read it: relations and constraints stand in `related` of the finding.
+                    # For compatibility: `related` of the finding contains relations and constraints.
                     "law": None,
                     "response": due.words,
                     "event": due.event,
@@ -107,8 +108,8 @@ def _timeline(timeline: Timeline) -> Json:
 
 
 def _strategy(strategy: Strategy) -> Json:
-    """An act of the environment, and then its next one by what the robot does (null: whatever it does). No branches:
-    the robot has no way left. Times are seconds from the first act."""
+    """An act of the environment, with a branch for each response of the robot (null: any response). No branches: every
+    response violates a rule. Times are seconds from the first act."""
     act = strategy.act
     branches: list[Json] = [
         {
@@ -128,7 +129,7 @@ def _strategy(strategy: Strategy) -> Json:
 
 
 def values_json(values: Mapping[str, Value]) -> dict[str, Json]:
-    """Values of conditions and measures; a number that JSON has no exact spelling for is a string such as ``1/3``."""
+    """Values of conditions and measures. A number without an exact JSON form is a string such as ``1/3``."""
     return {name: _value(value) for name, value in values.items()}
 
 

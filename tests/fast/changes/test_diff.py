@@ -232,9 +232,9 @@ def test_the_files_against_a_revision(cli: Cli, repository: Repository) -> None:
     assert ran.code == 1
     assert ran.out.startswith("main:a.sleec -> a.sleec: stricter")
     assert ran.out.endswith(
-        "2 rulesets (1 unchanged): stricter: the new rules oblige more somewhere, and nowhere less\n"
+        "2 rulesets (1 unchanged): stricter: the new rules require more in some situations, and less in none\n"
     )
-    assert "before  o, by the default of a (main:a.sleec:2)" in ran.out
+    assert "before  o, by rule `a` (main:a.sleec:2)" in ran.out
     assert repository.git("status", "--porcelain") == "M a.sleec"
 
 

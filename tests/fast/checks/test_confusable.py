@@ -70,11 +70,10 @@ def test_a_conflict_that_a_lookalike_hides_is_reported() -> None:
     (finding,) = found(PLACES["obligation"].format(CYRILLIC))
     assert finding.severity == "warning"
     assert finding.message == (
-        "\u201c\u041epen\u201d looks like \u201cOpen\u201d and is another word: "
-        "it holds U+041E CYRILLIC CAPITAL LETTER O"
+        "`\u041epen` looks like `Open`, but it is a different word: it contains U+041E CYRILLIC CAPITAL LETTER O"
     )
     assert finding.rules == ("rule_2",)
-    assert [word for _, word in finding.related] == ["the word that it looks like"]
+    assert [word for _, word in finding.related] == ["the similar word"]
 
 
 @pytest.mark.parametrize(("plain", "other"), PAIRS, ids=lambda c: f"{ord(c):x}")
@@ -124,7 +123,7 @@ def test_a_word_that_looks_like_a_keyword(keyword: str) -> None:
     else:
         (finding,) = found(dsl(f"event {wide}", f"R1 when Bell then {wide}"))
     assert finding.code == ALIKE
-    assert f"looks like the keyword \u201c{keyword}\u201d" in finding.message
+    assert f"looks like the keyword `{keyword}`" in finding.message
     assert finding.help is not None
     assert keyword in finding.help
 
@@ -168,7 +167,7 @@ def test_words_of_the_languages_of_the_world_are_fine(word: str) -> None:
 def test_an_odd_form_of_a_letter(word: str) -> None:
     (finding,) = found(f"WHEN Bell THEN {word}\n")
     assert finding.code == ODD
-    assert finding.help == f"write {normalize('NFKC', word).replace(chr(0x34F), '').replace(chr(0x1160), '')}"
+    assert finding.help == f"write `{normalize('NFKC', word).replace(chr(0x34F), '').replace(chr(0x1160), '')}`"
 
 
 @pytest.mark.parametrize("control", "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")

@@ -77,10 +77,10 @@ def test_what_can_be_left_out_of_a_condition_changes_nothing(condition, in_guard
     for finding in findings(ruleset):
         left = without(whole, what_can_go(finding))
         if in_guard:
-            assert (left is None) == ("leave out the whole guard" in advice(finding))
+            assert (left is None) == ("remove the whole condition after the trigger" in advice(finding))
             changed = replace(rule, guard=left)
         elif left is None:
-            assert advice(finding).startswith("mend it: as it stands, the hedge always decides")
+            assert advice(finding).startswith("correct it: at present, the exception always applies")
             continue
         else:
             changed = replace(rule, hedges=(replace(rule.hedges[0], condition=left),))
@@ -90,12 +90,12 @@ def test_what_can_be_left_out_of_a_condition_changes_nothing(condition, in_guard
 @pytest.mark.parametrize(
     ("condition", "leave_out", "said"),
     [
-        (f"c AND {TRUE}", TRUE, "leave it out"),
-        (f"c OR {FALSE}", FALSE, "leave it out"),
-        (f"c AND (d OR {TRUE})", f"(d OR {TRUE})", "leave out the whole OR, which it makes true"),
-        (f"c OR (d AND {FALSE})", f"(d AND {FALSE})", "leave out the whole AND, which it makes false"),
-        (f"c OR (d AND NOT {TRUE})", f"(d AND NOT {TRUE})", "leave out the whole AND, which it makes false"),
-        (f"c AND NOT {FALSE}", f"NOT {FALSE}", "leave out the whole NOT, which it makes true"),
+        (f"c AND {TRUE}", TRUE, "remove it"),
+        (f"c OR {FALSE}", FALSE, "remove it"),
+        (f"c AND (d OR {TRUE})", f"(d OR {TRUE})", "remove the whole OR, which is always true"),
+        (f"c OR (d AND {FALSE})", f"(d AND {FALSE})", "remove the whole AND, which is always false"),
+        (f"c OR (d AND NOT {TRUE})", f"(d AND NOT {TRUE})", "remove the whole AND, which is always false"),
+        (f"c AND NOT {FALSE}", f"NOT {FALSE}", "remove the whole NOT, which is always true"),
     ],
 )
 def test_the_whole_that_can_go_is_shown(condition, leave_out, said):
@@ -103,7 +103,7 @@ def test_the_whole_that_can_go_is_shown(condition, leave_out, said):
     text = f"{MEASURES}WHEN t AND ({condition}) THEN a"
     span = what_can_go(finding)
     assert text[span.start : span.end].strip("()") == leave_out.strip("()")
-    assert advice(finding) == f"mend it, or {said}"
+    assert advice(finding) == f"correct it, or {said}"
 
 
 def test_in_the_dsl_the_words_are_those_of_the_dsl():
@@ -111,14 +111,14 @@ def test_in_the_dsl_the_words_are_those_of_the_dsl():
         "def_start event Called event Answer measure heat: numeric measure c: boolean measure d: boolean def_end\n"
         "rule_start R1 when Called and ({c} and ({d} or ({heat} = {heat}))) then Answer rule_end"
     )
-    assert advice(finding) == "mend it, or leave out the whole or, which it makes true"
+    assert advice(finding) == "correct it, or remove the whole or, which is always true"
 
 
 @pytest.mark.parametrize("condition", [TRUE, f"c OR {TRUE}", f"NOT (c AND {FALSE})"])
 def test_a_guard_that_is_always_true_can_go(condition):
     old = parse(f"{MEASURES}WHEN t AND ({condition}) THEN a UNLESS d IN WHICH CASE b")
     (finding,) = findings(old)
-    assert advice(finding).startswith("mend it, or leave out the whole guard")
+    assert advice(finding).startswith("correct it, or remove the whole condition after the trigger")
     assert compare(old, with_rule(old, replace(old.rules[0], guard=None))).relation == "equivalent"
 
 
@@ -132,17 +132,19 @@ def test_a_hedge_that_always_holds(reading, condition, place, length):
     hedges = [f"UNLESS {condition if n == place else f'c{n}'} IN WHICH CASE o{n}" for n in range(length)]
     old = parse(f"{MEASURES}READING {reading}\nWHEN t THEN a {' '.join(hedges)}")
     (finding,) = findings(old)
-    assert (advice(finding).count("always decides") == 1) == (
+    assert (advice(finding).count("always applies") == 1) == (
         place + 1 == length and (place == 0 or reading == "priority")
     )
     (rule,) = old.rules
-    if "put its response in place of the default," in advice(finding):
-        assert "the default never decides" in advice(finding) or "neither the default nor" in advice(finding)
-        assert ("leave out the hedge and those before it" in advice(finding)) == (place > 0)
+    if "replace the default response by its response," in advice(finding):
+        assert "the default response never applies" in advice(finding) or "neither the default response nor" in advice(
+            finding
+        )
+        assert ("remove the exception and those before it" in advice(finding)) == (place > 0)
         response = rule.hedges[place].obligations
         changed = replace(rule, default=replace(rule.default, obligations=response), hedges=rule.hedges[place + 1 :])
     else:
-        assert "the hedge before it never decides" in advice(finding)
+        assert "the exception before it never applies" in advice(finding)
         before = replace(rule.hedges[place - 1], obligations=rule.hedges[place].obligations)
         changed = replace(rule, hedges=(*rule.hedges[: place - 1], before, *rule.hedges[place + 1 :]))
     assert compare(old, with_rule(old, changed)).relation == "equivalent"
@@ -153,16 +155,18 @@ def test_a_hedge_that_always_holds(reading, condition, place, length):
 
 def test_a_hedge_without_a_response_is_not_told_to_move_it():
     finding = only(f"{MEASURES}WHEN t THEN a UNLESS {TRUE}")
-    assert advice(finding) == "mend it: as it stands, the hedge always decides, so the default never decides"
+    assert (
+        advice(finding) == "correct it: at present, the exception always applies, so the default response never applies"
+    )
 
 
 def test_in_a_chain_inside_a_response():
     text = f"{MEASURES}WHEN t THEN a UNLESS c IN WHICH CASE (b UNLESS {TRUE} IN WHICH CASE o)"
     old = parse(text)
     (finding,) = findings(old)
-    first = "what its chain begins with"
-    assert f"so {first} never decides" in advice(finding)
-    assert f"in place of {first}" in advice(finding)
+    first = "the response before the first UNLESS"
+    assert f"so {first} never applies" in advice(finding)
+    assert f"replace {first} by its response" in advice(finding)
     (rule,) = old.rules
     holder = rule.hedges[0]
     changed = Clause(holder.condition, holder.hedges[0].obligations)
@@ -176,12 +180,12 @@ def test_in_a_chain_inside_a_response():
         ("purpose_start k exists Called and ({risk} >= low) purpose_end", "the purpose means the same without it"),
         (
             "concern_start k exists Called and (({heat} > 3) and ({heat} < 2)) concern_end",
-            "as it stands, the concern never comes about",
+            "at present, the concern can never happen",
         ),
-        ("relation_start measure invariant ({risk} >= low) relation_end", "look whether the relation is needed"),
+        ("relation_start measure invariant ({risk} >= low) relation_end", "check whether you need the relation"),
         (
             "concern_start k when Called then Answer unless (({heat} > 3) and ({heat} < 2)) then Wait concern_end",
-            "mend it, or leave out the hedge",
+            "correct it, or remove the exception",
         ),
     ],
 )

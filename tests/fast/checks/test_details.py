@@ -82,11 +82,11 @@ def test_everything_declared_and_unused_is_noted():
     )
     messages = [finding.message for finding in found(text, "unused-name")]
     assert messages == [
-        "the trigger u is declared and never used",
-        "the condition c is declared and never used",
-        "the measure m is declared and never used",
-        "the constant j is declared and never used",
-        "a constraint names p, but no rule obliges or forbids it",
+        "the trigger `u` is declared but never used",
+        "the condition `c` is declared but never used",
+        "the measure `m` is declared but never used",
+        "the constant `j` is declared but never used",
+        "a constraint names `p`, but no rule requires or forbids it",
     ]
 
 
@@ -115,7 +115,9 @@ def test_one_finding_for_one_set_of_clauses_whatever_is_at_odds():
 def test_a_rule_at_odds_with_itself():
     (finding,) = found("RULE a WHEN t THEN o UNLESS c IN WHICH CASE (p AND NOT p)", "conflict")
     assert finding.clauses == (ClauseRef("a", 1),)
-    assert finding.message == "hedge 1 of a cannot be kept: p is due and forbidden at once"
+    assert (
+        finding.message == "the exception `UNLESS c` of rule `a` cannot be followed: `p` is both required and forbidden"
+    )
 
 
 def test_constraints_that_cannot_be_kept_whatever_the_rules_say():
@@ -124,7 +126,7 @@ def test_constraints_that_cannot_be_kept_whatever_the_rules_say():
     assert finding.rules == ()
     assert finding.witness.conditions == {"c": True}
     assert "lines 2" not in finding.message
-    assert "NEVER of line 2 and the NEVER of line 3" in finding.message
+    assert "NEVER in line 2 and the NEVER in line 3" in finding.message
 
 
 def test_the_note_on_a_dead_hedge_says_which_kind_it_is():
@@ -142,11 +144,11 @@ def test_of_rules_that_make_each_other_redundant_not_all_may_go(window):
         f"RULE {label} WHEN A THEN {due.replace(' AND', f'{window} AND')}{window}\n" for label, due in rules.items()
     )
     by_rule = {finding.rules[0]: finding.help for finding in found(text, "redundant-rule")}
-    keep = "or keep it on purpose and say why in a comment"
+    keep = "or keep it and say why in a comment"
     assert by_rule == {
-        "a": f"remove it, and check again before you remove b as well; {keep}",
-        "b": f"remove it, and check again before you remove a and c as well; {keep}",
-        "c": f"remove it, and check again before you remove b as well; {keep}",
+        "a": f"remove it, and check again before you also remove `b`; {keep}",
+        "b": f"remove it, and check again before you also remove `a` and `c`; {keep}",
+        "c": f"remove it, and check again before you also remove `b`; {keep}",
     }
     (alone,) = found(
         "\n".join(line for line in text.splitlines() if " c " not in line and " d " not in line), "redundant-rule"
@@ -181,9 +183,9 @@ def test_many_copies_of_a_rule_take_few_questions(monkeypatch):
 
 def test_a_hedge_without_a_response_that_can_be_removed_is_not_asked_about_it():
     (finding,) = found("WHEN t THEN o UNLESS a\nWHEN t THEN o", "redundant-hedge")
-    assert finding.help == "it calls for nothing: add the response that you meant, if any, or remove it and check again"
+    assert finding.help == "it has no response: add the response that you meant, or remove it and check again"
     (finding,) = found("WHEN t THEN o UNLESS a IN WHICH CASE o", "redundant-hedge")
-    assert finding.help == "check whether its response is the one you meant, or remove it and check again"
+    assert finding.help == "check whether its response is the one that you meant, or remove it and check again"
 
 
 def test_the_reading_that_the_text_states_is_named():
@@ -252,9 +254,9 @@ def test_measures_that_matter_and_are_not_given_are_named():
 def test_a_small_keyword_for_a_time_is_told_where_it_could_be_one():
     text = "WHEN t THEN stay within reach\nUNLESS the nurse is within reach IN WHICH CASE call someone else"
     (obligation,) = found(text, "phrase-keyword")
-    assert obligation.message.startswith("\u201cstay within reach")
+    assert obligation.message.startswith("`stay within reach`")
     (condition,) = found("WHEN t THEN wait UNLESS the nurse is away otherwise call", "phrase-keyword")
-    assert condition.help == "if you meant the keyword, write OTHERWISE"
+    assert condition.help == "if you mean the keyword, write OTHERWISE"
 
 
 @pytest.mark.parametrize(

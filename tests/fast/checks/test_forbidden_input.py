@@ -23,7 +23,7 @@ def findings(text: str, chains: bool = True) -> tuple[Finding, ...]:
 def test_a_rule_that_forbids_an_input_is_reported(response: str) -> None:
     (finding,) = findings(f"RULE rest\nWHEN Sleeps THEN {response}\n{DOOR}")
     assert (finding.code, finding.rules, finding.clauses) == ("SLEEC107", ("rest", "door"), (("rest", 0),))
-    assert "Rings, which triggers door and which no rule requires" in finding.message
+    assert "`Rings`, which triggers `door` and which no rule requires" in finding.message
 
 
 @pytest.mark.parametrize(

@@ -151,7 +151,7 @@ def test_the_nearest_event_is_suggested_where_none_is_declared():
     (result,) = run_checks(ruleset, ["stray-event"])
     (finding,) = result.findings
     assert finding.obligations == ("p",)
-    assert finding.help == "did you mean UserFalls?"
+    assert finding.help == "did you mean `UserFalls`?"
     assert not said("RULE r\nWHEN t THEN o WITHIN 1 minute\nEXCLUSIVE o, p\nCONCERN c EXISTS p", "stray-event")
 
 

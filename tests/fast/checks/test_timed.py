@@ -109,15 +109,15 @@ def test_the_readings_part_where_only_times_differ():
     (finding,) = found["reading"].findings
     assert finding.rules == ("R1",)
     assert finding.note == (
-        "with all else false: read as priority, hedge 2 of R1 decides: B within 3 hours; "
-        "read as cascade, the default of R1 decides: B within 1 hour"
+        "if nothing else holds: with READING priority, the exception `UNLESS n` applies: `B within 3 hours`; "
+        "with READING cascade, no exception applies: `B within 1 hour`"
     )
 
 
 def test_what_is_forbidden_is_said_as_the_language_says_it():
     found = verdicts(text("B unless m then B within 2 hours unless n then not B within 3 hours"))
     (finding,) = found["reading"].findings
-    assert "hedge 2 of R1 decides: not B within 3 hours" in finding.note
+    assert "the exception `UNLESS n` applies: `not B within 3 hours`" in finding.note
 
 
 def test_a_hedge_without_a_response_has_none_to_be_checked():
@@ -125,8 +125,8 @@ def test_a_hedge_without_a_response_has_none_to_be_checked():
         findings = verdicts(text(response))["redundant-hedge"].findings
         return [finding.help for finding in findings if finding.clauses[0] == ("R1", 1)]
 
-    with_one = "check whether its response is the one you meant, or remove it and check again"
-    without = "it calls for nothing: add the response that you meant, if any, or remove it and check again"
+    with_one = "check whether its response is the one that you meant, or remove it and check again"
+    without = "it has no response: add the response that you meant, or remove it and check again"
     assert said("B within 1 hours unless m then B within 1 hours") == [with_one]
     assert said("B within 1 hours unless m\n  R9 when A then B within 1 hours") == [without]
 
@@ -151,12 +151,20 @@ def test_names_are_used_wherever_they_stand():
     def unused(found):
         return {finding.message.split(" is ")[0] for finding in found["unused-name"].findings}
 
-    assert unused(verdicts(text("B"))) == {"the event Unused", "the condition n", "the constant K", "the constant J"}
-    assert unused(verdicts(text("B within K days otherwise {C unless n}"))) == {"the event Unused", "the constant J"}
+    assert unused(verdicts(text("B"))) == {
+        "the event `Unused`",
+        "the condition `n`",
+        "the constant `K`",
+        "the constant `J`",
+    }
+    assert unused(verdicts(text("B within K days otherwise {C unless n}"))) == {
+        "the event `Unused`",
+        "the constant `J`",
+    }
     beside = "relation_start causation Unused {n} when A then {n} for J days relation_end"
-    assert unused(verdicts(text("B", beside))) == {"the constant K"}
+    assert unused(verdicts(text("B", beside))) == {"the constant `K`"}
     beside = "concern_start c1 when Unused and {n} then B within J days concern_end"
-    assert unused(verdicts(text("B", beside))) == {"the constant K"}
+    assert unused(verdicts(text("B", beside))) == {"the constant `K`"}
 
 
 def test_defects_are_errors():
@@ -233,7 +241,7 @@ def test_a_response_that_contradicts_itself_is_a_conflict(response):
     found = verdicts(f"{TIMED}RULE r WHEN A THEN B UNLESS m IN WHICH CASE ({response})")
     assert found["vacuous-conflict"].verdict == Proved()
     (finding,) = found["conflict"].findings
-    assert (finding.rules, finding.help) == (("r",), "mend the response, or ASSUME that the situation cannot be")
+    assert (finding.rules, finding.help) == (("r",), "correct the response, or exclude the situation with ASSUME")
     always = verdicts(f"{TIMED}RULE r WHEN A THEN ({response})")
     (finding,) = always["conflict"].findings
     (vacuous,) = always["vacuous-conflict"].findings
@@ -246,7 +254,7 @@ def test_a_response_that_contradicts_itself_is_a_conflict(response):
 
 def test_what_comes_to_no_end_is_told_from_what_contradicts_itself():
     (vacuous,) = verdicts(f"{TIMED}WHEN A THEN A WITHIN 1 TO 5 minutes")["vacuous-conflict"].findings
-    assert vacuous.note == "what it calls for never comes to an end"
+    assert vacuous.note == "its consequences never end"
     (vacuous,) = verdicts(f"{TIMED}WHEN A THEN NOT A WITHIN 5 minutes")["vacuous-conflict"].findings
     assert vacuous.note == "it contradicts itself"
 

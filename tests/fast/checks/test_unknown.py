@@ -89,7 +89,7 @@ def test_a_witness_that_does_not_replay_is_never_shown(monkeypatch):
     (result,) = run_checks(parse("WHEN t THEN o\nWHEN t THEN NOT o"), ["conflict"])
     assert isinstance(result.verdict, Unknown)
     assert not result.findings
-    assert "did not replay" in result.verdict.why
+    assert "rejected a witness" in result.verdict.why
 
 
 def test_a_long_list_of_conflicts_says_that_it_is_cut(monkeypatch):

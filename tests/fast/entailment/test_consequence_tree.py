@@ -26,8 +26,8 @@ def test_a_chain_with_a_cycle():
         "    r2: C",
         "      C",
         "        r3: B AND A",
-        "          B (which happens already: a cycle)",
-        "          A (which happens already: a cycle)",
+        "          B (already in progress: a cycle)",
+        "          A (already in progress: a cycle)",
     ]
     assert tree(text, "A", m=True) == ["  B", "    r2.hc1: D"]
 
@@ -41,7 +41,7 @@ def test_what_two_rules_lead_to_is_shown_once():
 
 def test_a_prohibition_that_a_chain_meets():
     text = "RULE r1 WHEN A THEN B AND NOT D\nRULE r2 WHEN B THEN D"
-    assert tree(text, "A") == ["  B", "    r2: D", "      D (which r1 forbids)"]
+    assert tree(text, "A") == ["  B", "    r2: D", "      D (forbidden by r1)"]
 
 
 def test_what_is_done_at_once_occurs_with_the_triggers_of_the_situation():

@@ -143,7 +143,7 @@ def test_with_a_base_the_action_is_the_gate(runner: Runner) -> None:
     repository.commit()
     ran = act(runner, base="main")
     assert (ran.code, ran.outputs) == (0, "exit-code=0\n"), ran.err
-    assert ran.out.endswith("passed: no rulesets examined, 1 the same as in main\n")
+    assert ran.out.endswith("passed: no rulesets examined, 1 unchanged since main\n")
     repository.put("rules/a.sleec", CLASH)
     ran = act(runner, base="main", options="--no-cache\n")
     assert (ran.code, ran.outputs) == (1, "exit-code=1\n")

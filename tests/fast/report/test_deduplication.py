@@ -39,6 +39,6 @@ def test_a_dead_rule_or_hedge_is_told_once(cli: Cli, text: str, told: list[str],
 
 def test_that_a_dead_hedge_can_go_is_told_with_it(cli: Cli) -> None:
     both = cli("check", "a.sleec", files={"a.sleec": DEAD}).out
-    assert "help: mend its condition, or remove it: nothing changes without it\n" in both
+    assert "help: correct its condition, or remove it; the rules mean the same without it\n" in both
     one = cli("check", "a.sleec", files={"a.sleec": DEAD_AND_NEEDED}).out
-    assert "help: mend its condition, or remove it\n" in one
+    assert "help: correct its condition, or remove it\n" in one

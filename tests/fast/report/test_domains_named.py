@@ -37,7 +37,7 @@ WHEN Bell AND Ding THEN LockDoor AND NOT OpenDoor
 
 def test_check_names_the_domain_of_each_finding(cli: Cli) -> None:
     lines = cli("check", "new.sleec", "--format", "concise", files={"new.sleec": NEW}).out.splitlines()[:-1]
-    told = [line.rpartition("; ")[2] for line in lines if "b can be triggered" in line]
+    told = [line.rpartition("; ")[2] for line in lines if "`b` can be triggered" in line]
     assert told == [
         "domain home",
         "domain ward",

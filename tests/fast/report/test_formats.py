@@ -198,11 +198,11 @@ def test_code_flow_leads_from_the_situation_to_the_conflict() -> None:
     (conflict,) = [r for r in sarif(checked_text(text))["results"] if r["ruleId"] == "SLEEC101"]
     ((flow,),) = (f["threadFlows"] for f in conflict["codeFlows"])
     way = [(step["location"]["message"]["text"], words_at(text, step["location"])) for step in flow["locations"]]
-    assert way[:2] == [("Rung occurs", "Rung"), ("Storm occurs", "Storm")]
-    assert set(way[2:-3]) >= {("Away is false", "Away"), ("Awake is true", "Awake")}
+    assert way[:2] == [("`Rung` occurs", "Rung"), ("`Storm` occurs", "Storm")]
+    assert set(way[2:-3]) >= {("`Away` is false", "Away"), ("`Awake` is true", "Awake")}
     assert way[-3:-1] == [
-        ("the default of one: Open", "WHEN Rung THEN Open"),
-        ("the default of two: NOT Open", "WHEN Storm AND Awake THEN NOT Open"),
+        ("rule `one`: `Open`", "WHEN Rung THEN Open"),
+        ("rule `two`: `NOT Open`", "WHEN Storm AND Awake THEN NOT Open"),
     ]
     assert way[-1][0] == conflict["message"]["text"].split("\n")[0]
     assert flow["locations"][0]["state"] == {"Rung": {"text": "true"}}
@@ -234,9 +234,9 @@ def test_flow_of_a_course_of_events_follows_its_moments() -> None:
     orders = [step["executionOrder"] for step in flow["locations"]]
     assert orders == sorted(orders)
     told = [step["location"]["message"]["text"] for step in flow["locations"]]
-    assert "at first, Rung occurs" in told
-    assert "at first, Night is true" in told
-    assert any("late forbids Open" in text for text in told)
+    assert "at first, `Rung` occurs" in told
+    assert "at first, `Night` is true" in told
+    assert any("`late` forbids `Open" in text for text in told)
 
 
 def test_a_name_that_only_a_constraint_knows_stands_there() -> None:
@@ -244,7 +244,7 @@ def test_a_name_that_only_a_constraint_knows_stands_there() -> None:
     (conflict,) = [r for r in sarif(checked_text(text))["results"] if r["ruleId"] == "SLEEC101"]
     ((flow,),) = (f["threadFlows"] for f in conflict["codeFlows"])
     at = {step["location"]["message"]["text"]: words_at(text, step["location"]) for step in flow["locations"]}
-    assert at["Night is true"] == "Night"
+    assert at["`Night` is true"] == "Night"
 
 
 def test_a_name_that_stands_nowhere_is_told_at_the_finding() -> None:
@@ -254,8 +254,8 @@ def test_a_name_that_stands_nowhere_is_told_at_the_finding() -> None:
     way = [(step.words, step.span) for step in steps(ruleset, finding)]
     night = CLEAN.index("Night")
     assert way == [
-        ("Flood occurs", Span(0, 4)),
-        ("Night is true", Span(night, night + 5)),
+        ("`Flood` occurs", Span(0, 4)),
+        ("`Night` is true", Span(night, night + 5)),
         ("m", Span(0, 4)),
     ]
 
@@ -318,7 +318,7 @@ def test_junit_has_a_suite_a_ruleset_and_a_case_a_check(cli: Cli) -> None:
     failure = case.find("failure")
     assert failure is not None
     assert (case.get("name"), failure.get("type")) == ("conflict", "error")
-    assert "situation: When Rung and Storm occur" in (failure.text or "")
+    assert "situation: When `Rung` and `Storm` occur" in (failure.text or "")
     (error,) = suites["broken.sleec"].iter("error")
     assert error.get("type") == "unusable"
     assert "broken.sleec:2:" in (error.text or "")
@@ -359,7 +359,7 @@ def test_annotations_name_file_line_and_columns() -> None:
         "endColumn": "20",
         "title": "SLEEC101 conflict",
     }
-    assert message.splitlines()[1].startswith("situation: When Rung and Storm occur")
+    assert message.splitlines()[1].startswith("situation: When `Rung` and `Storm` occur")
 
 
 def test_what_spans_lines_has_no_columns() -> None:

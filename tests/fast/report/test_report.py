@@ -113,12 +113,12 @@ def test_values_in_json_are_exact() -> None:
 
 
 def test_situations_in_words() -> None:
-    assert witness_text(Witness(("a",), {})) == "When a occurs (the rest does not matter)"
+    assert witness_text(Witness(("a",), {})) == "When `a` occurs (whatever else holds)"
     assert witness_text(Witness(("a", "b c"), {"d": False, "e": 2})) == (
-        'When a and "b c" occur, d is false and e is 2 (the rest does not matter)'
+        "When `a` and `b c` occur, `d` is false and `e` is 2 (whatever else holds)"
     )
-    assert witness_text(Witness((), {"d": True})) == "Whatever occurs, d is true (the rest does not matter)"
-    assert context_text(Context(frozenset(), {})) == "When nothing occurs (and all else is false)"
+    assert witness_text(Witness((), {"d": True})) == "When `d` is true (whatever else holds)"
+    assert context_text(Context(frozenset(), {})) == "When nothing occurs (and nothing else holds)"
 
 
 def test_lists() -> None:
@@ -143,7 +143,7 @@ UNDECIDED = outcome(
 @pytest.mark.parametrize("name", FORMATS)
 def test_unknown_is_never_shown_as_fine(name: str) -> None:
     text = "".join(renderer(name)([UNDECIDED], PLAIN))
-    assert "unknown" in text
+    assert "unknown" in text or "inconclusive" in text
     assert "the solver gave up" in text
     assert "passed" not in text
 

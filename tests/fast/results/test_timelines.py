@@ -34,12 +34,12 @@ RULE t WHEN F THEN NOT B WITHIN 10 minutes
 def test_what_falls_due_in_place_of_what_was_not_done_is_told_with_its_time():
     words, heads, rows = told(OTHERWISE.replace("{otherwise}", "C"), "r")
     assert words == [
-        "at first, A, D and F occur",
-        "  r calls for B within 2 minutes, otherwise C",
-        "  s forbids C within 5 minutes",
-        "  t forbids B within 10 minutes",
-        "after 2 minutes, in place of B, r calls for C",
-        "and then there is no way to keep every rule",
+        "at first, `A`, `D` and `F` occur",
+        "  rule `r` requires `B within 2 minutes, otherwise C`",
+        "  rule `s` forbids `C within 5 minutes`",
+        "  rule `t` forbids `B within 10 minutes`",
+        "after 2 minutes, instead of `B`, rule `r` requires `C`",
+        "after this, it is impossible to follow every rule",
     ]
     assert heads.split() == ["0", "s", "now", "2", "min"]
     column = heads.index("2 min")
@@ -49,7 +49,7 @@ def test_what_falls_due_in_place_of_what_was_not_done_is_told_with_its_time():
 
 def test_what_falls_due_has_a_window_of_its_own():
     words, heads, rows = told(OTHERWISE.replace("{otherwise}", "C WITHIN 1 minute"), "r")
-    assert "after 2 minutes, in place of B, r calls for C within 1 minute" in words
+    assert "after 2 minutes, instead of `B`, rule `r` requires `C within 1 minute`" in words
     # Once the two minutes are over, s suffices: no rule needs to forbid B.
     assert rows["C"][heads.index("2 min 1 s now") :].startswith("!!")
 
@@ -58,7 +58,7 @@ def test_what_falls_due_has_a_window_of_its_own():
 def test_the_hedges_of_what_falls_due_are_decided_by_the_moment(given, due):
     text = OTHERWISE.replace("{otherwise}", "(C UNLESS p IN WHICH CASE E)").replace("WHEN A", f"WHEN A AND {given}")
     words, _, rows = told(text.replace("NOT C", f"NOT {due}"), "r")
-    assert f"after 2 minutes, in place of B, r calls for {due}" in words
+    assert f"after 2 minutes, instead of `B`, rule `r` requires `{due}`" in words
     assert {"C", "E"} & rows.keys() == {due}
 
 
@@ -76,8 +76,8 @@ RULE s WHEN F THEN NOT C WITHIN 10 seconds
 RULE t WHEN C THEN NOT F
 """
     words, _, _ = told(text, "r")
-    assert words[2].startswith("after 2 minutes, in place of B, r calls for C")
-    assert words[3].startswith("after 4 minutes 50 seconds, F occurs")
+    assert words[2].startswith("after 2 minutes, instead of `B`, rule `r` requires `C within")
+    assert words[3].startswith("after 4 minutes 50 seconds, `F` occurs")
 
 
 def test_a_prohibition_that_something_is_due_in_place_of():
@@ -86,24 +86,24 @@ RULE s WHEN D THEN B WITHIN 1 minute
 RULE t WHEN D THEN NOT C WITHIN 5 minutes
 """
     words, _, _ = told(text, "r")
-    assert "  in place of NOT B, r calls for C" in words
+    assert "  instead of `NOT B`, rule `r` requires `C`" in words
 
 
 def test_the_steps_to_the_finding_tell_of_it_too():
     ruleset, finding = conflict(OTHERWISE.replace("{otherwise}", "C"), "r")
-    assert "after 2 minutes, in place of B, r calls for C" in [step.words for step in steps(ruleset, finding)]
+    assert "after 2 minutes, instead of `B`, rule `r` requires `C`" in [step.words for step in steps(ruleset, finding)]
 
 
 RELATED = {
-    "RELATION A EXCLUDES B\nRULE r WHEN T THEN A AND B\n": "A and B are due, and the relation of line 1 rules that out",
-    "EXCLUSIVE A, B, C\nRULE r WHEN T THEN A AND C WITHIN 0 seconds\n": "A and C are due, and the EXCLUSIVE of line 1",
-    "NEVER A AND B\nRULE r WHEN T THEN A AND B WITHIN 0 seconds\n": "A and B are due, and the NEVER of line 1",
-    "RELATION A WITNESSES B\nRULE r WHEN T THEN A AND NOT B\n": "A is due and B is forbidden, and the relation of",
-    "RELATION A EQUALS B\nRULE r WHEN T THEN A AND NOT B\n": "A is due and B is forbidden, and the relation of line 1",
-    "RELATION A PRECEDES B\nRULE r WHEN T THEN B\n": "B is due, and the relation of line 1 rules that out",
-    "RELATION A FORBIDS p\nRULE r WHEN T AND p THEN A\n": "A is due, and the relation of line 1 rules that out",
-    "RELATION A INCLUDES p\nRULE r WHEN T AND NOT p THEN A\n": "A is due, and the relation of line 1 rules that out",
-    "RELATION A CAUSES p\nRULE r WHEN T AND p THEN NOT A\n": "A is forbidden, and the relation of line 1",
+    "RELATION A EXCLUDES B\nRULE r WHEN T THEN A AND B\n": "`A` and `B` are required, but the relation in line 1",
+    "EXCLUSIVE A, B, C\nRULE r WHEN T THEN A AND C WITHIN 0 seconds\n": "`A` and `C` are required, but the EXCLUSIVE",
+    "NEVER A AND B\nRULE r WHEN T THEN A AND B WITHIN 0 seconds\n": "`A` and `B` are required, but the NEVER in line 1",
+    "RELATION A WITNESSES B\nRULE r WHEN T THEN A AND NOT B\n": "`A` is required and `B` is forbidden, but the",
+    "RELATION A EQUALS B\nRULE r WHEN T THEN A AND NOT B\n": "`A` is required and `B` is forbidden, but the relation",
+    "RELATION A PRECEDES B\nRULE r WHEN T THEN B\n": "`B` is required, but the relation in line 1 excludes this",
+    "RELATION A FORBIDS p\nRULE r WHEN T AND p THEN A\n": "`A` is required, but the relation in line 1 excludes this",
+    "RELATION A INCLUDES p\nRULE r WHEN T AND NOT p THEN A\n": "`A` is required, but the relation in line 1",
+    "RELATION A CAUSES p\nRULE r WHEN T AND p THEN NOT A\n": "`A` is forbidden, but the relation in line 1",
 }
 
 
@@ -117,6 +117,9 @@ def test_a_relation_that_rules_out_what_is_due_is_named(text):
 def test_a_rule_that_meets_what_it_required_before():
     text = "RULE r WHEN A THEN B WITHIN 10 minutes UNLESS p IN WHICH CASE NOT B WITHIN 2 hours\n"
     _, finding = conflict(text, "r")
-    assert finding.message == "the default of r and hedge 1 of r cannot both be kept: B is due and forbidden"
+    assert (
+        finding.message
+        == "rule `r` and the exception `UNLESS p` of rule `r` contradict each other: `B` is both required and forbidden"
+    )
     assert finding.rules == ("r",)
     assert [clause.clause for clause in finding.clauses] == [0, 1]

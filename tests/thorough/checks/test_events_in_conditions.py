@@ -18,7 +18,7 @@ def test_a_witness_says_what_must_not_occur() -> None:
     (result,) = run_checks(parse(RULES), ["conflict"])
     (finding,) = result.findings
     assert finding.witness is not None
-    assert witness_text(finding.witness) == "When A and C occur, B does not occur (the rest does not matter)"
+    assert witness_text(finding.witness) == "When `A` and `C` occur, `B` does not occur (whatever else holds)"
     assert witness_json(finding.witness) == {"triggers": ["A", "C"], "conditions": {}, "absent": ["B"]}
 
 

@@ -157,7 +157,7 @@ def test_the_report_says_what_was_due_and_by_which_clause() -> None:
         check_conformance(make)
     assert str(caught.value).splitlines() == [
         "executed, though not due, OpenCurtains",
-        "  situation: When Request occurs, Undressed is true (and all else is false)",
+        "  situation: When `Request` occurs, `Undressed` is true (and nothing else holds)",
         "  executed:  RefuseRequest, ExplainWhy, OpenCurtains",
         "  due:       RefuseRequest, ExplainWhy",
         "    by rule curtains, clause 1, layer curtains.hc1: RefuseRequest AND ExplainWhy",
@@ -235,7 +235,7 @@ def test_an_unknown_part_is_refused_at_once() -> None:
 def test_a_ruleset_may_be_a_file_or_a_value() -> None:
     other = parse(Path(EIGHT).read_text(encoding="utf-8").replace("RiskLevel > r_low", "RiskLevel > r_moderate"))
     check_conformance(make_sleec, EIGHT, parts=["each-rule"])
-    with pytest.raises(Nonconformance, match="RiskLevel is r_moderate"):
+    with pytest.raises(Nonconformance, match="`RiskLevel` is r_moderate"):
         check_conformance(make_sleec, other, parts=["each-rule"])
     with pytest.raises(Nonconformance):
         check_conformance(make_sleec, EIGHT, reading="priority", parts=["each-rule"])

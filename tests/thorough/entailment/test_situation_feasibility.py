@@ -76,14 +76,14 @@ def said(when, given):
 
 def test_a_measure_that_a_relation_asks_for():
     warning, help_, note, *_ = said("A", "p, n=3")
-    assert warning.startswith("warning: level is not given, and if all that compares with it is false, this situation")
-    assert "by the relation of line 3 of" in warning
-    assert help_ == "help: give it; it can be with level=high"
-    assert note == "note: level is not given: what compares with it counts as false"
+    assert warning.startswith("warning: `level` is not given; if every comparison with it is false, this situation")
+    assert "by RELATION (line 3)" in warning
+    assert help_ == "help: give it, for example level=high"
+    assert note == "note: `level` is not given, so every comparison with it counts as false"
 
 
 def test_a_condition_that_is_not_given_and_has_to_be_true():
     warning, help_, *_ = said("A", "r, level=high, n=3")
-    assert "this situation cannot be, by the relation of line 5 of" in warning
-    assert help_ == "help: what is not given counts as false; it can be with s"
+    assert "this situation is excluded by RELATION (line 5)" in warning
+    assert help_ == "help: names that are not given count as false; add s"
     assert not any(line.startswith("help") for line in said("A", "r, not s, level=high, n=3"))

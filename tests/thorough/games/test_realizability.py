@@ -71,7 +71,7 @@ def test_rules_without_a_conflict_are_kept() -> None:
 
 def test_a_conflict_at_once_is_lost_with_one_act() -> None:
     rules = "  R1 when A then X\n  R2 when B then not X"
-    assert _words(rules, 3) == ["at first, A and B occur", "and then there is no way to keep every rule"]
+    assert _words(rules, 3) == ["at first, `A` and `B` occur", "after this, it is impossible to follow every rule"]
 
 
 def test_time_to_wait_is_used() -> None:
@@ -83,9 +83,9 @@ def test_more_acts_find_more() -> None:
     rules = "  R1 when A then X within 10 minutes\n  R2 when B then not X within 5 minutes"
     assert _verdict(rules, 1) == Proved()
     assert _words(rules, 2) == [
-        "at first, A and B occur",
-        "whatever the robot does, after 5 minutes, B occurs",
-        "and then there is no way to keep every rule",
+        "at first, `A` and `B` occur",
+        "whatever the robot does, after 5 minutes, `B` occurs",
+        "after this, it is impossible to follow every rule",
     ]
 
 
@@ -122,7 +122,7 @@ def test_relations_alone_can_be_lost() -> None:
     verdict = _verdict("  R1 when A then X", 1, "  causation Y {m}\n  forbid Y ({n} > 5)", head)
     assert isinstance(verdict, Refuted)
     assert verdict.findings[0].rules == ()
-    assert "what the relations ask" in verdict.findings[0].message
+    assert "the relations cannot" in verdict.findings[0].message
 
 
 ADAPTIVE = (
@@ -138,17 +138,17 @@ ADAPTIVE = (
 
 def test_the_answer_of_the_environment_may_depend_on_the_robot() -> None:
     first, *words = _words(*ADAPTIVE)
-    assert first == "at first, A occurs"
+    assert first == "at first, `A` occurs"
     said = "\n".join(words)
-    assert "if the robot does X at once:\n  after 5 minutes, B occurs\n  and then there is no way" in said
-    assert "if the robot does Y at once:\n  after 5 minutes, C occurs\n  and then there is no way" in said
+    assert "if the robot does `X` immediately:\n  after 5 minutes, `B` occurs\n  after this, it is impossible" in said
+    assert "if the robot does `Y` immediately:\n  after 5 minutes, `C` occurs\n  after this, it is impossible" in said
 
 
 def test_only_some_replies_are_shown(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(realizability, "MOST_REPLIES", 1)
     words = _words(*ADAPTIVE)
     assert sum(line.startswith("if the robot") for line in words) == 1
-    assert words[-1] == "and there is an answer to all else that the robot may do"
+    assert words[-1] == "the environment can answer everything else that the robot can do, too"
 
 
 def test_a_strategy_that_does_not_replay_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -160,13 +160,13 @@ def test_a_strategy_that_does_not_replay_is_not_shown(monkeypatch: pytest.Monkey
     monkeypatch.setattr(realizability.StrategySearch, "_act", unlawful)
     verdict = _verdict(*ADAPTIVE)
     assert isinstance(verdict, Unknown)
-    assert "did not replay" in verdict.why
+    assert "rejected a witness" in verdict.why
 
 
 def test_numbers_and_scales_are_chosen_by_the_environment() -> None:
     rules = "  R1 when A and ({n} > 5) then X\n  R2 when B and ({n} < 7) then not X"
     (first, _) = _words(rules, 1)
-    assert first == "at first, A and B occur, with n is 6"
+    assert first == "at first, `A` and `B` occur while `n` is 6"
     assert _verdict("  R1 when A and ({n} > 5) then X\n  R2 when B and ({n} < 5) then not X", 1) == Proved()
 
 

@@ -100,7 +100,7 @@ def test_a_ruleset_is_an_item_a_check_and_a_rule(run) -> None:
 
 def test_findings_fail_by_their_level(run) -> None:
     result = run("clash.sleec", clash_sleec=CONFLICT)
-    result.stdout.fnmatch_lines(["*clash.sleec:*error[[]SLEEC101]*", "*situation: When T occurs*"])
+    result.stdout.fnmatch_lines(["*clash.sleec:*error[[]SLEEC101]*", "*situation: When `T` occurs*"])
     result.stdout.no_fnmatch_line("*Traceback*")
     assert result.ret == pytest.ExitCode.TESTS_FAILED
     assert run("house.sleec").ret == pytest.ExitCode.OK

@@ -74,8 +74,8 @@ POLICIES: dict[str, tuple[str | None, str, str]] = {
     "new-conflicts": (CLASH, "findings = 'never'", "a and b now conflict over o"),
     "lost-obligations": (LOST, "lost-obligations = ['p']", "p is no longer called for by a"),
     "lost-obligations of a file that is gone": (None, "lost-obligations = ['p']", "p is no longer called for by a"),
-    "SLEEC202": (DEAD, "dead-hedges = true", "hedge 2 of a"),
-    "SLEEC101": (CLASH, "new-conflicts = false", "cannot both be kept"),
+    "SLEEC202": (DEAD, "dead-hedges = true", "the exception `UNLESS NOT c` of rule `a`"),
+    "SLEEC101": (CLASH, "new-conflicts = false", "contradict each other"),
     "clause-coverage": (LOST, "clause-coverage = 50", "the cases reach 0 of 1 clauses"),
     "certificates": (LOST, "certificates = true", "there is no a.certificate beside it"),
     "suppressions": ("# sleec: allow SLEEC101\n" + OLD, "", "a suppression needs a reason"),
@@ -132,7 +132,7 @@ def test_as_many_reasons_are_counted_as_are_shown(name: str, cli: Cli, repositor
         assert said.splitlines()[-1].endswith(f"; {word}")
     summary = (repository.folder / "out.md").read_text(encoding="utf-8")
     assert f"; {word}." in summary
-    assert summary.partition("### What blocks")[2].partition("|")[0].count("\n- **") == reasons
+    assert summary.partition("### Reasons to block")[2].partition("|")[0].count("\n- **") == reasons
     assert len(re.findall(r"^a\.sleec:\d+:\d+: ", gate("concise"), re.M)) == reasons
     assert len(commands_in(gate("github"))) == reasons
     assert len(json.loads(gate("json"))["blocks"]) == reasons
@@ -163,7 +163,7 @@ def test_what_is_not_decided_is_told(form: str, cli: Cli, repository: Repository
     repository.write(a_sleec=TIMED_ELSE)
     config(repository, block="findings = 'never'")
     found = one_report(cli, form, 3)
-    assert any("unknown" in words and "length is a measure" in words for _, _, words in found)
+    assert any("inconclusive" in words and "length is a measure" in words for _, _, words in found)
 
 
 @pytest.mark.parametrize("form", PROGRAMS)
@@ -226,7 +226,7 @@ def test_a_file_holds_what_would_be_printed(form: str, code: int, cli: Cli, repo
     times = re.compile(r'(time="|"seconds": )[\d.e-]+')
     assert times.sub("", written) == times.sub("", ran.out)
     if form in ("concise", "github"):
-        assert written.splitlines()[-1].startswith(("passed", "blocked", "something cannot", "not decided"))
+        assert written.splitlines()[-1].startswith(("passed", "blocked", "invalid input", "inconclusive"))
 
 
 # Whole or not at all --------------------------------------------------------------------------------------

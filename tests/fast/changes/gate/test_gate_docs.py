@@ -59,7 +59,7 @@ def test_the_suppression_allows_what_it_says(cli: Cli, tmp_path: Path) -> None:
     ran = cli("gate", "--base", "main")
     assert ran.code == 0, ran
     assert f"allowed: {match[2]} " in ran.out
-    assert f", because {match[3]}\n" in ran.out
+    assert f" (reason: {match[3]})\n" in ran.out
     repository.put("door.sleec", match[1].replace("// sleec: allow", "// was"))
     assert cli("gate", "--base", "main").code == 1
 

@@ -63,7 +63,7 @@ def policies(said: dict[str, Any]) -> set[str]:
 
 def test_nothing_changed(cli: Cli, repository: Repository) -> None:
     ran = cli("gate", "--base", "main")
-    assert ran == Ran(0, "passed: no rulesets examined, 1 the same as in main\n", "")
+    assert ran == Ran(0, "passed: no rulesets examined, 1 unchanged since main\n", "")
 
 
 @pytest.mark.parametrize(
