@@ -137,7 +137,7 @@ Proof.
   - apply add_all_true; [exact Hk |]. apply Hf. left. reflexivity.
 Qed.
 
-(** The checker accepts only if the clauses are unsatisfiable, whoever made the steps. *)
+(** The checker accepts only if the clauses are unsatisfiable, for any steps. *)
 Theorem check_sound : forall f steps, check f steps = Verified -> unsatisfiable f.
 Proof.
   intros f steps H a Hf. apply (run_sound a steps (numbered (Map.empty clause) 1 f)); [| exact H].

@@ -1,8 +1,7 @@
-(* Reads a formula in DIMACS and a refutation in LRAT, and has the checker that is proved correct judge them.
+(* Reads a formula in DIMACS and a refutation in LRAT, and runs the checker that is proved correct.
 
-   What is here is not proved. It must read the formula as DIMACS means it: whoever doubts the answer has this file to
-   read, besides Coq. How it reads the refutation does not matter: no refutation of a satisfiable formula is accepted,
-   however it came to be.
+   This file is not proved. It must read the formula as DIMACS means it. To trust the answer, you need to read this file
+   and to trust Coq. How it reads the refutation does not matter: no refutation of a satisfiable formula is accepted.
 
    check-lrat FORMULA.cnf PROOF.lrat
      VERIFIED            exit 0: the formula is unsatisfiable

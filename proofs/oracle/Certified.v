@@ -1,7 +1,7 @@
 (** From rules to a verdict, with no step between that is not proved: the clauses of
     the theory's conflict check, refuted by steps that the checker follows.
 
-    Whoever makes the steps is not trusted.  [certified] runs inside Coq, where the
+    The origin of the steps is not trusted.  [certified] runs inside Coq, where the
     theorems of [rulesets/] are proved by it, and is extracted. *)
 
 From Coq Require Import List Bool PArith Arith Lia.
@@ -92,7 +92,7 @@ Qed.
 Definition certified (r : reading) (Rs : list nested_rule) (Ks : list constraint)
     (steps : list Checker.step) : bool := accepted (to_refute r Rs Ks) steps.
 
-(** Whoever made the steps: if they are accepted, no context conflicts. *)
+(** If any steps are accepted, no context conflicts. *)
 Theorem certified_never_conflicts r Rs Ks steps :
   certified r Rs Ks steps = true -> never_conflicts r Rs Ks.
 Proof.

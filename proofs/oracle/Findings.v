@@ -1,7 +1,7 @@
 (** What checks find, from the rules on: that a rule or a hedge is dead or redundant, that
     a rule can be triggered in conflicts only, or that assumptions leave no situation.
     Each is a claim about all contexts; its formula is refuted, as in [Certified.v], by
-    steps of whoever can. *)
+    untrusted steps. *)
 
 From Coq Require Import List Bool PArith Arith Lia.
 From Sleec Require Import
@@ -412,7 +412,7 @@ Proof.
     discriminate N.
 Qed.
 
-(** Whether there is what it speaks of: of a rule that there is not, all is true. *)
+(** Whether the rules and hedges that it names exist: everything is true of a missing rule. *)
 Definition there (Rs : list nested_rule) (f : finding) : bool :=
   match f with
   | DeadRule n | RedundantRule n _ | VacuousConflict n _ _ => existsb (labelled n) Rs
@@ -448,7 +448,7 @@ Qed.
 
 (** ** What that says of each check *)
 
-(** Some steps are accepted, whoever made them. *)
+(** Some steps are accepted. *)
 Definition refuted (r : reading) (Rs : list nested_rule) (Ks : list constraint)
     (fs : list finding) : Prop :=
   exists steps, accepted (findings_to_refute r Rs Ks fs) steps = true.
@@ -532,7 +532,7 @@ Definition answered_no (r : reading) (Rs : list nested_rule) (Ks : list constrai
   | AnyFalse fs => forall f, In f fs -> there Rs f = true /\ holds r Rs Ks f
   end.
 
-(** The formula, to be refuted by whoever can, and what judges the steps of that.  The
+(** The formula to refute, and the function that checks the steps.  The
     formula is made once for both. *)
 Definition ask (r : reading) (Rs : list nested_rule) (Ks : list constraint) (q : question)
   : Formula.formula * (list Checker.step -> bool) :=

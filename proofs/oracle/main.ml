@@ -1,9 +1,10 @@
-(* Reads questions, a line each, and has what is proved in Coq answer them, a line each.
+(* Reads questions, one per line, and answers each on one line, by functions that are proved in Coq.
 
-   What is here is not proved. It must read rules and contexts as they are meant: whoever doubts an answer has this file
-   to read, words.ml, and sleec_verify/theory, which writes the questions. Questions about traces are in traces.ml. How it reads the steps of a refutation does not matter.
+   This file is not proved. It must read rules and contexts correctly. To trust an answer, you need to read this file,
+   words.ml, and sleec_verify/certificates/theory, which writes the questions. Questions about traces are in traces.ml.
+   How the file reads the steps of a refutation does not matter.
 
-   Names are numbers from 1, each kind by itself; everything is written before what it is made of, with no parentheses:
+   Names are numbers from 1, separately for each kind. The notation is prefix notation without parentheses:
 
      FORMULA  1 | 0 | t N | c N | o N | ! FORMULA | & FORMULA FORMULA | \| FORMULA FORMULA     trigger, condition, obligation
      LITERAL  N | -N                                                   an obligation, or that it is forbidden
@@ -15,7 +16,7 @@
      at count FACT…            the facts (t N, c N) that are true; the others are false
        possible 0|1; consistent 0|1; due LITERAL…; entailed LITERAL…; said WHICH…
                                WHICH: of each rule that has no chain in a chain, - (not triggered), e (ε) or the hedge
-     table count FACT…         to the letter, by all interpretations: possible 0|1; compatible 0|1; entailed LITERAL…
+     table count FACT…         by definition, over all interpretations: possible 0|1; compatible 0|1; entailed LITERAL…
      formula QUESTION          its formula, which is unsatisfiable exactly if the answer is no: LITERAL… 0 LITERAL… 0 …
                                QUESTION: conflict (does some context?) | reading (does some rule depend on it?)
                                | findings count FINDING… (is one of them false?)

@@ -55,7 +55,7 @@ Proof. intros I H. apply cnf_true_spec. intros c C. eapply cnf_true_spec; eauto.
 Lemma lit_true_ext a b l : a (snd l) = b (snd l) -> lit_true a l = lit_true b l.
 Proof. unfold lit_true. intros ->. reflexivity. Qed.
 
-(** * Numbering the variables anew *)
+(** * Renumbering the variables *)
 
 Definition renumber (h : positive -> positive) (f : cnf) : cnf :=
   map (map (fun l => (fst l, h (snd l)))) f.

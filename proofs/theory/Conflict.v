@@ -140,7 +140,7 @@ Proof.
   destruct (clash_here r G Ks chi); auto.
 Qed.
 
-(** ** To the letter: a table over the obligations that are named *)
+(** ** By definition: a table over the named obligations *)
 
 Definition compatible_by_table (r : reading) (G : ruleset) (Ks : list constraint) (chi : context)
   : bool :=

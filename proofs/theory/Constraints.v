@@ -87,7 +87,7 @@ Qed.
 
 (** ** Formulas as lists of clashes: their cases *)
 
-(** The parts that speak of situations only are kept whole. *)
+(** Parts about situations only are not decomposed. *)
 Fixpoint situation_only (f : formula atom) : option (formula fact) :=
   match f with
   | Truth b => Some (Truth b)

@@ -18,7 +18,7 @@ Definition context_of (ts : list name) (now : situation) : context := fun f =>
   | Holds c => now c
   end.
 
-(** The code of a rule's method that is bound with a layer (γ mended). *)
+(** The code of a rule's method that is bound with a layer (γ corrected). *)
 Definition variant (R : rule) (l : layer) : list name :=
   match l with
   | Layer _ i => to_do (clause R i)
@@ -65,7 +65,7 @@ Fixpoint at_place {A} (f : A -> A) (n : nat) (xs : list A) : list A :=
   | S k, x :: ys => x :: at_place f k ys
   end.
 
-(** A context in which the rules contradict one another is refused, before anything
+(** A context in which the rules contradict each other is rejected before anything
     is executed. *)
 Definition step (r : reading) (G : ruleset) (s : state) (e : event) : state :=
   match e with
@@ -219,7 +219,7 @@ Qed.
 (** * Two-step global activation *)
 
 (** The paper's implementation on ContextPy3: on a change of context the layer of each
-    rule is computed anew; the old one is deactivated, and the new one activated, one
+    rule is computed again; the old one is deactivated, and the new one activated, one
     global step after the other.  A trigger runs what is active at that moment: of each
     rule the variant that was activated last, or the base. *)
 Inductive swap := Deactivate (l : layer) | Activate (l : layer).
@@ -343,7 +343,7 @@ Proof.
   - destruct (proj2 (S warn) (or_introl eq_refl)) as [X|[]]; discriminate X.
 Qed.
 
-(** Activating the new layer before the old one is deactivated mends one rule, and not
+(** Activating the new layer before the old one is deactivated corrects one rule, and not
     two: between them one has changed and the other has not.  Here nothing is
     deactivated at all.
     [WHEN request THEN o1 UNLESS c IN WHICH CASE o2],

@@ -1,6 +1,6 @@
 (** Definition 1 ([sleec_verify/entailment/entailment.py]): what a ruleset entails in a
-    context, over all interpretations; and two procedures that decide it, one to
-    the letter, one by propagation.  Both are meant to be extracted. *)
+    context, over all interpretations; and two procedures that decide it, one by
+    definition, one by propagation.  Both are meant to be extracted. *)
 
 From Coq Require Import List Bool PArith Arith Lia.
 From Sleec Require Import Model Evaluation Equation.
@@ -83,7 +83,7 @@ Proof.
   - rewrite negb_involutive. apply listed_In. exact I.
 Qed.
 
-(** Ex falso: in a context in which the rules contradict one another, everything
+(** Ex falso: in a context in which the rules contradict each other, everything
     is entailed. *)
 Theorem contradiction_entails_all r G chi phi :
   contradictory (due r G chi) = true -> entails r G chi phi.
@@ -111,7 +111,7 @@ Proof.
   - intros I v A M. exact (proj1 (models_iff_due r G chi v A) M l I).
 Qed.
 
-(** * Deciding it to the letter: a table over the obligations that are named *)
+(** * Deciding it by definition: a table over the named obligations *)
 
 Definition obligations_in (phi : formula atom) : list name :=
   flat_map (fun a => match a with Fact _ => [] | Done o => [o] end) (atoms_of phi).

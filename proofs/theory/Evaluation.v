@@ -71,7 +71,7 @@ Fixpoint algorithm_1_from (i : nat) (bs : list bool) : option nat :=
 Definition algorithm_1_as_printed (chi : context) (R : rule) : option nat :=
   algorithm_1_from 1 (truths chi R).
 
-(** Algorithm 1 mended: where no hedge decides it is ε, with no hedges too. *)
+(** Algorithm 1 corrected: if no hedge decides it is ε, also without hedges. *)
 Definition algorithm_1 (r : reading) (chi : context) (R : rule) : option nat :=
   match active r chi R with
   | 0 => None
@@ -127,7 +127,7 @@ Proof.
   - intros [R [I [T H]]]. exists R. rewrite T. auto.
 Qed.
 
-(** The rules do not contradict one another in this context. *)
+(** The rules do not contradict each other in this context. *)
 Definition consistent (r : reading) (G : ruleset) (chi : context) : Prop :=
   contradictory (due r G chi) = false.
 
@@ -142,7 +142,7 @@ Proof.
     apply contradictory_spec in C. destruct C as [l [I J]]. exact (H l I J).
 Qed.
 
-(** Obligations without [NOT] never contradict one another. *)
+(** Obligations without [NOT] never contradict each other. *)
 Lemma positive_consistent r G chi :
   (forall R, In R G -> positive_rule R) -> consistent r G chi.
 Proof.

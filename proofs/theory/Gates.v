@@ -71,7 +71,7 @@ Definition both (l m : lit) (s : state) : lit * state :=
 Definition either (l m : lit) (s : state) : lit * state :=
   let (g, s') := both (negate l) (negate m) s in (negate g, s').
 
-(** Which variables a state may speak of: atoms, 1, and the gates made so far. *)
+(** Which variables a state may contain: atoms, 1, and the gates made so far. *)
 Definition older (s : state) (x : positive) : Prop :=
   match x with (g~1)%positive => (g < next s)%positive | _ => True end.
 

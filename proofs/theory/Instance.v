@@ -61,11 +61,11 @@ Definition gamma_as_printed (method : rule -> name) : ruleset -> instance :=
   translation method (layer_of shared)
     (fun chi R => returned shared R (algorithm_1_as_printed chi R)).
 
-(** γ with one ε, but Algorithm 1 mended for rules without hedges. *)
+(** γ with one ε, but Algorithm 1 corrected for rules without hedges. *)
 Definition gamma_shared (r : reading) (method : rule -> name) : ruleset -> instance :=
   translation method (layer_of shared) (fun chi R => returned shared R (algorithm_1 r chi R)).
 
-(** γ mended: each rule has an ε of its own. *)
+(** γ corrected: each rule has an ε of its own. *)
 Definition gamma (r : reading) (method : rule -> name) : ruleset -> instance :=
   translation method (layer_of own) (fun chi R => returned own R (algorithm_1 r chi R)).
 
@@ -93,7 +93,7 @@ Proof.
     destruct (in_dec _ _ _); [exact H|contradiction].
 Qed.
 
-(** * What the mended translation executes *)
+(** * What the corrected translation executes *)
 
 (** The paper: "for all R, R', if ℓ(R) = ℓ(R') then R = R'". *)
 Definition unique_labels (G : ruleset) : Prop :=
@@ -146,7 +146,7 @@ Corollary executed_iff_due r method G chi o :
   unique_labels G -> executes (gamma r method G) G chi o <-> In (Do o) (due r G chi).
 Proof. intro U. split; [apply executed_due, U|apply due_executed]. Qed.
 
-(** The mended translation activates layers that it has. *)
+(** The corrected translation activates only its own layers. *)
 Theorem layers_exist r method G chi l :
   In l (layer_manager (gamma r method G) chi) -> In l (layers (gamma r method G)).
 Proof.

@@ -95,12 +95,12 @@ Proof. intro H. apply eval_on_atoms. auto. Qed.
 
 (** * Atoms and contexts *)
 
-(** What a situation speaks of: triggers and conditions. *)
+(** The facts of a situation: triggers and conditions. *)
 Inductive fact :=
 | Occurs (trigger : name)
 | Holds (condition : name).
 
-(** What an interpretation speaks of: situations and obligations. *)
+(** The atoms of an interpretation: facts and obligations. *)
 Inductive atom :=
 | Fact (f : fact)
 | Done (obligation : name).

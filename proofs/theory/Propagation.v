@@ -8,7 +8,7 @@ From Coq Require Import List Bool PArith Arith Lia.
 From Sleec Require Import Model Evaluation Equation Entailment Readings Clauses Cnf.
 Import ListNotations.
 
-(** χ and {¬ι | ι ∉ χ}, of the facts that the rules speak of. *)
+(** χ and {¬ι | ι ∉ χ}, of the facts that the rules mention. *)
 Definition units (chi : context) (G : ruleset) : cnf :=
   map (fun f => [(chi f, fact_number f)]) (facts_of G).
 
@@ -92,7 +92,7 @@ Proof.
     + rewrite (refutes_sound _ D) in T. discriminate.
 Qed.
 
-(** It ends in a contradiction exactly where the rules contradict one another. *)
+(** It ends in a contradiction exactly where the rules contradict each other. *)
 Theorem refutes_iff_inconsistent r G chi :
   refutes (propagation_clauses r G chi) <-> contradictory (due r G chi) = true.
 Proof.

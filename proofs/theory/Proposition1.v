@@ -1,4 +1,4 @@
-(** Proposition 1: false as printed, true as mended (issue 5, theorems 1 and 2).
+(** Proposition 1: false as printed, true as corrected (issue 5, theorems 1 and 2).
 
     "Γ entails the obligation to do O in context χ iff γ(Γ) executes impl(O) in
     context χ." *)
@@ -10,7 +10,7 @@ Local Open Scope positive_scope.
 
 Definition entails_to_do r G chi o := entails r G chi (Atom (Done o)).
 
-(** * Mended *)
+(** * Corrected *)
 
 (** For every finite ruleset, context and obligation, in both readings, whatever
     methods the rules share.  The two hypotheses are needed: see
@@ -72,7 +72,7 @@ Qed.
 
 (** * As printed *)
 
-(** To the letter, and for the paper's rules only: positive obligations, no two
+(** As printed, and for the paper's rules only: positive obligations, no two
     rules with one label or one method. *)
 Definition as_printed_for (G : ruleset) : Prop :=
   forall method chi o,
@@ -162,7 +162,7 @@ Qed.
 (** [WHEN a THEN o1], χ = {a}: a rule without hedges, and no other rule. *)
 Definition bare := no_hedge 1 1 [Do 1].
 
-(** Algorithm 1, line 8, returns ℓ(R)0, which is no layer of the instance. *)
+(** Algorithm 1, line 8, returns ℓ(R)0, which is not a layer of the instance. *)
 Theorem no_hedges_no_layer method :
   layer_manager (gamma_as_printed method [bare]) (only [1] []) = [Layer 1 0] /\
   ~ In (Layer 1 0) (layers (gamma_as_printed method [bare])).
@@ -203,7 +203,7 @@ Proof.
     + apply (entails_not_computed _ _ _ (Do 1)). reflexivity.
 Qed.
 
-(** Two rules that contradict one another, and a third that is not triggered:
+(** Two rules that contradict each other, and a third that is not triggered:
     everything is entailed, o2 too, and nothing executes it. *)
 Definition at_odds := [no_hedge 1 1 [Do 1]; no_hedge 2 1 [Avoid 1]; no_hedge 3 2 [Do 2]].
 
@@ -230,7 +230,7 @@ Proof.
   - apply executes_computed. vm_compute. reflexivity.
 Qed.
 
-(** An ε for each rule is needed: with the others mended, a shared one fails. *)
+(** An ε for each rule is needed: with the others corrected, a shared one fails. *)
 Theorem own_epsilon_needed :
   exists G chi o, forall method,
     unique_labels G /\ (forall R, In R G -> positive_rule R) /\

@@ -1,4 +1,4 @@
-(** A history breaks a law exactly if every way to go on breaks it: [History.v] is right. *)
+(** A history violates a law exactly if every continuation violates it: [History.v] is right. *)
 
 From Coq Require Import List Bool PArith ZArith Lia Sorted.
 From Sleec Require Import Model Evaluation Entailment Constraints.

@@ -215,7 +215,7 @@ Fixpoint occurrences (d : demand) : list occurrence :=
   | Every parts | Either parts => flat_map occurrences parts
   end.
 
-(** Of the past, a slot needs no more than which of its events came about in their windows. *)
+(** About the past, a slot needs only which of its events occurred in their windows. *)
 Theorem flags_suffice h h' c since d :
   (forall o, In o (occurrences d) -> occurs h since o = occurs h' since o) ->
   satisfied (h ++ c) since d = satisfied (h' ++ c) since d.

@@ -1,4 +1,4 @@
-(** Ways to go on: more occurs at the last instant of a history, and there are later ones. *)
+(** Continuations: more events occur at the last instant of a history, and later instants follow. *)
 
 From Coq Require Import List Bool PArith ZArith Lia Sorted.
 From Sleec Require Import Model Evaluation Entailment Constraints.
@@ -6,7 +6,7 @@ From Traces Require Import Trace History Continuation.
 Import ListNotations.
 Local Open Scope Z_scope.
 
-(** * Ways to go on *)
+(** * Continuations *)
 
 (** The same instant, at which more occurs. *)
 Definition grown (i i' : instant) : Prop :=

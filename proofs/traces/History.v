@@ -76,7 +76,7 @@ Definition relation_open (earlier : trace) (i : instant) (later : trace) (rel : 
   | _, [] => can_hold i (invariant rel)
   end.
 
-(** The events that the conditions of a rule speak of. *)
+(** The events that the conditions of a rule name. *)
 Fixpoint response_events (R : response) : list name :=
   match R with Response _ _ alternatives => flat_map (fun a => chain_events (snd a)) alternatives end
 with chain_events (c : timed_chain) : list name :=

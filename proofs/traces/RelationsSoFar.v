@@ -138,7 +138,7 @@ Qed.
 
 (** * All laws *)
 
-(** A law can still be kept at an instant of a history if and only if some way to go on
+(** A law can still be kept at an instant of a history if and only if some continuation
     keeps it there. *)
 Theorem law_open_exact r u earlier i later k :
   ordered (earlier ++ i :: later) ->
@@ -151,7 +151,7 @@ Proof.
   apply relation_open_exact, O.
 Qed.
 
-(** What [broken_so_far] reports is broken in every way to go on, and nothing else is. *)
+(** Exactly what [broken_so_far] reports is violated in every continuation. *)
 Theorem broken_so_far_exact r u laws h :
   ordered h ->
   forall n earlier i later, nth_error (moments [] h) n = Some (earlier, i, later) ->

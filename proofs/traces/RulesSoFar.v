@@ -1,5 +1,5 @@
-(** [broken_so_far] is exact for rules: a history breaks a rule at an instant if and only if
-    every way to go on breaks it there. *)
+(** [broken_so_far] is exact for rules: a history violates a rule at an instant if and
+    only if every continuation violates it there. *)
 
 From Coq Require Import List Bool PArith ZArith Lia Sorted.
 From Sleec Require Import Model Evaluation Entailment Constraints.
@@ -91,7 +91,7 @@ Proof.
     rewrite S. apply negb_true_iff, H; [apply D|]. apply negb_true_iff, D.
 Qed.
 
-(** Of what else may occur now, only what the conditions of the rule speak of matters. *)
+(** Of what else may occur now, only the events that conditions of the rule name matter. *)
 Lemma valuations_only names w o : In w (valuations names) -> w o = true -> In o names.
 Proof.
   revert w. induction names as [|p names IH]; simpl; intros w I T.

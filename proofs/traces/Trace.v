@@ -2,7 +2,7 @@
     [docs/times.md]).
 
     The trigger and the obligation of one name are one event.  Times are whole seconds.
-    A guard, or the condition of a hedge, may speak of events as well as of conditions.
+    A guard, or the condition of a hedge, may name events as well as conditions.
     A comparison of a measure with a value is a condition. *)
 
 From Coq Require Import List Bool PArith ZArith.
@@ -232,7 +232,7 @@ Record claim := Claim {
   claimed_condition : formula fact;
   claimed_responses : list timed_chain }.
 
-(** A claim, and the second one of [meanwhile], come about somewhere in the trace. *)
+(** A claim, and the second one of [meanwhile], occur somewhere in the trace. *)
 Definition comes_about (r : reading) (u : untimed) (tr : trace) (claims : list claim) : bool :=
   forallb (fun c =>
     existsb (fun i =>

@@ -27,7 +27,7 @@ Definition triggers_in (fs : list (formula fact)) : list name := flat_map events
 Definition conditions_of (R : rule) : list (formula fact) :=
   rule_guard R :: map hedge_condition (hedges R).
 
-(** Triggers are mere inputs, and what rules oblige, or constraints speak of, are none: no
+(** Triggers are mere inputs, and obligations and names in constraints are not: no
     response triggers a rule. *)
 Record no_chains (G : ruleset) (Ks : list constraint) (mere : name -> bool) : Prop := {
   triggers_mere : forall R x, In R G -> x = trigger R \/ In x (triggers_in (conditions_of R)) ->
@@ -130,7 +130,7 @@ Proof.
   apply in_flat_map in L. destruct L as [R [IR L]]. apply in_flat_map. eauto.
 Qed.
 
-(** What a lawful history has done is kept for ever. *)
+(** No continuation violates what a lawful history has done. *)
 Lemma lawful_kept r G Ks mere s :
   ordered (past s ++ [now s]) -> lawful_so_far (timed_ruleset_of r G Ks mere) s ->
   forall i, In i (past s) -> kept_at r G Ks i.
@@ -167,7 +167,7 @@ Lemma same_eval mere chi psi f :
   eval chi f = eval psi f.
 Proof. intros [O H] M. apply eval_on_atoms. intros [x|c] I; auto. Qed.
 
-(** Rules, and constraints, that speak of no triggers but these. *)
+(** Rules and constraints that name only these triggers. *)
 Definition rules_over (mere : name -> bool) (S : ruleset) : Prop :=
   forall R x, In R S -> x = trigger R \/ In x (triggers_in (conditions_of R)) -> mere x = true.
 

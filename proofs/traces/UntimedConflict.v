@@ -211,7 +211,7 @@ Proof.
     exists (AtNow [] i). apply conflict_in_situation; auto.
 Qed.
 
-(** Other triggers may occur, too, where no constraint speaks of them. *)
+(** Other triggers may occur, too, if no constraint names them. *)
 Theorem other_triggers r S Ks chi :
   let own := fun x => existsb (fun R => existsb (Pos.eqb x) (trigger R :: triggers_in (conditions_of R))) S in
   constraints_over own Ks ->
