@@ -112,7 +112,7 @@ class TokenCursor:
         self.fail(
             f"nested too deeply: more than {MAX_DEPTH} levels of parentheses or {self.operators}",
             self.token_span(self.at),
-            "name a part of the condition, or split the rule in two",
+            "simplify the condition, or split the rule in two",
         )
 
     def close(self, mark: str, opened: int) -> None:

@@ -1,295 +1,271 @@
-"""Parses assertions."""
+"""Parses assertions: ``never A and not B when condition``, ``always A``."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
-from typing import NamedTuple, NoReturn
+from array import array
+from collections.abc import Collection, Iterator, Mapping
+from fractions import Fraction
+from typing import ClassVar, NoReturn
 
 from sleec_runtime.errors import LanguageError, Problem
-from sleec_runtime.language.common.comparisons import OPERATORS
+from sleec_runtime.language.common.comparisons import OPERATORS, Side, scale_text
+from sleec_runtime.language.common.formula_parser import FormulaParser
+from sleec_runtime.language.common.problems import quoted
+from sleec_runtime.language.common.token_cursor import Abandon
+from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.model import (
-    And,
     Atom,
     Comparison,
     Formula,
     MeasureRef,
-    Not,
     Number,
     Obligation,
-    Or,
-    Rational,
     ScaleValue,
     Source,
     Span,
     Term,
     Truth,
 )
+from sleec_runtime.support.suggestions import did_you_mean, nearest
 from sleec_verify.changes.assertions.assertion import Assertion
 from sleec_verify.changes.assertions.vocabulary import Vocabulary
 
-
-class _Token(NamedTuple):
-    kind: str
-    text: str
-    span: Span
-
-
 _TOKENS = re.compile(
-    r"(?P<operator><=|>=|!=|<>|==|[<>=\u2264\u2265\u2260])|(?P<parenthesis>[()])|(?P<comma>,)"
+    r"(?P<operator><=|>=|!=|<>|==|[<>=\u2264\u2265\u2260])|(?P<mark>[(),])"
     r"|(?P<number>[+-]?[0-9]{1,100}(?:\.[0-9]{1,100})?)(?![\w.])|(?P<word>[^\s()<>=!,\u2264\u2265\u2260]+)|(?P<other>\S)"
 )
-_JOINING = ("and", "or", "not", "when")
-_EXAMPLE = "as in: never RefuseRequest when MedicalEmergency"
-_DEEPEST = 200
+_KEYWORDS = frozenset({"never", "always", "and", "or", "not", "when", "true", "false"})
+_EXAMPLE = "for example: never RefuseRequest when MedicalEmergency"
 
 
 def parse_assertion(text: str, known: Vocabulary, path: str = "--assert") -> Assertion:
-    """The assertion that `text` says, over the names of `known`.
+    """The assertion in `text`, over the names of `known`.
 
     Raises:
-        LanguageError: it is none, with the place, what is wrong and what to try.
+        LanguageError: it is not an assertion.
     """
-    return _Reader(Source(path, text), Span(0, len(text)), known).assertion()
+    source = Source(path, text)
+    problems: list[Problem] = []
+    assertion = _parse(source, Span(0, len(text)), known, problems)
+    if assertion is None:
+        raise LanguageError(source, problems)
+    return assertion
 
 
 def parse_assertions(source: Source, known: Vocabulary) -> list[Assertion]:
-    """The assertions of a text, one a line; ``#`` starts a comment.
+    """The assertions of a text, one per line; ``#`` starts a comment.
 
     Raises:
-        LanguageError: with the problem of each line that is none.
+        LanguageError: with the problem of each line that is not an assertion.
     """
     found: list[Assertion] = []
     problems: list[Problem] = []
     start = 0
     for line in source.text.splitlines(keepends=True):
-        said = line.partition("#")[0]
-        if said.strip():
-            try:
-                found.append(_Reader(source, Span(start, start + len(said)), known).assertion())
-            except LanguageError as error:
-                problems += error.problems
+        content = line.partition("#")[0]
+        if content.strip():
+            assertion = _parse(source, Span(start, start + len(content)), known, problems)
+            if assertion is not None:
+                found.append(assertion)
         start += len(line)
+    if not found and not problems:
+        problems = [Problem("there is no assertion in this file", Span(0, 0), _EXAMPLE)]
     if problems:
         raise LanguageError(source, problems)
-    if not found:
-        raise LanguageError(source, [Problem("there is no assertion in this file", Span(0, 0), _EXAMPLE)])
     return found
 
 
-class _Reader:
-    def __init__(self, source: Source, span: Span, known: Vocabulary) -> None:
-        self._source = source
+def _parse(source: Source, span: Span, known: Vocabulary, problems: list[Problem]) -> Assertion | None:
+    text = source.text[span.start : span.end]
+    end = span.start + len(text.rstrip())
+    start = min(end, span.start + len(text) - len(text.lstrip()))
+    try:
+        return _AssertionParser(source, _scan(source.text, start, end), problems, known).assertion(Span(start, end))
+    except Abandon:
+        return None
+
+
+def _scan(text: str, start: int, end: int) -> Tokens:
+    matches = list(_TOKENS.finditer(text, start, end))
+    kinds = [_kind(match) for match in matches] + ["end"]
+    starts = array("q", [*(match.start() for match in matches), end])
+    ends = array("q", [*(match.end() for match in matches), end])
+    return Tokens(text, kinds, starts, ends, {}, ())
+
+
+def _kind(match: re.Match[str]) -> str:
+    kind, text = str(match.lastgroup), match[0].lower()
+    return text if kind == "mark" or (kind == "word" and text in _KEYWORDS) else kind
+
+
+class _AssertionParser(FormulaParser):
+    precedence: ClassVar[Mapping[str, int]] = {"or": 1, "and": 2}
+    conjunction = "and"
+    negation = "not"
+
+    def __init__(self, source: Source, tokens: Tokens, problems: list[Problem], known: Vocabulary) -> None:
+        super().__init__(source, tokens, problems)
         self._known = known
-        self._tokens = [
-            _Token(str(match.lastgroup), match.group(), Span(*match.span()))
-            for match in _TOKENS.finditer(source.text, span.start, span.end)
-        ]
-        text = source.text[span.start : span.end]
-        end = span.start + len(text.rstrip())
-        start = min(end, span.start + len(text) - len(text.lstrip()))
-        self._span = Span(start, end)
-        self._tokens.append(_Token("end", "", Span(end, end)))
-        self._at = 0
-        self._depth = 0
+        self._values = {value for measure in known.measures.values() for value in measure.values}
+        self._conditions = {*known.triggers, *known.conditions, *known.measures, *known.constants}
 
-    # The assertion -----------------------------------------------------------------------------------------
-
-    def assertion(self) -> Assertion:
-        word = self._word()
+    def assertion(self, span: Span) -> Assertion:
+        """The assertion that the tokens are; `span` is its span."""
+        word = self.kinds[0]
         if word not in ("never", "always"):
-            self._fail("an assertion begins with never or always", _EXAMPLE)
-        self._at += 1
+            self._refuse("an assertion begins with never or always", _EXAMPLE)
+        self.at = 1
         literals = [self._obligation()]
-        while self._word() == "and" or self._here.kind == "comma":
-            self._at += 1
+        while self.kinds[self.at] in ("and", ","):
+            self.at += 1
             literals.append(self._obligation())
-        if self._word() == "or":
-            self._fail("an assertion joins obligations with and only", "write an assertion for each of them")
+        if self.kinds[self.at] == "or":
+            self._refuse("obligations in an assertion can only be joined by and", "write one assertion for each")
         when: Formula = Truth(True)
-        if self._here.kind != "end":
-            if self._word() != "when":
-                self._fail(f"{self._shown()} is unexpected here", "behind the obligations stands when, or nothing")
-            self._at += 1
-            when = self._formula()
-            if self._here.kind != "end":
-                self._fail(f"{self._shown()} is unexpected here", "join conditions with and or or")
-        return Assertion("never" if word == "never" else "always", tuple(literals), when, self._source, self._span)
+        if self.kinds[self.at] == "when":
+            self.at += 1
+            when = self.formula()
+            self._require_end("join conditions with and or or")
+        self._require_end("write when and a condition after the obligations")
+        return Assertion("never" if word == "never" else "always", tuple(literals), when, self.source, span)
+
+    def expected(self, what: str, hint: str | None = None) -> NoReturn:
+        found = "the assertion ends here" if self.kinds[self.at] == "end" else f"found {self._shown()}"
+        self._refuse(f"expected {what}, but {found}", hint)
+
+    def _require_end(self, hint: str) -> None:
+        if self.kinds[self.at] != "end":
+            self._refuse(f"unexpected {self._shown()}", hint)
 
     def _obligation(self) -> Obligation:
-        negated = self._word() == "not" and self._name_of(self._known.obligations) is None
+        known = self._known.obligations
+        negated = self.kinds[self.at] == "not" and self._name_at_hand(known) is None
         if negated:
-            self._at += 1
-        name = self._name_of(self._known.obligations)
+            self.at += 1
+        name = self._name_at_hand(known)
         if name is None:
-            self._unknown("an obligation", self._known.obligations, "name what is to be done")
-        self._at += name.count(" ") + 1
+            self._refuse_name("an obligation", known, "write what the robot must or must not do")
+        self.at += name.count(" ") + 1
         return Obligation(name, negated)
 
-    # Formulas ----------------------------------------------------------------------------------------------
+    # Formulas -------------------------------------------------------------------------------------------------
 
-    def _formula(self) -> Formula:
-        self._depth += 1
-        if self._depth > _DEEPEST:
-            self._fail(f"parentheses and nots are nested more than {_DEEPEST} deep", "say it in simpler words")
-        operands = [self._conjunction()]
-        while self._word() == "or":
-            self._at += 1
-            operands.append(self._conjunction())
-        self._depth -= 1
-        return operands[0] if len(operands) == 1 else Or(tuple(operands))
+    def operand(self) -> Formula:
+        # A name may contain a keyword.
+        return super().operand() if self._name_at_hand(self._conditions) is None else self.leaf()
 
-    def _conjunction(self) -> Formula:
-        operands = [self._unary()]
-        while self._word() == "and":
-            self._at += 1
-            operands.append(self._unary())
-        return operands[0] if len(operands) == 1 else And(tuple(operands))
-
-    def _unary(self) -> Formula:
-        if self._here.text == "(":
-            opened = self._here
-            self._at += 1
-            formula = self._formula()
-            if self._here.text != ")":
-                self._fail("this parenthesis is not closed", "put the closing one behind what belongs together", opened)
-            self._at += 1
-            return formula
-        name = self._name_of(self._names())
-        if name is None and self._word() == "not":
-            self._at += 1
-            self._depth += 1
-            if self._depth > _DEEPEST:
-                self._fail(f"parentheses and nots are nested more than {_DEEPEST} deep", "say it in simpler words")
-            operand = self._unary()
-            self._depth -= 1
-            return Not(operand)
-        if name is None and self._word() in ("true", "false"):
-            self._at += 1
-            return Truth(self._tokens[self._at - 1].text.lower() == "true")
-        return self._leaf(name)
-
-    def _leaf(self, name: str | None) -> Formula:
+    def leaf(self) -> Formula:
+        name = self._name_at_hand(self._conditions)
+        if name is None and self.kinds[self.at] in ("true", "false"):
+            self.at += 1
+            return Truth(self.kinds[self.at - 1] == "true")
         words = 1 if name is None else name.count(" ") + 1
-        follows = self._tokens[min(self._at + words, len(self._tokens) - 1)]
-        if self._here.kind == "number" or follows.kind == "operator":
+        if self.kinds[self.at] == "number" or self.kinds[min(self.at + words, len(self.kinds) - 1)] == "operator":
             return self._comparison()
         if name is None:
-            self._unknown("a trigger, condition or measure", self._names(), "say in which situations")
+            self._refuse_name("a trigger, condition or measure", self._conditions, "write in which situations")
         known = self._known
         if name in known.triggers or name in known.conditions:
-            self._at += words
+            self.at += words
             return Atom("trigger" if name in known.triggers else "condition", name)
         if name in known.measures:
             value = (18, *known.measures[name].values)[-1]
-            self._fail(f"{name} is a measure, neither true nor false", f"compare it: {name} >= {value}")
-        return self._fail(f"{name} is a number by itself", f"compare a measure with it, as in: UserAge < {name}")
+            self._refuse(f"{quoted(name)} is a measure, neither true nor false", f"compare it: {name} >= {value}")
+        return self._refuse(
+            f"{quoted(name)} is a constant", f"compare a measure with it, for example: UserAge < {name}"
+        )
 
     def _comparison(self) -> Formula:
-        first = self._at
+        first = self.at
         left = self._side()
-        if self._here.kind != "operator":
-            self._fail("a comparison such as < or >= is missing behind the number", "as in: 18 <= UserAge")
-        operator = OPERATORS[self._here.text]
-        self._at += 1
+        if self.kinds[self.at] != "operator":
+            self._refuse("a comparison such as < or >= is missing after the number", "for example: 18 <= UserAge")
+        operator = OPERATORS[self.token_text(self.at)]
+        self.at += 1
         right = self._side()
-        span = Span(self._tokens[first].span.start, self._tokens[self._at - 1].span.end)
+        span = self.span(first)
         return Comparison(self._term(left, right, span), operator, self._term(right, left, span), span)
 
-    def _side(self) -> str | Rational:
-        token = self._here
-        if token.kind == "number":
-            self._at += 1
-            from fractions import Fraction
-
-            value = Fraction(token.text)
-            return int(value) if value.denominator == 1 else value
-        known = self._known
-        values = {value for measure in known.measures.values() for value in measure.values}
-        name = self._name_of({*known.measures, *known.constants, *values})
+    def _side(self) -> Side:
+        first = self.at
+        if self.kinds[first] == "number":
+            self.at += 1
+            value = Fraction(self.token_text(first))
+            return Side(int(value) if value.denominator == 1 else value, self.span(first))
+        names = {*self._known.measures, *self._known.constants}
+        name = self._name_at_hand(names | self._values)
         if name is None:
-            self._unknown("a measure, a constant or a value of a scale", {*known.measures, *known.constants}, _EXAMPLE)
-        self._at += name.count(" ") + 1
-        return name
+            self._refuse_name("a measure, a constant or a value of a scale", names, _EXAMPLE)
+        self.at += name.count(" ") + 1
+        return Side(name, self.span(first))
 
-    def _term(self, side: str | Rational, other: str | Rational, span: Span) -> Term:
-        opposite = self._known.measures.get(other) if isinstance(other, str) else None
-        if not isinstance(side, str):
-            if opposite is None or opposite.kind == "scale":
-                hint = "as in: UserAge < 18" if opposite is None else f"its values are {' < '.join(opposite.values)}"
-                self._fail(f"{other} is not compared with a number", hint, span=span)
-            return Number(side)
-        if opposite is not None and side in opposite.values:
-            return ScaleValue(side, opposite.values.index(side))
-        measure = self._known.measures.get(side)
+    def _term(self, side: Side, opposite: Side, span: Span) -> Term:
+        name, other = side.written, opposite.written
+        measures = self._known.measures
+        against = measures.get(other) if isinstance(other, str) else None
+        if not isinstance(name, str):
+            if against is None or against.kind == "scale":
+                hint = "for example: UserAge < 18" if against is None else f"its values are {scale_text(against)}"
+                self.fail(f"{quoted(str(other))} cannot be compared with a number", span, hint)
+            return Number(name)
+        if against is not None and name in against.values:
+            return ScaleValue(name, against.values.index(name))
+        measure = measures.get(name)
         if measure is not None:
-            if opposite is not None and measure.values != opposite.values:
-                self._fail(f"{side} and {other} cannot be compared: they have different scales", None, span=span)
-            if opposite is None and measure.kind == "scale" and other not in measure.values:
-                self._fail(f"{other} is no value of {side}", f"its values are {' < '.join(measure.values)}", span=span)
-            return MeasureRef(side)
-        if side in self._known.constants and opposite is not None and opposite.kind != "scale":
-            return Number(self._known.constants[side], side)
-        return self._fail(f"{side} and {other} cannot be compared", "compare a measure with a number", span=span)
+            if against is not None and measure.values != against.values:
+                self.fail(f"{quoted(name)} and {quoted(str(other))} have different scales", span, None)
+            if against is None and measure.kind == "scale" and other not in measure.values:
+                message = f"{quoted(str(other))} is not a value of {quoted(name)}"
+                self.fail(message, span, f"its values are {scale_text(measure)}")
+            return MeasureRef(name)
+        if name in self._known.constants and against is not None and against.kind != "scale":
+            return Number(self._known.constants[name], name)
+        message = f"{quoted(name)} and {quoted(str(other))} cannot be compared"
+        return self.fail(message, span, "compare a measure with a number or one of its values")
 
-    # Tokens ------------------------------------------------------------------------------------------------
+    # Names ----------------------------------------------------------------------------------------------------
 
-    @property
-    def _here(self) -> _Token:
-        return self._tokens[self._at]
-
-    def _word(self) -> str | None:
-        """The word at hand in small letters."""
-        return self._here.text.lower() if self._here.kind == "word" else None
-
-    def _names(self) -> set[str]:
-        known = self._known
-        return {*known.triggers, *known.conditions, *known.measures, *known.constants}
-
-    def _words(self) -> Iterator[_Token]:
-        at = self._at
-        while self._tokens[at].kind in ("word", "number"):
-            yield self._tokens[at]
+    def _words(self) -> Iterator[int]:
+        """The tokens at hand that may be words of a name."""
+        at = self.at
+        while self.kinds[at] in ("word", "number") or self.kinds[at] in _KEYWORDS:
+            yield at
             at += 1
 
-    def _name_of(self, names: Iterable[str]) -> str | None:
-        """The longest of `names` that stands here, word by word."""
-        words = [token.text for token in self._words()]
+    def _name_at_hand(self, names: Collection[str]) -> str | None:
+        """The longest of `names` at hand, word by word."""
+        words = [self.token_text(token) for token in self._words()]
         found = [name for name in names if name.split(" ") == words[: name.count(" ") + 1]]
         return max(found, key=len, default=None)
 
-    def _unknown(self, what: str, names: Iterable[str], missing: str) -> NoReturn:
-        words = []
+    def _refuse_name(self, what: str, names: Collection[str], hint_if_missing: str) -> NoReturn:
+        first = self.at
         for token in self._words():
-            if token.text.lower() in _JOINING:
+            if self.kinds[token] in ("and", "or", "not", "when"):
                 break
-            words.append(token)
-        if not words:
-            self._fail(f"{what} is missing here", missing)
-        name = " ".join(token.text for token in words)
-        span = Span(words[0].span.start, words[-1].span.end)
-        from sleec_runtime.support.suggestions import nearest
-
+            self.at = token + 1
+        if self.at == first:
+            self._refuse(f"{what} is missing here", hint_if_missing)
+        name, span = self.joined_name(first, self.at), self.span(first)
         known = self._known
-        for kind, others in (
-            ("an obligation", known.obligations),
-            ("a trigger", known.triggers),
-            ("a condition", known.conditions),
-            ("a measure", set(known.measures)),
-        ):
+        kinds: dict[str, Collection[str]] = {
+            "an obligation": known.obligations,
+            "a trigger": known.triggers,
+            "a condition": known.conditions,
+            "a measure": known.measures,
+        }
+        for kind, others in kinds.items():
             if name in others:
-                hint = "never and always speak of obligations, when of triggers, conditions and measures"
-                self._fail(f"{name} is {kind}, and {what} is wanted here", hint, span=span)
-        near = nearest(name, sorted(names))
+                hint = "write obligations after never and always; triggers, conditions and measures after when"
+                self.fail(f"{quoted(name)} is {kind}, but {what} is needed here", span, hint)
         shown = sorted(names)
-        listed = (
-            f"there are {', '.join(shown[:8])}{', …' if len(shown) > 8 else ''}" if shown else "the rules have none"
-        )
-        self._fail(f"the rules do not know {name}", f"did you mean {near}?" if near else listed, span=span)
+        listed = f"the rules have {', '.join(shown[:8])}{', …' if len(shown) > 8 else ''}" if shown else None
+        hint = did_you_mean(nearest(name, shown)) or listed or "the rules have none"
+        self.fail(f"{quoted(name)} is not in the rules", span, hint)
+
+    def _refuse(self, message: str, hint: str | None) -> NoReturn:
+        self.fail(message, self.token_span(self.at), hint)
 
     def _shown(self) -> str:
-        return self._here.text
-
-    def _fail(self, message: str, hint: str | None, token: _Token | None = None, span: Span | None = None) -> NoReturn:
-        where = span or (token or self._here).span
-        raise LanguageError(self._source, [Problem(message, where, hint)])
+        return quoted(self.token_text(self.at))

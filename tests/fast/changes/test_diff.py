@@ -161,7 +161,7 @@ def test_an_assertion_is_read_as_the_new_rules_take_its_names(cli: Cli) -> None:
     files = {"old.sleec": OLD, "new.sleec": measured}
     wrong = cli("diff", "old.sleec", "new.sleec", "--assert", "never p when c", files=files)
     assert wrong.code == 2
-    assert "--assert:1:14: error: c is a measure, neither true nor false" in wrong.err
+    assert "--assert:1:14: error: `c` is a measure, neither true nor false" in wrong.err
     right = cli("diff", "old.sleec", "new.sleec", "--assert", "never p when c <= 2")
     assert "holds: never p when c <= 2" in right.out
     # Of several rulesets, one may take the name for something else: nobody can say what the assertion means to it.
@@ -181,7 +181,7 @@ def test_a_file_of_assertions(cli: Cli) -> None:
     assert "broken: always o when t" in ran.out
     wrong = cli("diff", "a.sleec", "a.sleec", "--assertions", "must.txt", files={"must.txt": "never p\nnever oo\n"})
     assert wrong.code == 2
-    assert "must.txt:2:7: error: the rules do not know oo" in wrong.err
+    assert "must.txt:2:7: error: `oo` is not in the rules" in wrong.err
 
 
 @pytest.mark.parametrize(

@@ -87,7 +87,7 @@ REFUSED = {
     "RULE a.b WHEN t THEN a": "no name of the DSL",
     "WHEN event THEN a": "keyword of the DSL",
     "CONSTANT k = 1.5\nWHEN t AND x > k THEN a": "no whole number",
-    "WHEN t AND x > 1.5 THEN a": "no whole number",
+    "WHEN t AND x > 1.5 THEN a": "not a whole number",
 }
 
 
@@ -134,7 +134,8 @@ def test_structured_english_says_all_that_the_dsl_does(rest, beside, said):
 def test_what_is_only_read_because_others_read_it_is_put_right():
     foreign = convert(dsl("and {one} = d then B"), "english")
     assert "WHEN A AND one = b THEN B" in foreign.text
-    assert foreign.notes == ["line 9: d is no value of one but of two; it is read as b, which has the same place"]
+    note = "line 9: `d` is a value of `two`, not of `one`; it is read as `b`, which has the same place"
+    assert foreign.notes == [note]
     for written, meant in (
         ("{one} >= 1", "one >= b"),
         ("0 = {one}", "a = one"),
@@ -147,7 +148,7 @@ def test_what_is_only_read_because_others_read_it_is_put_right():
         number = convert(dsl(f"and ({written}) then B"), "english")
         assert f"WHEN A AND {meant} THEN B" in number.text
         (note,) = number.notes
-        assert note.startswith("line 9: one is a scale, and ")
+        assert note.startswith("line 9: `one` is a scale, but ")
     twice = convert(dsl("then B R1 when B then A R1_2 when B then A"), "english")
     assert [rule.label for rule in twice.ruleset.rules] == ["R1", "R1_2_", "R1_2"]
     assert twice.notes[0] == "line 9: R1#2 is called R1_2_ here"

@@ -102,7 +102,7 @@ def test_too_much_is_refused_with_its_place():
     with pytest.raises(LanguageError) as caught:
         parse(text)
     (problem,) = caught.value.problems
-    assert problem.message == "this calculation comes to a sum of 21 parts, more than 20"
+    assert problem.message == "this calculation has 21 terms, more than 20"
     assert caught.value.source.place(problem.span).line == text[: text.index("R1 when")].count("\n") + 1
     assert problem.hint
 

@@ -63,8 +63,8 @@ def test_wherever_a_condition_of_a_rule_stands(text: str) -> None:
         ),
         ("WHEN A THEN X UNLESS B WHEN B THEN Y RELATION ALWAYS B IMPLIES c", "`B` is used as a condition here"),
         ("WHEN A THEN X UNLESS Y WHEN B THEN Y", "`Y` is used as an obligation here, and used as a condition"),
-        (DSL.format("R1 when A then X unless {B}"), "`B` is an event (line 1), and here only a measure can stand"),
-        (DSL.format("R1 when A then X unless B = true"), "`B` is an event (line 1), and here only a measure can stand"),
+        (DSL.format("R1 when A then X unless {B}"), "`B` is an event (line 1), but a condition is needed here"),
+        (DSL.format("R1 when A then X unless B = true"), "`B` is an event (line 1), but a condition is needed here"),
     ],
 )
 def test_what_is_no_event_in_a_condition_stays_refused(text: str, message: str) -> None:

@@ -160,7 +160,7 @@ def test_assertions(cli: Cli, repository: Repository) -> None:
     assert policies(said) == {"assertions"}
     ran = cli("gate", "--base", "main", "--assert", "never pp")
     assert ran.code == 2
-    assert "the rules do not know pp" in ran.err
+    assert "`pp` is not in the rules" in ran.err
 
 
 def test_the_code_of_targets(cli: Cli, repository: Repository) -> None:
