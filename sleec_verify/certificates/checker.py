@@ -56,10 +56,12 @@ def checker(path: str | None = None) -> Checker:
         raise SleecError(f"{path} is not a program", "make -C proofs/checker builds one: proofs/checker/check-lrat")
     program = os.path.abspath(path)
     proved = os.path.realpath(path) == os.path.realpath(BUILT)
-    return Checker(path, proved, lambda formula, proof: _by_program(program, formula, proof))
+    return Checker(path, proved, lambda formula, proof: judge_by_program(program, formula, proof))
 
 
-def _by_program(program: str, formula: bytes, proof: bytes) -> str | None:
+def judge_by_program(program: str, formula: bytes, proof: bytes) -> str | None:
+    """Why a checker does not accept a refutation; None if it does."""
+
     def run(folder: str) -> subprocess.CompletedProcess[str]:
         os.mkdir(folder, 0o700)
         paths = Path(folder, "formula.cnf"), Path(folder, "proof.lrat")

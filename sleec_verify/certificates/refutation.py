@@ -54,7 +54,7 @@ class Disjunction:
     def lrat(self) -> str:
         """A refutation in LRAT.
 
-        Raises NotFollowing where none is found: a question has a model, or what the solver learnt does not follow.
+        Raises InvalidLemma where none is found: a question has a model, or what the solver learnt does not follow.
         """
         rows: list[str] = []
         next_number = len(self.clauses) + 1
@@ -100,16 +100,16 @@ def refute(clauses: Sequence[Sequence[int]], questions: Sequence[Sequence[int]])
     """Why none of the questions has a model that satisfies the clauses. Most need unit propagation only; for the rest,
     a solver is asked, and what it learns is elaborated.
 
-    Raises NotFollowing where that is not so.
+    Raises InvalidLemma where that is not so.
     """
     elaborator = Elaborator(clauses, questions)
     unanswered = elaborator.open_questions()
     if unanswered:
-        elaborator.learn(_lemmas(clauses, [questions[place] for place in unanswered]))
+        elaborator.learn(learnt_clauses(clauses, [questions[place] for place in unanswered]))
     return elaborator.elaborate()
 
 
-def _lemmas(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]) -> list[LearntClause]:
+def learnt_clauses(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]) -> list[LearntClause]:
     """What Glucose learns while it refutes these questions, in its order. It is python-sat's C interface again, as in
     `sleec_verify.encoding.solver`."""
     import pysolvers

@@ -66,7 +66,9 @@ def command(
     if output is None:
         write_data((text,))
     else:
-        _create(output, text, force)
+        from sleec_verify.files.placement import write_new, write_whole
+
+        (write_whole if force else write_new)(output, text.encode())
     tell(_in_short(found))
     return exits.HOLDS
 
@@ -78,23 +80,6 @@ def _from(output: str | None, path: str) -> str | None:
     if output is None:
         return os.path.basename(path)
     return os.path.relpath(path, os.path.dirname(output) or ".").replace(os.sep, "/")
-
-
-def _create(output: str, text: str, force: bool) -> None:
-    from sleec_runtime.errors import SleecError
-
-    if force:
-        from sleec_verify.files.placement import write_whole
-
-        write_whole(output, text.encode())
-        return
-    from sleec_verify.files.temporary import put_in_place
-
-    try:
-        # New also where a file has come there since it was looked for.
-        put_in_place(output, text.encode(), new=True)
-    except OSError as error:
-        raise SleecError(f"{output} cannot be written: {error.strerror}") from None
 
 
 def _in_short(found: Cases) -> str:

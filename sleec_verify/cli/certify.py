@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import click
@@ -10,14 +9,13 @@ import click
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
 from sleec_verify.cli.output import note, write
-from sleec_verify.results.finding import SEVERITIES, Severity, Unknown
 
 if TYPE_CHECKING:
     from sleec_runtime.certificate.manifest import Required
-    from sleec_runtime.model import Reading, Ruleset
+    from sleec_runtime.model import Ruleset
     from sleec_verify.certificates.making import Certificate
-    from sleec_verify.encoding.trace_scope import Untimed
-    from sleec_verify.results.finding import CheckResult
+    from sleec_verify.cli.scope import Scope
+    from sleec_verify.results.finding import Severity
 
 
 @click.command(
@@ -28,17 +26,8 @@ if TYPE_CHECKING:
 @options.paths(several=False)
 @click.option("-o", "--output", metavar="DIR", type=options.PATH, help="Write the certificate to this folder.")
 @click.option("--check", "checked", metavar="DIR", type=options.PATH, help="Check this certificate of FILE instead.")
-@options.reading
-@options.domain
-@options.untimed
-@options.chains
-@click.option(
-    "--fail-level",
-    type=click.Choice(SEVERITIES),
-    default="error",
-    show_default=True,
-    help="Exit with 1 if there is a finding as grave as this.",
-)
+@options.scope(options.reading, options.domain, options.untimed, options.chains)
+@options.fail_level
 @click.option(
     "--sign", "private", metavar="KEY", type=options.PATH, help="Sign it with this private Ed25519 key, in PEM."
 )
@@ -63,10 +52,7 @@ def command(
     path: str,
     output: str | None,
     checked: str | None,
-    reading: Reading | None,
-    domain: str | None,
-    untimed: Untimed,
-    chains: bool,
+    scope: Scope,
     fail_level: Severity,
     private: str | None,
     public: str | None,
@@ -91,9 +77,9 @@ def command(
 
     required = Required(require_proved, require_tied)
     if output is not None:
-        return _write(path, output, reading, domain, untimed, chains, fail_level, private, force, required, form)
+        return _write(path, output, scope, fail_level, private, force, required, form)
     assert checked is not None
-    return _check(path, checked, reading, domain, untimed, chains, fail_level, public, checker, required, form)
+    return _check(path, checked, scope, fail_level, public, checker, required, form)
 
 
 def _refuse_stray(context: click.Context, names: tuple[str, ...]) -> None:
@@ -108,10 +94,7 @@ def _refuse_stray(context: click.Context, names: tuple[str, ...]) -> None:
 def _write(
     path: str,
     output: str,
-    reading: Reading | None,
-    domain: str | None,
-    untimed: Untimed,
-    chains: bool,
+    scope: Scope,
     fail_level: Severity,
     private: str | None,
     force: bool,
@@ -124,12 +107,13 @@ def _write(
     from sleec_verify.report.certificate import told
 
     check_free(output, force)
-    ruleset = one_ruleset(path, reading, domain)
+    ruleset = one_ruleset(path, scope.reading, scope.domain)
     with Progress() as progress:
-        made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path), required, chains)
+        progressing = progress.on(ruleset.source.path)
+        made = certify(ruleset, scope.domain, scope.untimed, progressing, required, scope.chains)
         save(made, ruleset, output, private, force)
     write(told(form, ruleset, output, made.manifest, made.shown, None))
-    return _exit_code(made.results, fail_level)
+    return exits.code(made.results, fail_level)
 
 
 def save(made: Certificate, ruleset: Ruleset, output: str, private: str | None = None, force: bool = False) -> None:
@@ -158,10 +142,7 @@ def save(made: Certificate, ruleset: Ruleset, output: str, private: str | None =
 def _check(
     path: str,
     checked: str,
-    reading: Reading | None,
-    domain: str | None,
-    untimed: Untimed,
-    chains: bool,
+    scope: Scope,
     fail_level: Severity,
     public: str | None,
     checker: str | None,
@@ -185,7 +166,7 @@ def _check(
                 ruleset,
                 checked,
                 judge,
-                Use(reading or ruleset.reading, domain, untimed, chains),
+                Use(scope.reading or ruleset.reading, scope.domain, scope.untimed, scope.chains),
                 required,
                 key=public,
                 oracle=built(),
@@ -200,7 +181,7 @@ def _check(
     if public is None and confirmed.signed:
         note("the certificate is signed; whether by whom it should be, --key PUB tells")
     write(told(form, confirmed.ruleset, checked, confirmed.manifest.whole, confirmed.shown, judge, confirmed.tied))
-    return _exit_code([one.result for one in confirmed.shown], fail_level)
+    return exits.code((one.result for one in confirmed.shown), fail_level)
 
 
 def _read(path: str, checked: str) -> Ruleset:
@@ -217,10 +198,3 @@ def _read(path: str, checked: str) -> Ruleset:
             [("ruleset-changed", f"the certificate is not of this text, which is no ruleset: {error.source.path}")],
             f"sleec-verify check {error.source.path}",
         ) from None
-
-
-def _exit_code(results: Sequence[CheckResult], fail_level: Severity) -> int:
-    grave = SEVERITIES[: SEVERITIES.index(fail_level) + 1]
-    if any(finding.severity in grave for result in results for finding in result.findings):
-        return exits.FINDINGS
-    return exits.UNKNOWN if any(isinstance(result.verdict, Unknown) for result in results) else exits.HOLDS

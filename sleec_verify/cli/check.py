@@ -15,15 +15,15 @@ from sleec_verify.cli.inputs import files, rulesets
 from sleec_verify.cli.output import complain, report
 from sleec_verify.encoding.budget import limited
 from sleec_verify.report import FORMATS
-from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput, checked, deduplicated_findings, tally
-from sleec_verify.results.finding import SEVERITIES, Severity
+from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput, checked
+from sleec_verify.results.finding import Severity
 from sleec_verify.results.internal_error import InternalError, internal_errors_of
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Reading, Ruleset
-    from sleec_verify.cli.cache import Cache
+    from sleec_runtime.model import Ruleset
+    from sleec_verify.cli.cache.store import Cache
     from sleec_verify.cli.progress import Progress
-    from sleec_verify.encoding.trace_scope import Untimed
+    from sleec_verify.cli.scope import Scope
     from sleec_verify.results.finding import CheckResult
 
 
@@ -33,10 +33,7 @@ if TYPE_CHECKING:
     epilog="Example: sleec-verify check rulesets/ --format concise --fail-level warning",
 )
 @options.paths(several=True)
-@options.reading
-@options.domain
-@options.untimed
-@options.chains
+@options.scope(options.reading, options.domain, options.untimed, options.chains)
 @click.option(
     "--realizable",
     metavar="N",
@@ -56,10 +53,7 @@ if TYPE_CHECKING:
 @options.max_size
 def command(
     paths: tuple[str, ...],
-    reading: Reading | None,
-    domain: str | None,
-    untimed: Untimed,
-    chains: bool,
+    scope: Scope,
     realizable: int | None,
     fail_level: Severity,
     form: str,
@@ -95,15 +89,16 @@ def command(
         check_free(certificate, force=False)
 
     def once() -> int:
-        found = rulesets(paths, reading, domain)
+        found = rulesets(paths, scope.reading, scope.domain)
         if certificate is not None and len(found) > 1:
             raise click.UsageError("a certificate is of one ruleset: name one file")
         with nullcontext() if timeout is None else limited(timeout):
-            outcomes = _outcomes(
-                found, domain, untimed, chains, realizable, cache, certificate, (require_proved, require_tied)
-            )
+            required = (require_proved, require_tied)
+            outcomes = _outcomes(found, scope, realizable, cache, certificate, required)
         report(outcomes, form, output)
-        return _exit_code(outcomes, fail_level)
+        if any(isinstance(outcome, UnusableInput) for outcome in outcomes):
+            return exits.UNUSABLE
+        return exits.code((result for outcome in checked(outcomes) for result in outcome.results), fail_level)
 
     if not watched:
         return once()
@@ -114,9 +109,7 @@ def command(
 
 def _outcomes(
     found: Sequence[Ruleset | UnusableInput],
-    domain: str | None,
-    untimed: Untimed,
-    chains: bool,
+    scope: Scope,
     realizable: int | None,
     cache: Cache | None,
     certificate: str | None,
@@ -136,14 +129,14 @@ def _outcomes(
                 try:
                     with internal_errors_of(path):
                         if certificate is None:
-                            results = kept_or_new(ruleset, domain, untimed, cache, progress.on(path), chains)
+                            results = kept_or_new(ruleset, scope, cache, progress.on(path))
                         else:
-                            results = _certified(ruleset, domain, untimed, chains, certificate, required, progress)
+                            results = _certified(ruleset, scope, certificate, required, progress)
                         if realizable is not None:
                             # A strategy is no refutation, of which certificates speak.
-                            results += _realizability(ruleset, domain, untimed, realizable, progress)
+                            results += _realizability(ruleset, scope, realizable, progress)
                         outcomes.append(
-                            CheckedRuleset(ruleset, results, untimed if speaks_of_traces(ruleset) else None)
+                            CheckedRuleset(ruleset, results, scope.untimed if speaks_of_traces(ruleset) else None)
                         )
                 except InternalError as error:
                     complain(error)
@@ -152,35 +145,19 @@ def _outcomes(
 
 
 def _certified(
-    ruleset: Ruleset,
-    domain: str | None,
-    untimed: Untimed,
-    chains: bool,
-    certificate: str,
-    required: tuple[bool, bool],
-    progress: Progress,
+    ruleset: Ruleset, scope: Scope, certificate: str, required: tuple[bool, bool], progress: Progress
 ) -> tuple[CheckResult, ...]:
     from sleec_runtime.certificate.manifest import Required
     from sleec_verify.certificates.making import certify
     from sleec_verify.cli.certify import save
 
-    made = certify(ruleset, domain, untimed, progress.on(ruleset.source.path), Required(*required), chains)
+    progressing = progress.on(ruleset.source.path)
+    made = certify(ruleset, scope.domain, scope.untimed, progressing, Required(*required), scope.chains)
     save(made, ruleset, certificate)
     return made.results
 
 
-def _realizability(
-    ruleset: Ruleset, domain: str | None, untimed: Untimed, acts: int, progress: Progress
-) -> tuple[CheckResult, ...]:
+def _realizability(ruleset: Ruleset, scope: Scope, acts: int, progress: Progress) -> tuple[CheckResult, ...]:
     from sleec_verify.checks import run_checks
 
-    return run_checks(ruleset, (), domain, progress.on(ruleset.source.path), untimed, acts)
-
-
-def _exit_code(outcomes: Sequence[Outcome], fail_level: Severity) -> int:
-    if any(isinstance(outcome, UnusableInput) for outcome in outcomes):
-        return exits.UNUSABLE
-    counts = tally(deduplicated_findings(outcomes))
-    if any(counts[severity] for severity in SEVERITIES[: SEVERITIES.index(fail_level) + 1]):
-        return exits.FINDINGS
-    return exits.UNKNOWN if any(outcome.undecided for outcome in checked(outcomes)) else exits.HOLDS
+    return run_checks(ruleset, (), scope.domain, progress.on(ruleset.source.path), scope.untimed, acts)

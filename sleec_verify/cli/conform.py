@@ -11,7 +11,7 @@ from sleec_verify.cli.inputs import one_ruleset
 from sleec_verify.cli.output import complain, report
 from sleec_verify.report import FORMATS
 from sleec_verify.report.outcome import CheckedRuleset, UnusableInput
-from sleec_verify.results.finding import SEVERITIES, CheckResult, Severity, Unknown
+from sleec_verify.results.finding import Severity
 from sleec_verify.results.internal_error import InternalError, internal_errors_of
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def command(
     clause, in order; and nothing may reach these around the dispatch. A place that cannot be decided without running
     the code is reported as such, and the exit code is 3 if nothing worse is found.
     """
-    from sleec_verify.conformance.structure import check_structure
+    from sleec_verify.conformance.structure import UNDECIDED, check_structure
     from sleec_verify.conformance.structure.target import python_files
 
     if target == path == "-":
@@ -65,13 +65,4 @@ def command(
         report([UnusableInput(error.path, error)], form, output)
         return exits.UNUSABLE
     report([CheckedRuleset(ruleset, (result,))], form, output)
-    return _exit_code(result, fail_level)
-
-
-def _exit_code(result: CheckResult, fail_level: Severity) -> int:
-    from sleec_verify.conformance.structure import UNDECIDED
-
-    failing = SEVERITIES[: SEVERITIES.index(fail_level) + 1]
-    if any(finding.severity in failing and finding.code != UNDECIDED for finding in result.findings):
-        return exits.FINDINGS
-    return exits.UNKNOWN if isinstance(result.verdict, Unknown) else exits.HOLDS
+    return exits.code([result], fail_level, ignored=UNDECIDED)

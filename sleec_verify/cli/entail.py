@@ -12,8 +12,8 @@ from sleec_verify.cli.inputs import note_mixed_domains, one_ruleset
 from sleec_verify.cli.output import write
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Context, Reading, Ruleset
-    from sleec_verify.encoding.trace_scope import Untimed
+    from sleec_runtime.model import Context, Ruleset
+    from sleec_verify.cli.scope import Scope
     from sleec_verify.entailment.answer import Entailment
 
 
@@ -22,23 +22,9 @@ if TYPE_CHECKING:
     short_help="What do the rules oblige in a situation?",
     epilog='Example: sleec-verify entail rulesets/household.sleec --when CurtainOpenRequest --given "UserUndressed"',
 )
-@options.paths(several=False)
-@options.when
-@options.given
-@options.domain
-@options.reading
-@options.untimed
+@options.situation
 @options.output_format("full", "concise", "json")
-@options.max_size
-def command(
-    path: str,
-    when: tuple[str, ...],
-    given: tuple[str, ...],
-    domain: str | None,
-    reading: Reading | None,
-    untimed: Untimed,
-    form: str,
-) -> int:
+def command(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Scope, form: str) -> int:
     """What the rules in FILE oblige in one situation (- for standard input).
 
     Where the rules contradict one another in it, nothing is due, the conflict is shown, and the exit code is 1. What is
@@ -47,27 +33,20 @@ def command(
     from sleec_verify.report import entailment
     from sleec_verify.report.palette import Palette
 
-    ruleset, context, answer = ask(path, when, given, domain, reading, untimed)
+    ruleset, context, answer = ask(path, when, given, scope)
     write(entailment.RENDERERS[form](ruleset, context, answer, Palette.of(sys.stdout)))
     return exits.HOLDS if answer.consistent else exits.FINDINGS
 
 
-def ask(
-    path: str,
-    when: tuple[str, ...],
-    given: tuple[str, ...],
-    domain: str | None,
-    reading: Reading | None,
-    untimed: Untimed,
-) -> tuple[Ruleset, Context, Entailment]:
-    """The ruleset (its rules in `domain`), the situation that the options describe, and what is due in it."""
+def ask(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Scope) -> tuple[Ruleset, Context, Entailment]:
+    """The ruleset (its rules in domain), the situation that the options describe, and what is due in it."""
     from sleec_verify.entailment.explanation import explain
     from sleec_verify.entailment.situation_text import parse_situation
 
-    ruleset = one_ruleset(path, reading, domain)
+    ruleset = one_ruleset(path, scope.reading, scope.domain)
     context = parse_situation(ruleset, ",".join(when), ",".join(given))
-    if domain is None:
+    if scope.domain is None:
         note_mixed_domains(ruleset)
     else:
-        ruleset = ruleset.in_domain(domain)
-    return ruleset, context, explain(ruleset, context, untimed)
+        ruleset = ruleset.in_domain(scope.domain)
+    return ruleset, context, explain(ruleset, context, scope.untimed)

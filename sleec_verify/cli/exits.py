@@ -1,6 +1,27 @@
 """What the exit codes mean."""
 
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from sleec_verify.results.finding import SEVERITIES, Severity, Unknown
+
+if TYPE_CHECKING:
+    from sleec_verify.results.finding import CheckResult
+
 HOLDS = 0
 FINDINGS = 1
 UNUSABLE = 2
 UNKNOWN = 3
+
+
+def code(results: Iterable[CheckResult], fail_level: Severity, ignored: str = "") -> int:
+    """The exit code of some results: whether there is a finding of at least the severity `fail_level`,
+    but for those with the code `ignored`."""
+    results = tuple(results)
+    failing = SEVERITIES[: SEVERITIES.index(fail_level) + 1]
+    findings = (finding for result in results for finding in result.findings)
+    if any(finding.severity in failing and finding.code != ignored for finding in findings):
+        return FINDINGS
+    return UNKNOWN if any(isinstance(result.verdict, Unknown) for result in results) else HOLDS

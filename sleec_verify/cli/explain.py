@@ -12,8 +12,7 @@ from sleec_verify.cli.entail import ask
 from sleec_verify.cli.output import write
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Reading
-    from sleec_verify.encoding.trace_scope import Untimed
+    from sleec_verify.cli.scope import Scope
 
 
 @click.command(
@@ -21,21 +20,8 @@ if TYPE_CHECKING:
     short_help="What do the rules oblige in a situation, and why?",
     epilog="Example: sleec-verify explain rulesets/household.sleec --when CurtainOpenRequest --given UserUndressed",
 )
-@options.paths(several=False)
-@options.when
-@options.given
-@options.domain
-@options.reading
-@options.untimed
-@options.max_size
-def command(
-    path: str,
-    when: tuple[str, ...],
-    given: tuple[str, ...],
-    domain: str | None,
-    reading: Reading | None,
-    untimed: Untimed,
-) -> int:
+@options.situation
+def command(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Scope) -> int:
     """Why the rules in FILE oblige what they do in one situation (- for standard input).
 
     For each rule that is triggered: which clause decides, by which conditions, and where they stand. What follows
@@ -44,6 +30,6 @@ def command(
     from sleec_verify.report.explanation import render
     from sleec_verify.report.palette import Palette
 
-    ruleset, context, answer = ask(path, when, given, domain, reading, untimed)
+    ruleset, context, answer = ask(path, when, given, scope)
     write(render(ruleset, context, answer, Palette.of(sys.stdout)))
     return exits.HOLDS if answer.consistent else exits.FINDINGS

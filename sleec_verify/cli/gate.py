@@ -153,9 +153,10 @@ def command(
 def _check(untimed: Untimed, no_cache: bool) -> Check:
     """Checks a ruleset as `check` does, and keeps what it decided where that does."""
     from sleec_verify.cli.cached_checks import cache_of_environment, results
+    from sleec_verify.cli.scope import Scope
 
     cache = None if no_cache else cache_of_environment()
-    return lambda ruleset: results(ruleset, None, untimed, cache)
+    return lambda ruleset: results(ruleset, Scope(untimed=untimed), cache)
 
 
 def _report(found: GateResult, form: str, output: str | None) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from functools import wraps
+from typing import Any, TypeVar, cast
 
 import click
 
 from sleec_runtime.support.files import DEFAULT_MAX_SIZE, size_limit
+from sleec_verify.cli.scope import Scope
 from sleec_verify.cli.sizes import size_in_bytes
 from sleec_verify.results.finding import SEVERITIES
 
@@ -51,6 +53,25 @@ chains = click.option(
     help="Let a response trigger no rule: the one-step reading of the paper. The DSL and files with time count chains "
     "all the same.",
 )
+
+
+def scope(*options: Callable[[_Command], _Command]) -> Callable[[_Command], _Command]:
+    """Some of the options `reading`, `domain`, `untimed` and `chains`, as one argument: `scope`."""
+
+    def decorate(command: _Command) -> _Command:
+        @wraps(command)
+        def with_scope(**values: Any) -> Any:
+            given = {name: values.pop(name) for name in Scope._fields if name in values}
+            return command(scope=Scope(**given), **values)
+
+        decorated: Any = with_scope
+        for option in reversed(options):
+            decorated = option(decorated)
+        return cast("_Command", decorated)
+
+    return decorate
+
+
 when = click.option(
     "--when", metavar="TRIGGERS", multiple=True, help="What occurs, separated by commas: --when Fall,Night"
 )
@@ -154,3 +175,10 @@ def output_format(*names: str) -> Callable[[_Command], _Command]:
     return click.option(
         "--format", "form", type=click.Choice(names), default=names[0], show_default=True, help="How to say it."
     )
+
+
+def situation(command: _Command) -> _Command:
+    """The file of rules, a situation, and how the rules are read: `path`, `when`, `given` and `scope`."""
+    for option in (max_size, scope(domain, reading, untimed), given, when, paths(several=False)):
+        command = option(command)
+    return command

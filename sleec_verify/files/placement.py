@@ -29,6 +29,18 @@ def write_whole(path: str, content: bytes) -> None:
         raise SleecError(f"{path} cannot be written: {error.strerror}", "nothing of it was changed") from None
 
 
+def write_new(path: str, content: bytes) -> None:
+    """Make a file with `content`, in one step.
+
+    Raises:
+        SleecError: it cannot be written, or exists, even since the caller looked for it.
+    """
+    try:
+        put_in_place(path, content, new=True)
+    except OSError as error:
+        raise SleecError(f"{path} cannot be written: {error.strerror}") from None
+
+
 def require_writable(output: str, inputs: Iterable[str]) -> None:
     """Refuse an output file that cannot be meant, before any work is done for it: one that is read, too, or a folder.
 

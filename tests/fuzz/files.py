@@ -12,7 +12,9 @@ from sleec_verify.changes.gate.baseline import baseline_text, key, read_baseline
 from sleec_verify.changes.gate.config import OWN, SHARED, read_config
 from sleec_verify.changes.gate.keys import is_assertion
 from sleec_verify.checks import run_checks
-from sleec_verify.cli.cache import Cache, _encoded, _head
+from sleec_verify.cli.cache.entry import encode, head
+from sleec_verify.cli.cache.store import Cache
+from sleec_verify.cli.scope import Scope
 from sleec_verify.conformance.cases.reader import read_cases
 from sleec_verify.results.finding import CheckResult
 from tests.fuzz.property import unless_refused
@@ -92,16 +94,16 @@ def baseline_seeds() -> Iterator[bytes]:
 def cache(data: bytes, folder: Path) -> None:
     """An entry with any content, whose hash fits, is read or ignored."""
     kept = Cache(str(folder), lambda message: None)
-    path = kept._path(RULESET, None, "at", True)
+    path = kept.path(RULESET, Scope())
     assert path is not None
     Path(path).parent.mkdir(exist_ok=True)
-    Path(path).write_bytes(_head(path, data) + b"\n" + data)
-    results = kept.kept(RULESET, None, "at")
+    Path(path).write_bytes(head(path, data) + b"\n" + data)
+    results = kept.kept(RULESET, Scope())
     assert results is None or all(isinstance(result, CheckResult) for result in results)
 
 
 def cache_seeds() -> Iterator[bytes]:
-    yield _encoded(_results())
+    yield encode(_results())
 
 
 def _results() -> tuple[CheckResult, ...]:

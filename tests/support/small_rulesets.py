@@ -32,7 +32,7 @@ SCALE = ("low", "middle", "high")
 OPERATORS = ("<", "<=", "=", "!=", ">=", ">")
 
 
-def _formula(leaves, depth=2):
+def formulas(leaves, depth=2):
     return st.recursive(
         leaves,
         lambda inner: st.one_of(
@@ -44,13 +44,13 @@ def _formula(leaves, depth=2):
     )
 
 
-_booleans = st.sampled_from(CONDITIONS).map(lambda name: Atom("condition", name))
+booleans = st.sampled_from(CONDITIONS).map(lambda name: Atom("condition", name))
 _events = st.sampled_from(TRIGGERS).map(lambda name: Atom("trigger", name))
 _operators = st.sampled_from(OPERATORS)
-_numeric = st.builds(Comparison, st.just(MeasureRef("x")), _operators, st.sampled_from((1, 2)).map(Number))
-_flipped = st.builds(Comparison, st.sampled_from((1, 2)).map(Number), _operators, st.just(MeasureRef("x")))
-_pairs = st.builds(Comparison, st.just(MeasureRef("x")), _operators, st.just(MeasureRef("y")))
-_scales = st.builds(
+numeric = st.builds(Comparison, st.just(MeasureRef("x")), _operators, st.sampled_from((1, 2)).map(Number))
+flipped = st.builds(Comparison, st.sampled_from((1, 2)).map(Number), _operators, st.just(MeasureRef("x")))
+pairs = st.builds(Comparison, st.just(MeasureRef("x")), _operators, st.just(MeasureRef("y")))
+scales = st.builds(
     Comparison,
     st.just(MeasureRef("s")),
     _operators,
@@ -63,10 +63,10 @@ MEASURES = (Measure("x", "number"), Measure("y", "integer"), Measure("s", "scale
 
 @st.composite
 def small_rulesets(draw, measures=False, constraints=True, assumptions=True, rules=4, hedges=2, nested=True):
-    leaves = st.one_of(_booleans, _booleans, _events, _truths)
+    leaves = st.one_of(booleans, booleans, _events, _truths)
     if measures:
-        leaves = st.one_of(_booleans, _events, _numeric, _flipped, _scales, _pairs)
-    conditions = _formula(leaves, 1)
+        leaves = st.one_of(booleans, _events, numeric, flipped, scales, pairs)
+    conditions = formulas(leaves, 1)
     literals = st.builds(Obligation, st.sampled_from(OBLIGATIONS), st.sampled_from((False, False, True)))
     responses = st.lists(literals, min_size=1, max_size=2, unique=True).map(tuple)
 
@@ -84,11 +84,11 @@ def small_rulesets(draw, measures=False, constraints=True, assumptions=True, rul
     if constraints:
         tied = draw(st.sampled_from(OBLIGATIONS).map(lambda name: Atom("obligation", name)))
         obligations = st.sampled_from(OBLIGATIONS).map(lambda name: Atom("obligation", name))
-        never = _formula(st.one_of(obligations, obligations, leaves), 2).map(lambda f: And((f, tied)))
+        never = formulas(st.one_of(obligations, obligations, leaves), 2).map(lambda f: And((f, tied)))
         exclusive = st.lists(st.sampled_from(OBLIGATIONS), min_size=2, max_size=3, unique=True)
         statements += [Exclusive(tuple(names)) for names in draw(st.lists(exclusive, max_size=1))]
         statements += [Never(formula) for formula in draw(st.lists(never, max_size=2))]
     if assumptions:
         situations = st.one_of(leaves, _events)
-        statements += [Assume(formula) for formula in draw(st.lists(_formula(situations, 1), max_size=2))]
+        statements += [Assume(formula) for formula in draw(st.lists(formulas(situations, 1), max_size=2))]
     return Ruleset((*statements, *found), reading=draw(st.sampled_from(("cascade", "priority"))))

@@ -80,7 +80,7 @@ def test_a_recorder_keeps_a_formula_that_grows() -> None:
 
 def test_what_the_solver_forgets_is_taken_back_where_it_is_needed() -> None:
     clauses = threes(190, 5, 2)
-    lemmas = refutation._lemmas(clauses, [()])
+    lemmas = refutation.learnt_clauses(clauses, [()])
     assert sum(lemma.forgotten for lemma in lemmas) > 100
     formula = Disjunction([RecordedQuestion(clauses, {(): None})])
     lrat.check(formula.dimacs("a test"), formula.lrat())

@@ -14,7 +14,7 @@ from sleec_verify.changes.assertions.parser import parse_assertion, parse_assert
 from sleec_verify.changes.assertions.verification import verify
 from sleec_verify.changes.assertions.vocabulary import Vocabulary
 from tests.support import brute_force as brute
-from tests.support.small_rulesets import CONDITIONS, OBLIGATIONS, TRIGGERS, _booleans, _formula, small_rulesets
+from tests.support.small_rulesets import CONDITIONS, OBLIGATIONS, TRIGGERS, booleans, formulas, small_rulesets
 
 RULES = parse(
     """\
@@ -81,7 +81,7 @@ def test_relations_count() -> None:
     small_rulesets(rules=3),
     st.sampled_from(("never", "always")),
     st.lists(st.builds(Obligation, st.sampled_from(OBLIGATIONS), st.booleans()), min_size=1, max_size=2, unique=True),
-    _formula(st.one_of(_booleans, st.sampled_from(TRIGGERS).map(lambda name: Atom("trigger", name))), 2),
+    formulas(st.one_of(booleans, st.sampled_from(TRIGGERS).map(lambda name: Atom("trigger", name))), 2),
 )
 def test_against_brute_force(ruleset, kind, literals, when) -> None:
     def broken(context) -> bool:

@@ -11,10 +11,10 @@ from sleec_verify.changes.diagram import decision_diagram
 from sleec_verify.changes.diagram.decision_diagram import FALSE, TRUE, TooLarge
 from sleec_verify.changes.diagram.formulas import FormulaDiagram
 from tests.support import brute_force as brute
-from tests.support.small_rulesets import CONDITIONS, MEASURES, _booleans, _flipped, _formula, _numeric, _pairs, _scales
+from tests.support.small_rulesets import CONDITIONS, MEASURES, booleans, flipped, formulas, numeric, pairs, scales
 
-LEAVES = st.one_of(_booleans, _numeric, _flipped, _scales, _pairs)
-FORMULAS = _formula(LEAVES, 4)
+LEAVES = st.one_of(booleans, numeric, flipped, scales, pairs)
+FORMULAS = formulas(LEAVES, 4)
 MEASURED = {measure.name: measure for measure in MEASURES}
 
 

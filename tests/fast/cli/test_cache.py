@@ -15,11 +15,14 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 import sleec_runtime
-import sleec_verify.cli.cache
+import sleec_verify
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset, Span, Value
 from sleec_verify.checks import run_checks
-from sleec_verify.cli.cache import Cache
+from sleec_verify.cli.cache import entry as entry_of_cache
+from sleec_verify.cli.cache.program import program_identity
+from sleec_verify.cli.cache.store import Cache
+from sleec_verify.cli.scope import Scope
 from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict, Witness
 from tests.support.cli import Cli
 from tests.support.paths import ROOT
@@ -107,10 +110,10 @@ def test_another_program_decides_anew(
     folder: Path, cli: Cli, solves: Callable[[], int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     cli("check", "a.sleec", files={"a.sleec": CLASH})
-    monkeypatch.setattr("sleec_verify.cli.cache.__version__", "99.0.0")
+    monkeypatch.setattr("sleec_verify.cli.cache.store.__version__", "99.0.0")
     cli("check", "a.sleec")
     assert solves() == 2
-    monkeypatch.setattr("sleec_verify.cli.cache._program", lambda: "changed")
+    monkeypatch.setattr("sleec_verify.cli.cache.store.program_identity", lambda: "changed")
     cli("check", "a.sleec")
     assert solves() == 1
     assert len(entries(folder)) == 3
@@ -119,11 +122,11 @@ def test_another_program_decides_anew(
 @pytest.mark.parametrize("changed", ["sleec_runtime", "sleec_verify"])
 def test_a_changed_source_is_another_program(changed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     package = two_packages(tmp_path, monkeypatch)[changed]
-    seen = {sleec_verify.cli.cache._program()}
+    seen = {program_identity()}
     (package / "checks" / "one.py").write_text("more")
-    seen.add(sleec_verify.cli.cache._program())
+    seen.add(program_identity())
     (package / "checks" / "two.py").write_text("two")
-    seen.add(sleec_verify.cli.cache._program())
+    seen.add(program_identity())
     assert len(seen) == 3
 
 
@@ -135,18 +138,18 @@ def test_another_installation_is_another_program(changed: str, tmp_path: Path, m
         info.mkdir()
         (info / "RECORD").write_text(f"{name}/a.py,sha256=a,1\n../bin/x,,\n")
     # It is what the installers recorded, wherever and whenever that was.
-    installed = sleec_verify.cli.cache._program()
+    installed = program_identity()
     record = packages[changed].with_name(f"{changed}-{sleec_verify.__version__}.dist-info") / "RECORD"
     (packages[changed] / "checks" / "two.py").write_text("two")
     record.write_text(f"{changed}/a.py,sha256=a,1\n../../bin/x,,\n")
-    assert sleec_verify.cli.cache._program() == installed
+    assert program_identity() == installed
     record.write_text(f"{changed}/a.py,sha256=b,1\n")
-    assert sleec_verify.cli.cache._program() != installed
+    assert program_identity() != installed
     # Where one of the two runs from its sources, a change of them counts.
     record.unlink()
-    sources = sleec_verify.cli.cache._program()
+    sources = program_identity()
     (packages[changed] / "checks" / "one.py").write_text("more")
-    assert sleec_verify.cli.cache._program() != sources
+    assert program_identity() != sources
 
 
 def two_packages(folder: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Path]:
@@ -262,7 +265,7 @@ def test_a_hash_that_fits_makes_no_sense_of_nonsense(folder: Path, cli: Cli) -> 
         b"[('x', 0.0, None, [{}])]",
         b"\xff",
     ):
-        entry.write_bytes(sleec_verify.cli.cache._head(str(entry), body) + b"\n" + body)
+        entry.write_bytes(entry_of_cache.head(str(entry), body) + b"\n" + body)
         ran = cli("check", "a.sleec")
         assert (ran.code, ran.out) == (sound.code, sound.out)
         assert "is broken" in ran.err
@@ -280,9 +283,9 @@ def test_what_is_kept_is_what_was_decided(path: Path, tmp_path: Path) -> None:
     ruleset = load(path)
     results = run_checks(ruleset)
     cache = Cache(str(tmp_path / "kept"), told)
-    assert cache.kept(ruleset, None, "at") is None
-    cache.keep(ruleset, None, "at", results)
-    assert cache.kept(ruleset, None, "at") == results
+    assert cache.kept(ruleset, Scope()) is None
+    cache.keep(ruleset, Scope(), results)
+    assert cache.kept(ruleset, Scope()) == results
 
 
 def of_text(text: str) -> Ruleset:
@@ -294,8 +297,8 @@ def test_timelines_are_kept(tmp_path: Path) -> None:
     results = run_checks(ruleset)
     assert any(finding.timeline for result in results for finding in result.findings)
     cache = Cache(str(tmp_path), told)
-    cache.keep(ruleset, None, "at", results)
-    assert cache.kept(ruleset, None, "at") == results
+    cache.keep(ruleset, Scope(), results)
+    assert cache.kept(ruleset, Scope()) == results
 
 
 def test_values_are_kept_exactly(tmp_path: Path) -> None:
@@ -304,9 +307,9 @@ def test_values_are_kept_exactly(tmp_path: Path) -> None:
     finding = Finding("conflict", "SLEEC101", "error", "'\"\n\\", Span(0, 4), witness=witness)
     ruleset = of_text(CLASH)
     cache = Cache(str(tmp_path), told)
-    cache.keep(ruleset, None, "at", (CheckResult("conflict", Refuted((finding, finding)), 0.1, "cut"),))
-    assert cache.kept(ruleset, None, "at") == (CheckResult("conflict", Refuted((finding, finding)), 0.1, "cut"),)
-    again = cache.kept(ruleset, None, "at")
+    cache.keep(ruleset, Scope(), (CheckResult("conflict", Refuted((finding, finding)), 0.1, "cut"),))
+    assert cache.kept(ruleset, Scope()) == (CheckResult("conflict", Refuted((finding, finding)), 0.1, "cut"),)
+    again = cache.kept(ruleset, Scope())
     assert again is not None
     kept = again[0].findings[0].witness
     assert kept is not None
@@ -318,7 +321,7 @@ def test_values_are_kept_exactly(tmp_path: Path) -> None:
 def test_any_result_is_kept_as_it_was(ruleset: Ruleset) -> None:
     results = run_checks(ruleset)
     if not any(isinstance(result.verdict, Unknown) for result in results):
-        assert sleec_verify.cli.cache._decoded(sleec_verify.cli.cache._encoded(results)) == results
+        assert entry_of_cache.decode(entry_of_cache.encode(results)) == results
 
 
 def test_unknown_is_asked_again(folder: Path, cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -336,22 +339,22 @@ def test_unknown_is_asked_again(folder: Path, cli: Cli, monkeypatch: pytest.Monk
 def test_rules_without_a_text_are_not_kept(tmp_path: Path) -> None:
     ruleset = parse(CLASH)
     cache = Cache(str(tmp_path), told)
-    cache.keep(ruleset, None, "at", run_checks(ruleset))
-    assert cache.kept(ruleset, None, "at") is None
+    cache.keep(ruleset, Scope(), run_checks(ruleset))
+    assert cache.kept(ruleset, Scope()) is None
     assert os.listdir(tmp_path) == []
 
 
 def test_the_oldest_make_room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sleec_verify.cli.cache._MOST", 3)
+    monkeypatch.setattr("sleec_verify.cli.cache.store.MOST_ENTRIES", 3)
     cache = Cache(str(tmp_path), told)
-    monkeypatch.setattr(Cache, "_path", lambda self, r, d, u, c: str(tmp_path / "aa" / str(d)))
+    monkeypatch.setattr(Cache, "path", lambda self, ruleset, scope: str(tmp_path / "aa" / str(scope.domain)))
     ruleset = parse(CLASH)
     results = run_checks(ruleset)
     for number in range(5):
-        cache.keep(ruleset, str(number), "at", results)
+        cache.keep(ruleset, Scope(domain=str(number)), results)
         os.utime(tmp_path / "aa" / str(number), (number, number))
     assert sorted(os.listdir(tmp_path / "aa")) == ["2", "3", "4"]
-    assert cache.kept(ruleset, "4", "at") == results
+    assert cache.kept(ruleset, Scope(domain="4")) == results
 
 
 # Where it is kept --------------------------------------------------------------------------------------------

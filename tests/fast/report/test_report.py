@@ -9,7 +9,7 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context, Source, Span, Value
-from sleec_verify.cli.check import _exit_code
+from sleec_verify.cli import exits
 from sleec_verify.report import FORMATS, renderer
 from sleec_verify.report.escape import as_line
 from sleec_verify.report.excerpt import Mark, excerpt
@@ -151,9 +151,9 @@ def test_unknown_is_never_shown_as_fine(name: str) -> None:
 def test_unknown_exits_with_3_and_findings_with_1() -> None:
     finding = Finding("conflict", "SLEEC101", "error", "they clash", Span(0, 13))
     found = outcome(CheckResult("conflict", Unknown("gave up", (finding,)), 1.0))
-    assert _exit_code([UNDECIDED], "error") == 3
-    assert _exit_code([UNDECIDED, found], "error") == 1
-    assert _exit_code([outcome(CheckResult("conflict", Proved(), 1.0))], "note") == 0
+    assert exits.code(UNDECIDED.results, "error") == 3
+    assert exits.code((*UNDECIDED.results, *found.results), "error") == 1
+    assert exits.code([CheckResult("conflict", Proved(), 1.0)], "note") == 0
 
 
 def test_a_list_that_was_cut_says_so() -> None:

@@ -18,9 +18,9 @@ import sleec_verify
 from sleec_runtime.language import load
 from sleec_verify.certificates import checker
 from sleec_verify.certificates.directory import write_folder
-from sleec_verify.cli.cache import Cache
-from sleec_verify.cli.cases import _create
-from sleec_verify.files.placement import write_whole
+from sleec_verify.cli.cache.store import Cache
+from sleec_verify.cli.scope import Scope
+from sleec_verify.files.placement import write_new, write_whole
 from sleec_verify.files.temporary import put_in_place
 from sleec_verify.results.finding import CheckResult, Proved
 
@@ -65,14 +65,13 @@ def _file(folder: Path) -> None:
 
 
 def _new_file(folder: Path) -> None:
-    _create(str(folder / "other"), "new", force=False)
+    write_new(str(folder / "other"), b"new")
 
 
 def _entry(folder: Path) -> None:
     (folder / "rules.sleec").write_text("WHEN A THEN B\n", encoding="utf-8")
     cache = Cache(str(folder / "cache"), lambda _: None)
-    cache._program = ""
-    cache.keep(load(folder / "rules.sleec"), None, "at", (CheckResult("conflict", Proved(), 0.0),))
+    cache.keep(load(folder / "rules.sleec"), Scope(), (CheckResult("conflict", Proved(), 0.0),))
 
 
 def _certificate(folder: Path) -> None:
@@ -80,7 +79,7 @@ def _certificate(folder: Path) -> None:
 
 
 def _by_checker(folder: Path) -> None:
-    checker._by_program("/bin/true", b"p cnf 0 0\n", b"")
+    checker.judge_by_program("/bin/true", b"p cnf 0 0\n", b"")
 
 
 WRITERS = {one.__name__: one for one in (_file, _new_file, _entry, _certificate, _by_checker)}

@@ -15,7 +15,7 @@ from sleec_verify.games import time_grid as grid
 from sleec_verify.games.time_grid import TimeGrid
 from sleec_verify.report.strategy import in_words
 from sleec_verify.results.finding import Proved, Refuted, Unknown
-from sleec_verify.results.strategy import Act
+from sleec_verify.results.strategy import Strategy
 from tests.support.game_brute_force import Game
 from tests.support.random_games import drawn
 from tests.support.studies import OWN, each_study
@@ -152,12 +152,13 @@ def test_only_some_replies_are_shown(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_strategy_that_does_not_replay_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
-    told = realizability.StrategySearch._act
+    found = realizability.StrategySearch.strategy
 
-    def unlawful(self: realizability.StrategySearch, step: int, settled: dict[int, int]) -> Act:
-        return replace(told(self, step, settled), events=("A", "B"))
+    def unlawful(self: realizability.StrategySearch) -> Strategy:
+        strategy = found(self)
+        return replace(strategy, act=replace(strategy.act, events=("A", "B")))
 
-    monkeypatch.setattr(realizability.StrategySearch, "_act", unlawful)
+    monkeypatch.setattr(realizability.StrategySearch, "strategy", unlawful)
     verdict = _verdict(*ADAPTIVE)
     assert isinstance(verdict, Unknown)
     assert "rejected a witness" in verdict.why

@@ -1,0 +1,1 @@
+"""What was decided once, kept for rules that did not change."""

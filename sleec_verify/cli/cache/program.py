@@ -1,0 +1,45 @@
+"""What tells this program from another one of the same version."""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from hashlib import sha256
+
+import sleec_runtime
+import sleec_verify
+from sleec_verify import __version__
+
+
+def program_identity() -> str:
+    """The hashes that it was installed with, or, where
+    it runs from its sources, when these changed."""
+    return ascii([_installed(package) or sorted(_stamps(package)) for package in _packages()])
+
+
+def _packages() -> list[str]:
+    """The folders of the packages that decide. They are two distributions and may lie apart."""
+    return [os.path.dirname(os.path.abspath(file)) for file in (sleec_runtime.__file__, sleec_verify.__file__)]
+
+
+def _installed(package: str) -> str | None:
+    """The hash of what the installer recorded of a package."""
+    try:
+        with open(os.path.join(f"{package}-{__version__}.dist-info", "RECORD"), "rb") as file:
+            return sha256(b"".join(line for line in file if line.startswith(b"sleec_"))).hexdigest()
+    except OSError:
+        return None
+
+
+def _stamps(package: str) -> list[tuple[str, int, int]]:
+    found = []
+    folders = [package]
+    while folders:
+        with suppress(OSError), os.scandir(folders.pop()) as entries:
+            for entry in entries:
+                if entry.name.endswith(".py"):
+                    known = entry.stat()
+                    found.append((entry.path, known.st_mtime_ns, known.st_size))
+                elif entry.name != "__pycache__" and entry.is_dir():
+                    folders.append(entry.path)
+    return found
