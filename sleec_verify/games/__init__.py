@@ -1,5 +1,5 @@
-"""Games between a robot and what surrounds it: can the robot keep its rules whatever happens?
+"""Games of a robot against its environment: can the robot keep its rules whatever happens? (docs/games.md)
 
-`circuit` holds formulas, `quantified` decides who wins where two players set variables in turn, `play` says what a play
-of a ruleset is, `realizability` asks the question and tells the strategy of the environment.
+`circuit` holds formulas, `qbf` decides who wins, `play` encodes the plays of a ruleset, and `realizability` asks the
+question and finds the strategy of the environment.
 """

@@ -1,7 +1,7 @@
-"""Formulas as circuits of conjunctions and negations, of which equal parts are one part.
+"""And-inverter circuits: formulas as conjunctions and negations, with equal parts shared.
 
-A literal is a non-zero integer: the number of a node, or its negation. Values that are put in for variables fold, so a
-formula shrinks with every move that is settled.
+A literal is a non-zero integer: the number of a node, or its negation. Constants are folded, so a formula shrinks with
+every move that is fixed.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ TRUE = 1
 FALSE = -1
 
 MOST_NODES = 4_000_000
-"""Nodes after which a question is given up; so many take about a gigabyte."""
+"""The maximal number of nodes of a question. They take about a gigabyte."""
 
 
 class Circuit:
-    """Nodes numbered from 1, which is the constant true. The parts of a node have smaller numbers than it."""
+    """Nodes numbered from 1, which is the constant true. The inputs of a node have smaller numbers."""
 
     def __init__(self) -> None:
         self._parts: list[tuple[int, int] | None] = [None, None]
@@ -60,7 +60,7 @@ class Circuit:
         """The conjunction of any number of literals."""
         found = sorted(set(literals), key=abs)
         while len(found) > 1:
-            # Halved, so that no chain of nodes is longer than it need be.
+            # Balanced, so that the depth is logarithmic.
             found = [self.both(*found[i : i + 2]) if i + 1 < len(found) else found[i] for i in range(0, len(found), 2)]
         return found[0] if found else TRUE
 
@@ -79,7 +79,7 @@ class Circuit:
         return self.both(self.implies(condition, then), self.implies(-condition, otherwise))
 
     def below(self, roots: Iterable[int]) -> list[int]:
-        """The nodes that some literals rest on, parts before what they are parts of."""
+        """The nodes that some literals depend on, inputs first."""
         seen: set[int] = set()
         ahead = [abs(root) for root in roots]
         all_parts = self._parts
@@ -95,7 +95,7 @@ class Circuit:
         return sorted(seen)
 
     def replaced(self, root: int, values: Mapping[int, int]) -> int:
-        """`root` with literals put in for some variables. O(size of what `root` rests on)."""
+        """`root` with literals in place of some variables. O(size of the part below `root`)."""
         image = {1: 1}
         for node in self.below((root,)):
             parts = self._parts[node]
@@ -109,7 +109,7 @@ class Circuit:
         return found if root > 0 else -found
 
     def clauses(self, nodes: Iterable[int]) -> Iterator[Sequence[int]]:
-        """Clauses that make each of these nodes equal to what it stands for; a variable has none."""
+        """Clauses that define each of these nodes. Variables have no clauses."""
         for node in nodes:
             parts = self._parts[node]
             if node == TRUE:

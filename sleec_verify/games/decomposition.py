@@ -1,7 +1,7 @@
-"""Parts of a ruleset that have nothing to do with each other: what is done for one cannot break another.
+"""Independent parts of a ruleset: actions for one part cannot violate another.
 
-What the robot can do at any time without consequence is no part of any: nothing forbids it, no relation or condition
-speaks of it, and what it triggers is of the same kind.
+Free events belong to no part. The robot can do them at any time without consequence: no rule forbids them, no relation
+or condition names them, and they trigger only free events.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from sleec_verify.traces.index import TraceIndex
 
 @dataclass(frozen=True)
 class GamePart:
-    """Rules and laws that have nothing to do with the others of their ruleset, the events that they speak of, and by
-    the labels of the rules what they call for and forbid."""
+    """Rules and relations that are independent of the rest of their ruleset, with the events that they name. `windows`
+    has the required and forbidden occurrences of each rule, by its label."""
 
     rules: tuple[Rule, ...]
     laws: tuple[Relation, ...]
@@ -29,8 +29,8 @@ class GamePart:
 
 
 def free_events(index: TraceIndex) -> frozenset[str]:
-    """What the robot can do at any time without consequence. Linear in the size of the rules, but for those that call
-    for something later which leads back to them."""
+    """The events that the robot can do at any time without consequence. Linear in the size of the rules, except for
+    rules whose later responses lead back to their trigger."""
     tied = {name for law in index.relations for name in events_of(law)}
     tied |= {name for rule in index.rules for name in named_atoms(rule)}
     windows = {rule.label: index.windows(rule) for rule in index.rules}
@@ -52,7 +52,7 @@ def free_events(index: TraceIndex) -> frozenset[str]:
 
 
 def _endless(index: TraceIndex, windows: Mapping[str, list[Occurs]]) -> Iterator[str]:
-    """Events that call for others which are due strictly later and lead back to them."""
+    """Events with strictly later responses that lead back to them."""
     for rule in index.rules:
         for window in windows[rule.label]:
             if window.start is not None and window.start > 0:
@@ -69,10 +69,11 @@ def _endless(index: TraceIndex, windows: Mapping[str, list[Occurs]]) -> Iterator
 
 
 def parts(index: TraceIndex) -> Iterator[GamePart]:
-    """The parts of a ruleset, in the order of their first rules and laws. O(size of the rules).
+    """The parts of a ruleset, in the order of their first rules and relations. O(size of the rules).
 
-    Rules that share an event belong together, and so do those that a law ties. What a law says of measures only holds
-    in every part that looks at one of them; they share the measures, which are the environment's to choose in each.
+    Rules that share an event belong together, and so do rules that a relation connects. A relation about measures only
+    belongs to every part that uses one of its measures. Parts share measures, which the environment chooses for each
+    part.
     """
     free = free_events(index)
     windows = {r.label: tuple(w for w in index.windows(r) if w.event not in free) for r in index.rules}
@@ -119,7 +120,7 @@ def parts(index: TraceIndex) -> Iterator[GamePart]:
 
 
 def _reached(laws: list[tuple[Relation, set[str]]], facts: set[str]) -> list[tuple[Relation, set[str]]]:
-    """The laws that have to do with some facts, by way of others."""
+    """The relations that share facts with these facts, directly or through other relations."""
     found: list[tuple[Relation, set[str]]] = []
     left = laws
     grew = True

@@ -1,11 +1,10 @@
-"""What a play of a ruleset is, as a circuit.
+"""The plays of a ruleset, as a circuit.
 
-The environment acts at up to so many instants. Each time it says when that is and what happens, events and measures;
-the robot then says what it does at once, and what it means to do later, if nothing comes between: a plan. With the
-plan, every rule must be kept, else the robot has lost. The next act of the environment may come at any time. What the
-plan had for the time before it has been done, and the rest is planned anew.
+The environment acts at a bounded number of instants. Each time it chooses the time, the events and the measures. The
+robot then chooses what it does at once and a plan for later. If the plan violates a rule, the robot has lost. The next
+act of the environment may come at any time. The plan is executed up to this time, and the robot plans the rest again.
 
-In a plan only the robot acts, and the measures are what it hopes. An environment that wants them otherwise acts then.
+In a plan, only the robot acts, and it chooses the measures. An environment that wants other measures acts.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ from sleec_verify.traces.index import TraceIndex
 
 
 class _Instant:
-    """One instant: its time among the slots of the grid, its events, its measures."""
+    """One instant: its slot in the time grid, its events, its measures."""
 
     def __init__(
         self,
@@ -42,8 +41,7 @@ class _Instant:
         always: Iterable[str],
         earlier: int,
     ) -> None:
-        """`events` are those that may occur, `always` those that do; `earlier` is how many instants there are before
-        this one, at most."""
+        """`events` may occur, and `always` occur. `earlier` is the maximal number of instants before this one."""
         self.events = {**{name: circuit.variable() for name in events}, **dict.fromkeys(always, TRUE)}
         self._grid = grid
         # The first true variable is the slot; none of them, the last one. So every assignment is a time.
@@ -64,7 +62,7 @@ class _Instant:
         return [*self._raw, *(event for event in self.events.values() if event != TRUE), *self.values.variables]
 
     def times(self) -> Iterator[dict[int, int]]:
-        """The slots as values of variables, those of sums of lengths only."""
+        """The slots as values of variables, only for sums of lengths."""
         for time in self._grid.wholes:
             slot = self._grid.up_to(time) - 1
             if slot >= len(self._raw):
@@ -79,13 +77,15 @@ class _Instant:
 
 
 _Course = Sequence[tuple[_Instant, int]]
-"""Instants, each with the literal "the course of events has it"."""
+"""Instants, each with the literal "the trace has this instant"."""
 
 
 class Play:
-    """The plays of a part of a ruleset in which the environment acts `steps` times and plans have up to `spare`
-    instants. `turns` are the variables of the environment and the robot, in turn; the environment wins a play in which
-    `lost` is true."""
+    """The plays of a part of a ruleset with `steps` acts of the environment and plans of up to `spare` instants.
+
+    `turns` are the variables of the environment and the robot, alternately. The environment wins a play if `lost` is
+    true.
+    """
 
     def __init__(
         self,
@@ -97,9 +97,12 @@ class Play:
         eager: bool = True,
         pressed: Iterable[str] = (),
     ) -> None:
-        """What is in `never`, the robot does not do. In an `eager` play, the environment lets everything occur
-        that only asks more of the robot; who wins is the same. It says with its first act which events of `pressed`
-        the robot must not do then, as if by what was before. Raises Undecided for what games do not know."""
+        """The robot never does events of `never`. In an `eager` play, the environment lets everything occur that only
+        adds demands on the robot, which does not change the winner. With its first act, it also chooses which events of
+        `pressed` are forbidden then, as if by earlier prohibitions.
+
+        Raises `Undecided` for constructs that games do not support.
+        """
         self.circuit = circuit = Circuit()
         self._index = index
         self._laws = part.laws
@@ -114,7 +117,7 @@ class Play:
         tied |= {name for rule in part.rules for name in named_atoms(rule)}
         answers = {w.event for rule in part.rules for w in part.windows[rule.label]}
         called_for = {w.event for rule in part.rules for w in part.windows[rule.label] if not w.negated}
-        # What nothing calls for, the robot does not do.
+        # The robot does only what some rule requires.
         robots = [
             name for name in part.events if index.agents.get(name) == "system" and name in (called_for | tied) - never
         ]
@@ -136,7 +139,8 @@ class Play:
         self._number = {id(instant): number for number, instant in enumerate(self._instants)}
         self.turns = [turn for step in range(steps) for turn in (self._environments(step), self._robot(step))]
         self.kept = self._kept()
-        """For each act of the environment, that the robot's answer keeps all, or the environment has not."""
+        """For each act of the environment: the robot's answer satisfies everything, or the environment has violated its
+        relations."""
         self.lost = -circuit.every(self.kept)
 
     # Turns ----------------------------------------------------------------------------------------------------
@@ -155,19 +159,19 @@ class Play:
         ]
 
     def act(self, step: int, move: Mapping[int, int]) -> Act:
-        """An act of the environment, with what the robot does at once if the move has that too."""
+        """An act of the environment, with what the robot does at once if the move contains it."""
         known = {variable: move.get(variable, -1) for variable in self._steps[step].variables}
         return self._steps[step].act(known)
 
     def plan(self, step: int, move: Mapping[int, int]) -> list[Act]:
-        """What a turn of the robot means to do later."""
+        """The later instants of a move of the robot."""
         return [
             instant.act(move) for instant, planned in zip(self._plans[step], self._planned[step]) if move[planned] > 0
         ]
 
     def wishes(self, step: int) -> Iterator[dict[int, int]]:
-        """What makes an act of the environment simple, each as values of variables: that it comes early, that an event
-        does not occur, that a condition does not hold."""
+        """Preferences for a simple act of the environment, each as values of variables: an early time, events that do
+        not occur, conditions that do not hold."""
         instant = self._steps[step]
         yield from instant.times()
         events = ((name, event) for name, event in instant.events.items() if event != TRUE)
@@ -175,7 +179,7 @@ class Play:
         yield from ({variable: -1} for variable in instant.values.conditions.values())
 
     def doing(self, step: int) -> dict[str, int]:
-        """The variables of what the robot may do at once when the environment has acted."""
+        """The variables of the robot's immediate actions after an act of the environment."""
         return {name: self._steps[step].events[name] for name in sorted(self._robots)}
 
     # Winning --------------------------------------------------------------------------------------------------
@@ -205,7 +209,7 @@ class Play:
         return goals
 
     def _lawful(self, course: _Course) -> int:
-        """That the environment has kept what it has to."""
+        """The environment has satisfied its relations."""
         laws = [law for law in self._laws if is_environments(law, self._index.agents)]
         return self.circuit.every(
             self._lasting(law, *course[number], course, later=law.event in self._robots)
@@ -216,7 +220,7 @@ class Play:
         )
 
     def _holds(self, course: _Course) -> int:
-        """That a whole course of events keeps all."""
+        """A complete trace satisfies everything."""
         rules = (self._rule(rule, number, course) for rule in self._rules for number in range(len(course)))
         laws = (self._law(law, number, course) for law in self._laws for number in range(len(course)))
         now = self._steps[0].events
@@ -241,7 +245,7 @@ class Play:
         return -self._at_most(a, b, 0)
 
     def _between(self, a: _Instant, b: _Instant, start: int | None, end: int | None) -> int:
-        """That `b` is from `start` to `end` seconds after `a`, both included."""
+        """The time of `b` is from `start` to `end` seconds after that of `a`, both included."""
         if a is b:
             inside = (start is None or start <= 0) and (end is None or end >= 0)
             return TRUE if inside else FALSE
@@ -250,7 +254,7 @@ class Play:
             bounds.append(-self._at_most(a, b, start - 1))
         return self.circuit.every(bounds)
 
-    # What is kept ---------------------------------------------------------------------------------------------
+    # Satisfaction ----------------------------------------------------------------------------------------------
 
     def _rule(self, rule: Rule, number: int, course: _Course) -> int:
         instant, there = course[number]
@@ -279,7 +283,7 @@ class Play:
         return self.circuit.every(parts) if isinstance(demand, Every) else self.circuit.some(parts)
 
     def _occurs(self, what: Occurs, instant: _Instant, course: _Course) -> int:
-        """That an event occurs in a window around an instant."""
+        """An event occurs in a window around an instant."""
         return self.circuit.some(
             self.circuit.every(
                 [there, other.events.get(what.event, FALSE), self._between(instant, other, what.start, what.end)]
@@ -289,7 +293,7 @@ class Play:
         )
 
     def _law(self, law: Relation, number: int, course: _Course) -> int:
-        """That a law is kept where one instant is concerned."""
+        """A relation holds as far as it concerns one instant."""
         circuit = self.circuit
         instant, there = course[number]
         if isinstance(law, Lasting):
@@ -302,7 +306,8 @@ class Play:
         return circuit.implies(there, kept)
 
     def _lasting(self, law: Lasting, instant: _Instant, there: int, course: _Course, later: bool = False) -> int:
-        """`later`: only after that instant. What the robot begins although it does not hold is its own fault."""
+        """`later`: only after that instant. If the robot starts it although the condition does not hold, the robot
+        violates it."""
         circuit = self.circuit
         begins = circuit.every([there, instant.events.get(law.event, FALSE), instant.values.literal(law.condition)])
         if begins == FALSE:
@@ -338,8 +343,8 @@ class Play:
 
 
 def lengths(part: GamePart) -> set[int]:
-    """The lengths, in seconds, that differences of times are compared with. Raises Undecided where a measure says
-    one."""
+    """The lengths, in seconds, with which differences of times are compared. Raises `Undecided` if the length of a
+    window is a measure."""
     found = {
         bound
         for rule in part.rules

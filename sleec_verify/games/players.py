@@ -1,4 +1,4 @@
-"""Whose a relation is to keep: the robot's or the environment's."""
+"""Which player owns a relation: the robot or the environment."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from sleec_verify.encoding.relations import Relation, events_of
 
 
 def is_environments(law: Relation, whose: Mapping[str, Agent]) -> bool:
-    """Whether it is the environment that keeps a relation or constraint, so that it may be relied on.
+    """Whether the environment owns a relation or constraint, so that the robot may rely on it.
 
-    That is where no event of the robot has a part in it, and where the robot cannot help it: what is so for some time
-    after an event, and that an event of the environment comes after another.
+    It does if the relation names no event of the robot. It also owns what holds for some time after an event, and the
+    requirement that an event precedes an event of the environment.
     """
     if isinstance(law, Lasting):
         return True

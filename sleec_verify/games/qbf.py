@@ -1,9 +1,9 @@
-"""Who wins where two players set variables in turn: quantified Boolean formulas, by refining abstractions.
+"""Quantified Boolean formulas: which of two players wins, who set variables alternately.
 
-A player's first move is looked for in an abstraction of the game, in which the other player has only the answers that
-are known so far. Each move found is tried; an answer that beats it joins the abstraction, with variables of its own for
-all that comes after it. When the abstraction has no move left, the game is lost. (Janota, Klieber, Marques-Silva and
-Clarke, "Solving QBF with counterexample guided refinement", 2016.)
+A player's first move is searched in an abstraction of the game, in which the opponent has only the known answers. Each
+candidate is tried. An answer that defeats it is added to the abstraction, with new variables for everything after it.
+If the abstraction has no move, the game is lost. (Janota, Klieber, Marques-Silva and Clarke, "Solving QBF with
+counterexample guided refinement", 2016.)
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.games.circuit import Circuit
 
 MOST_MOVES = 20_000
-"""Moves of either player that are tried before a question is given up."""
+"""The maximal number of moves of both players that are tried for a question."""
 
 Move = dict[int, int]
 """Variables of one turn, each with 1 (true) or -1 (false)."""
@@ -24,10 +24,10 @@ NOTHING: Mapping[int, int] = {}
 
 
 def winning(circuit: Circuit, own: Sequence[int], goal: int, turns: Sequence[Sequence[int]] = ()) -> Move | None:
-    """A move on the variables `own` with which the player about to move gets `goal`, whatever the other one does in the
-    first, third, … of `turns`, or None if there is none. Exponential in the number of turns.
+    """A move on the variables `own` with which the player whose turn it is gets `goal`, for all moves of the opponent
+    in the first, third, … of `turns`. None if there is no such move. Exponential in the number of turns.
 
-    Raises Undecided after `MOST_MOVES`.
+    Raises `Undecided` after `MOST_MOVES`.
     """
     player = _Player(circuit, own, _Budget(MOST_MOVES))
     player.add(_Game(tuple(tuple(turn) for turn in turns), goal))
@@ -46,28 +46,28 @@ class _Budget:
 
 @dataclass(frozen=True)
 class _Game:
-    """What is left of a game for a player about to move: the variables of the turns after that move, the other player's
-    first, and the literal that the player wants true in the end."""
+    """The rest of a game for the player whose turn it is: the variables of the later turns, those of the opponent
+    first, and the literal that the player wants true at the end."""
 
     turns: tuple[tuple[int, ...], ...]
     goal: int
 
 
 class _Player:
-    """A player about to move, who has to win several games at once with one move. Games can be added at any time."""
+    """The player whose turn it is, who must win several games with one move. Games can be added at any time."""
 
     def __init__(self, circuit: Circuit, own: Sequence[int], budget: _Budget) -> None:
         self._circuit = circuit
         self._own = list(own)
         self._budget = budget
         self._ahead: list[tuple[_Game, _Goals]] = []
-        """With what the other player wants, where its answer ends the game."""
+        """The games that end with the opponent's answer, with the opponent's goals."""
         self._goals = _Goals(circuit)
         self._later: _Player | None = None
-        """The same player, who moves now and once more after answers of the other that are known."""
+        """The same player, who moves now and once more after known answers of the opponent."""
 
     def add(self, game: _Game, own: Sequence[int] = ()) -> None:
-        """One game more, with further variables to set in this move."""
+        """Add a game, with further variables to set in this move."""
         self._widen(own)
         if game.turns:
             against = _Goals(self._circuit)
@@ -89,7 +89,7 @@ class _Player:
             move = self._goals.model(self._own) if self._later is None else self._later.move()
             if move is None:
                 return None
-            # What the move leaves open, it leaves open to all.
+            # Variables that the move leaves open are open in all games.
             settled = {variable: move.get(variable, -1) for variable in self._own}
             for game, against in self._ahead:
                 if len(game.turns) == 1:
@@ -109,8 +109,7 @@ class _Player:
         return other.move()
 
     def _answered(self, game: _Game, answer: Move) -> _Game:
-        """The game in which the other player's next move is settled. What comes later depends on it, and so gets
-        variables of its own."""
+        """The game with a fixed next move of the opponent. Later turns depend on it, so they get new variables."""
         fresh = [{old: self._circuit.variable() for old in turn} for turn in game.turns[1:]]
         values = dict(answer)
         for renamed in fresh:
@@ -118,7 +117,7 @@ class _Player:
         return _Game(tuple(tuple(turn.values()) for turn in fresh), self._circuit.replaced(game.goal, values))
 
     def _require(self, game: _Game) -> None:
-        """A game in which this player has the next turn too, which is thus one with the move."""
+        """Add a game in which this player also has the next turn, which becomes part of the move."""
         if self._later is None and len(game.turns) > 1:
             self._later = _Player(self._circuit, self._own, self._budget)
             for goal in self._goals.asked:
@@ -130,7 +129,7 @@ class _Player:
 
 
 class _Goals:
-    """Literals that have to be true together."""
+    """Literals that must be true together."""
 
     def __init__(self, circuit: Circuit) -> None:
         self.asked: list[int] = []
@@ -146,7 +145,7 @@ class _Goals:
         self._solver.add([[goal]])
 
     def model(self, variables: Sequence[int], settled: Mapping[int, int] = NOTHING) -> Move | None:
-        """Values of some variables with which all goals are true, where others are settled; None if there are none."""
+        """Values of some variables that satisfy all goals with the given values of others, or None."""
         found = self._solver.solve([variable * value for variable, value in settled.items()])
         if found is None:
             raise Undecided("the solver gave up after its budget of conflicts")

@@ -1,7 +1,7 @@
-"""Can the robot always keep its rules, whatever the environment does?
+"""Realizability: can the robot always keep its rules, whatever the environment does?
 
-Rules that share no event and no relation are games of their own. In each, plans of more and more instants are tried: a
-robot that wins with short ones wins, and as many instants as the rules can call for are enough.
+Rules that share no event and no relation are separate games. Each game is tried with plans of increasing length. A
+robot that wins with short plans wins. Longer plans than the rules can require do not help.
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.induction import impossible_events
 
 MOST_PLANNED = 4
-"""Instants of a plan that are tried."""
+"""The maximal number of instants of a plan."""
 
 MOST_REPLIES = 6
-"""Things that the robot may do at once, of which the answer of the environment is shown."""
+"""The maximal number of the robot's immediate answers that a strategy shows."""
 
 
 @dataclass(frozen=True)
 class Loss:
-    """A game that the environment wins: a minimal set of rules with which it does, in how many acts, and how. `place`
-    is that of the first of them, or of a law if there are none."""
+    """A game that the environment wins: a minimal set of rules, the number of acts, and the strategy. `place` is that
+    of the first rule, or of a relation if there are no rules."""
 
     rules: tuple[Rule, ...]
     place: Span
@@ -43,15 +43,14 @@ class Loss:
 def losses(index: TraceIndex, steps: int) -> Iterator[tuple[Sequence[Rule], Callable[[], Loss | None]]]:
     """The parts of the rules, each with the question whether the environment wins against it within `steps` acts.
 
-    A question raises Undecided past the bounds of what is tried, as does the first step where a measure says how long
-    a window is.
+    A question raises `Undecided` beyond its limits. The first step raises it if the length of a window is a measure.
     """
     for part in parts(index):
         yield part.rules, partial(_loss, _Contest(index, part), steps)
 
 
 class _Contest:
-    """A part of the rules, and the games about it."""
+    """A part of the rules, with its games."""
 
     def __init__(self, index: TraceIndex, part: GamePart) -> None:
         self.index = index
@@ -68,23 +67,23 @@ class _Contest:
 
     @cached_property
     def has_memory(self) -> bool:
-        """Whether what happened before makes any difference."""
+        """Whether earlier instants matter."""
         return any(map(_is_delayed, self._windows())) or any(map(_remembers, self.part.laws))
 
     @cached_property
     def standing(self) -> list[str]:
-        """The events that may be forbidden by what was before."""
+        """The events that earlier prohibitions may forbid."""
         return sorted({window.event for window in self._windows() if window.negated and _is_delayed(window)})
 
     def spare(self, steps: int) -> int | None:
-        """How many instants a plan may need: one for each thing that can come to be due later, one for each relation
-        that wants something to come first. None where what is due later leads back to itself."""
+        """The maximal number of instants that a plan can need: one for each response that can become due later, and one
+        for each relation that requires an earlier event. None if later responses lead back to themselves."""
         whole = self._whole(self._never)
         return None if whole is None else steps * whole + sum(map(_looks_back, self.part.laws))
 
     @cached_property
     def _never(self) -> frozenset[str]:
-        """Events that the robot never does, because what they call for comes to no end."""
+        """Events that the robot never does, because their consequences never end."""
         if self._whole(frozenset()) is not None:
             return frozenset()
         counting = [*self.part.windows, *self.index.relation_by_key]
@@ -99,7 +98,7 @@ class _Contest:
 
 
 class _Costs:
-    """How many instants may come to be called for, where some events never occur."""
+    """The number of instants that rules can require, if some events never occur."""
 
     def __init__(self, index: TraceIndex, part: GamePart, never: frozenset[str]) -> None:
         self._index = index
@@ -108,7 +107,7 @@ class _Costs:
         self._known: dict[str, int | None] = {}
 
     def of_rules(self, rules: Iterable[Rule]) -> int | None:
-        """If each of these rules is triggered once. None where what is due later leads back to itself."""
+        """The number if each of these rules is triggered once. None if later responses lead back to themselves."""
         whole = 0
         for rule in rules:
             for window in self._part.windows[rule.label]:
@@ -120,9 +119,9 @@ class _Costs:
         return whole
 
     def _of(self, event: str) -> int | None:
-        """By one occurrence of an event, with all that may have to occur with it."""
+        """The number for one occurrence of an event, with everything that may have to occur at the same instant."""
         if event not in self._known:
-            # Until it is known: who comes back here has gone round.
+            # Until it is known: a recursive call means a cycle.
             self._known[event] = None
             rules: dict[str, Rule] = {}
             ahead = [event]
@@ -160,16 +159,16 @@ def _loss(contest: _Contest, steps: int) -> Loss | None:
 
 
 def _always_won(contest: _Contest) -> bool:
-    """Whether the robot can do all that an act calls for at once, even if earlier prohibitions still stand. Then
-    nothing is ever left open, and it wins however often the environment acts."""
+    """Whether the robot can meet at once everything that an act requires, even under all earlier prohibitions. Then
+    nothing stays pending, and the robot wins for every number of acts."""
     if not contest.has_memory or any(map(_remembers, contest.part.laws)):
         return False
     return not _wins(contest.play(1, 0, pressed=contest.standing))
 
 
 def _lost(contest: _Contest, steps: int) -> tuple[_Contest, int] | None:
-    """A minimal set of rules with which the environment wins, and how many instants plans have there; None if the robot
-    wins. That more instants would not help is known once there are as many as those few rules can call for."""
+    """A minimal set of rules with which the environment wins, and the length of plans there; None if the robot wins.
+    Longer plans do not help once they have as many instants as these rules can require."""
     bound = contest.spare(steps)
     most = MOST_PLANNED if bound is None else min(bound, MOST_PLANNED)
     for spare in range(min(most, 1), most + 1):
@@ -211,7 +210,7 @@ def _fewest(contest: _Contest, steps: int, spare: int) -> _Contest:
 
 
 class StrategySearch:
-    """The strategy of the environment in a game that it wins, as simple as can be found."""
+    """The search for a simple strategy of the environment, in a game that it wins."""
 
     def __init__(self, contest: _Contest, steps: int, spare: int) -> None:
         self._play = contest.play(steps, spare, eager=False)
@@ -222,8 +221,8 @@ class StrategySearch:
         return self._from(0, {}, [])
 
     def _from(self, step: int, settled: Move, unseen: list[int]) -> Strategy:
-        """From an act on, when some turns are settled, and the robot's variables `unseen` may be anything that the
-        environment does not look at."""
+        """The strategy from an act on, with fixed moves of earlier turns. The environment does not depend on the
+        robot's variables `unseen`."""
         settled = {**settled, **self._simplest(step, settled, unseen)}
         act = self._act(step, settled)
         if step + 1 == self._steps:
@@ -239,14 +238,14 @@ class StrategySearch:
         return Strategy(act, branches, more=len(replies) > MOST_REPLIES)
 
     def _move(self, step: int, settled: Move, unseen: list[int]) -> Move | None:
-        """A winning act of the environment, with what is settled of it."""
+        """A winning act of the environment that agrees with its fixed variables."""
         own, robots, *later = self._play.turns[2 * step :]
         goal = self._circuit.replaced(self._play.lost, settled)
         free = [variable for variable in own if variable not in settled]
         return winning(self._circuit, free, goal, [[*unseen, *robots], *later])
 
     def _simplest(self, step: int, settled: Move, unseen: list[int]) -> Move:
-        """A winning act, early and with little happening."""
+        """A winning act that is early and has few events."""
         found = self._move(step, settled, unseen)
         assert found is not None, "the environment wins"
         fixed: Move = {}
@@ -261,7 +260,7 @@ class StrategySearch:
         return found
 
     def _replies(self, step: int, settled: Move, variables: Sequence[int]) -> Iterator[Move]:
-        """What the robot may do and plan that keeps all for now, each time with other events at once."""
+        """Answers of the robot that satisfy everything so far, with different immediate actions."""
         goal = self._circuit.replaced(self._play.kept[step], settled)
         while True:
             reply = winning(self._circuit, variables, goal)
@@ -271,7 +270,7 @@ class StrategySearch:
             now = self._play.doing(step).values()
             goal = self._circuit.both(goal, self._circuit.some(-variable * reply[variable] for variable in now))
 
-    # In words of the rules ------------------------------------------------------------------------------------
+    # Decoding --------------------------------------------------------------------------------------------
 
     def _act(self, step: int, settled: Move) -> Act:
         act = self._play.act(step, settled)

@@ -1,8 +1,8 @@
 """The times that the instants of a play may have.
 
-What rules say of times compares differences of times with the lengths of their windows. So only sums and differences of
-these lengths count, and between two of them the order of the instants that lie there. A gap longer than any window is
-as good as one a little longer than the longest.
+Rules compare differences of times with the lengths of their windows. So only sums and differences of these lengths
+matter, and the order of instants between two such sums. A gap that is longer than every window is equivalent to one
+that is slightly longer than the longest window.
 """
 
 from __future__ import annotations
@@ -14,21 +14,21 @@ from math import gcd
 from sleec_verify.encoding.solver import Undecided
 
 MOST_SLOTS = 480
-"""Times that are told apart before a question is given up."""
+"""The maximal number of distinct times of a question."""
 
 
 class TimeGrid:
-    """The times, in seconds, that the instants of one play are chosen from."""
+    """The times, in seconds, from which the instants of a play are chosen."""
 
     def __init__(self, lengths: Iterable[int], instants: int, sums: int) -> None:
-        """`lengths` are those that differences of times are compared with, in seconds; a play has as many `instants`,
-        and the times of two of them have to do with each other by as many `sums`.
+        """`lengths` are those with which differences of times are compared, in seconds. A play has `instants` instants.
+        The times of two of them are related by at most `sums` lengths.
 
-        Raises Undecided where more than `MOST_SLOTS` times would have to be told apart.
+        Raises `Undecided` if there are more than `MOST_SLOTS` times.
         """
         found = sorted({abs(length) for length in lengths} - {0})
         unit = gcd(*found) if found else 1
-        # So many instants find room, in any order, between two multiples of the unit.
+        # This many instants fit, in any order, between two multiples of the unit.
         fine = min(unit, max(4, instants))
         self._gap = (found[-1] // unit + 1) * unit if found else 1
         last = (instants - 1) * self._gap
@@ -42,26 +42,25 @@ class TimeGrid:
         self.times = [time + unit * part // fine for time in self.wholes for part in range(fine)]
         if len(self.times) > MOST_SLOTS:
             raise Undecided(
-                f"windows of lengths from {found[0]:,} to {found[-1]:,} seconds: with up to {instants} instants, more "
-                f"than {MOST_SLOTS} times would have to be told apart"
+                f"windows of lengths from {found[0]:,} to {found[-1]:,} seconds have more than {MOST_SLOTS} distinct times "
+                f"with up to {instants} instants"
             )
 
     def __len__(self) -> int:
         return len(self.times)
 
     def reach(self, earlier: int) -> int:
-        """The last slot that an instant needs, of which there are so many `earlier` ones. So there is room after it for
-        those that are still to come."""
+        """The last slot that an instant needs if `earlier` instants precede it. It leaves room for the later ones."""
         return self.up_to(earlier * self._gap) - 1
 
     def up_to(self, time: int) -> int:
-        """How many slots are not after `time`."""
+        """The number of slots at or before `time`."""
         return bisect_right(self.times, time)
 
 
 def _sums(lengths: Iterable[int], terms: int, last: int) -> set[int]:
-    """What up to so many of these lengths, added or taken away, come to, from 0 to `last`; no more than a few too many
-    to use."""
+    """The sums and differences of up to `terms` of these lengths, from 0 to `last`. Stops soon after there are too
+    many."""
     steps = {sign * length for length in lengths for sign in (1, -1)}
     found = fresh = {0}
     for _ in range(terms):

@@ -35,10 +35,10 @@ _FLIPPED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
 
 class Scales:
-    """For each measure that some formulas speak of, values that stand for all that these can tell apart, in order."""
+    """Representative values, in order, for each measure: one for each region that some formulas distinguish."""
 
     def __init__(self, measures: Mapping[str, Measure], formulas: Iterable[Formula]) -> None:
-        """Raises Undecided where two measures are compared, or calculated with."""
+        """Raises `Undecided` if two measures are compared, or used in one calculation."""
         self.conditions: set[str] = set()
         cuts: dict[str, set[Rational]] = {}
         for formula in formulas:
@@ -52,7 +52,7 @@ class Scales:
         self._measures = measures
 
     def value(self, measure: str, place: int) -> Value:
-        """The value in some place, as the text writes it."""
+        """The value at a position, as the text writes it."""
         standing = self.standing[measure][place]
         if self._measures[measure].kind == "scale":
             assert isinstance(standing, int), "the values of a scale are numbered"
@@ -61,7 +61,7 @@ class Scales:
 
 
 def _standing(measure: Measure, cuts: Sequence[Rational]) -> list[Rational]:
-    """Values of a measure of which one lies in every region that the cuts make."""
+    """Values of a measure, one in every region between the bounds."""
     if measure.kind == "scale":
         return list(range(len(measure.values)))
     if measure.kind == "integer":
@@ -76,9 +76,9 @@ def _whole(value: Fraction) -> Rational:
 
 
 def sides(comparison: Comparison) -> tuple[str, str, Rational]:
-    """A comparison as measure, operator and number, which for a value of a scale is its rank.
+    """A comparison as measure, operator and number. A value of a scale is represented by its rank.
 
-    Raises Undecided where two measures are compared, or calculated with.
+    Raises `Undecided` if two measures are compared, or used in one calculation.
     """
     left, operator, right = comparison.left, str(comparison.operator), comparison.right
     if isinstance(left, Calculation):
@@ -93,10 +93,10 @@ def sides(comparison: Comparison) -> tuple[str, str, Rational]:
 
 
 class Values:
-    """The values at one instant. `variables` are all that decide them."""
+    """The values at one instant, determined by `variables`."""
 
     def __init__(self, circuit: Circuit, scales: Scales, event: Callable[[str], int]) -> None:
-        """`event` is the literal of an event of this instant, for formulas that speak of events."""
+        """`event` returns the literal of an event at this instant, for formulas that name events."""
         self._circuit = circuit
         self._scales = scales
         self._event = event
@@ -116,7 +116,7 @@ class Values:
         return [*self.conditions.values(), *(variable for raw in self._raw.values() for variable in raw)]
 
     def decoded(self, move: Mapping[int, int]) -> dict[str, Value]:
-        """The values that a move gives."""
+        """The values in a move."""
         found: dict[str, Value] = {name: move[variable] > 0 for name, variable in self.conditions.items()}
         for name, raw in self._raw.items():
             place = next((i for i, variable in enumerate(raw) if move[variable] > 0), len(raw))
@@ -124,7 +124,7 @@ class Values:
         return found
 
     def literal(self, formula: Formula | None) -> int:
-        """A literal equal to a formula at this instant; true, if it is None."""
+        """A literal that is equivalent to a formula at this instant; true for None."""
         if formula is None:
             return TRUE
         if isinstance(formula, Truth):
@@ -159,12 +159,12 @@ class Values:
     # Which clause decides -------------------------------------------------------------------------------------
 
     def guards(self, rule: Rule, triggered: int, reading: Reading) -> list[int]:
-        """For each clause of a rule, in the order of the text, a literal equal to "it decides"."""
+        """For each clause of a rule, in the order of the text, a literal that is equivalent to "it decides"."""
         active = self._circuit.both(triggered, self.literal(rule.guard))
         return self._members(active, rule.default, rule.hedges, reading)
 
     def chain(self, clause: Clause, reading: Reading) -> list[int]:
-        """The same of a chain that stands by itself."""
+        """The same for a separate chain."""
         return self._inside(TRUE, clause, reading)
 
     def _inside(self, active: int, clause: Clause, reading: Reading) -> list[int]:
@@ -181,7 +181,7 @@ class Values:
         return found
 
     def _split(self, active: int, hedges: Sequence[Clause], reading: Reading) -> list[int]:
-        """Which of a chain decides, the default first."""
+        """Which clause of a chain decides, the default first."""
         both = self._circuit.both
         conditions = [self.literal(hedge.condition) for hedge in hedges]
         decides = [active]

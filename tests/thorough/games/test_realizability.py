@@ -217,7 +217,7 @@ def test_a_comparison_of_two_measures_is_unknown() -> None:
 
 def test_too_many_times_are_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(grid, "MOST_SLOTS", 4)
-    with pytest.raises(Undecided, match="told apart"):
+    with pytest.raises(Undecided, match="distinct times"):
         TimeGrid([7, 300], 4, 4)
 
 
