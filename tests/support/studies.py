@@ -1,7 +1,4 @@
-"""The rulesets that tests are run over: our studies, and the published case studies where they are beside the checkout.
-
-The published ones are not part of the project.
-"""
+"""Our studies, and the published case studies if they are beside the checkout: they are not part of the project."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The studies by a second road: by z3, which shares nothing with the engine, and by brute force without time."""
+"""The studies by a second road: z3, which shares no code with the engine, and brute force for rules without time."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tests.support.studies import OWN
 from tests.support.timed_agreement import compare
 
 LARGE = ("dairy", "greenhouse", "luggage", "museum", "packing", "physiotherapy", "pool")
-"""Those that take z3 more than some seconds."""
+"""Studies that take z3 more than a few seconds."""
 
 STUDIES = [
     pytest.param(
@@ -29,9 +29,9 @@ STUDIES = [
 each_study = pytest.mark.parametrize(("name", "domain"), STUDIES)
 
 NAMED_INPUTS = {("museum-guide", frozenset({"alarm_still", "closing"}))}
-"""Conflicts through an input that a condition names, which z3 is not asked about."""
+"""Conflicts that need an input that only a condition names. The oracle does not look for them."""
 UNDECIDED = {("parcel-drone-revised", frozenset({"deliver", "keep_out"}))}
-"""Pairs about which z3 finds no end."""
+"""Pairs that z3 does not decide."""
 
 
 def study(name: str, domain: str | None) -> Ruleset:
@@ -51,7 +51,7 @@ def test_z3_gives_the_same_answers_about_traces(name: str, domain: str | None) -
 
 @each_study
 def test_z3_finds_the_same_conflicts(name: str, domain: str | None) -> None:
-    """Each smallest set of rules, and no other pair of rules of which one forbids what the other names."""
+    """z3 confirms each smallest set, and no other pair of rules where one forbids an event that the other names."""
     ruleset = study(name, domain)
     found = conflicts(ruleset)
     for rules in found:
