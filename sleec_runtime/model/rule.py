@@ -35,6 +35,11 @@ class Rule:
     trigger_span: Span = field(default=NOWHERE, compare=False, repr=False)
     comments: Comments = field(default=NO_COMMENTS, compare=False, repr=False)
 
+    @property
+    def heading_span(self) -> Span:
+        """The place of the label, or of the whole rule if the text gives no label."""
+        return self.label_span if self.labelled else self.span
+
     def clauses(self) -> Iterator[Clause]:
         """Every clause in text order, nested ones after the clause that holds them. The index of a clause is its
         number: 0 is the default, i has the layer ``label.hci``."""

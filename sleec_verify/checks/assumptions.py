@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sleec_runtime.model import MeasureRelation
-from sleec_verify.checks.base import Check, FindingKind, listed
+from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.encoding.budget import Undecided
 from sleec_verify.query.question import Question, is_possible
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import listed
 from sleec_verify.traces.partition import without
 
 

@@ -95,9 +95,3 @@ def guard_at(index: RulesetIndex, place: ClausePosition) -> Formula:
 def literals_of(clauses: Iterable[Clause]) -> set[Obligation]:
     """Every literal that some of the clauses oblige."""
     return {obligation for clause in clauses for obligation in clause.obligations}
-
-
-def listed(names: Iterable[str], word: str = "and") -> str:
-    """``a``, ``a and b``, ``a, b and c``."""
-    names = list(names)
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {word} {names[-1]}"

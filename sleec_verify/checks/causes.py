@@ -7,8 +7,8 @@ from itertools import chain
 from math import prod
 
 from sleec_runtime.model import Formula, Not, Obligation
-from sleec_verify.checks.base import clause_at, guard_at, listed
-from sleec_verify.checks.each import each
+from sleec_verify.checks.base import clause_at, guard_at
+from sleec_verify.checks.questions import ask_each
 from sleec_verify.encoding.budget import spend
 from sleec_verify.encoding.equation import conjunction
 from sleec_verify.query.inconsistent_sets import Exclusion, InconsistentSet
@@ -17,6 +17,7 @@ from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Witness
+from sleec_verify.results.phrases import listed
 
 MOST, MOST_PER_RULE = 1_000, 3
 """How many causes are listed: so many, and so many more for each rule. Contradicting clauses multiply, and a ruleset
@@ -58,7 +59,7 @@ def causes(index: RulesetIndex) -> Iterator[tuple[Cause, list[tuple[Inconsistent
         return ()
 
     try:
-        for _ in each(_candidates(index), look):
+        for _ in ask_each(_candidates(index), look):
             raise AssertionError("a look makes no finding")
     finally:
         yield from sorted(found.items())

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from sleec_verify.checks.base import Check, FindingKind, listed
-from sleec_verify.checks.each import each
+from sleec_verify.checks.base import Check, FindingKind
+from sleec_verify.checks.questions import ask_each
 from sleec_verify.checks.relevant_rules import in_words, rules_in
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding, Witness
-from sleec_verify.results.phrases import quoted
+from sleec_verify.results.phrases import listed, quoted
 from sleec_verify.traces.index import trace_index_of
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def _concerns(index: RulesetIndex) -> Iterator[Finding]:
             help="add a rule that prevents it, or an exception to the rule that causes it",
         )
 
-    yield from each(((claim.label, claim) for claim in claims(index.ruleset, "concern")), of)
+    yield from ask_each(((claim.label, claim) for claim in claims(index.ruleset, "concern")), of)
 
 
 def _purposes(index: RulesetIndex) -> Iterator[Finding]:
@@ -65,7 +65,7 @@ def _purposes(index: RulesetIndex) -> Iterator[Finding]:
             help="add an exception for this case to the rules that block it, or remove the purpose",
         )
 
-    yield from each(((claim.label, claim) for claim in claims(index.ruleset, "purpose")), of)
+    yield from ask_each(((claim.label, claim) for claim in claims(index.ruleset, "purpose")), of)
 
 
 _EVENTS = "def_start\n  event UserCalls\n  event Answer\n  event Ring\n  measure asleep: boolean\ndef_end\n"

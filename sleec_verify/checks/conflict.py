@@ -10,15 +10,16 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.model import Formula, Obligation, Rule, Span, literals
-from sleec_verify.checks.base import Check, FindingKind, clause_at, listed
+from sleec_verify.checks.base import Check, FindingKind, clause_at
 from sleec_verify.checks.causes import Cause, causes
-from sleec_verify.checks.each import each
+from sleec_verify.checks.conflict_wording import exclusion, help_for, sides_in_words, subject
+from sleec_verify.checks.questions import ask_each
 from sleec_verify.checks.relevant_rules import kind_of, relation_in_words
 from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.query.inconsistent_sets import InconsistentSet, InconsistentSets, opposite
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding, Witness
-from sleec_verify.results.phrases import clause_name, quoted
+from sleec_verify.results.phrases import clause_name, listed, quoted
 from sleec_verify.traces.partition import partition_of, without
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ def _conflicts(index: RulesetIndex) -> Iterator[Finding]:
     def of(component: TraceIndex | None) -> Iterator[Finding]:
         return _of_situations(rest) if component is None else _of_traces(traces, component)
 
-    yield from each([("the rules without time", None), *named], of)
+    yield from ask_each([("the rules without time", None), *named], of)
 
 
 def _of_situations(index: RulesetIndex) -> Iterator[Finding]:
@@ -123,20 +124,21 @@ def _of_trace(traces: TraceIndex, conflict: Conflict) -> Finding:
     for pair in sorted(conflict.pairs, key=lambda pair: rules[pair.rule].trigger not in now.events):
         rule = rules[pair.rule]
         if pair.clause == LATER:
-            span = rule.label_span if rule.labelled else rule.span
+            span = rule.heading_span
             clauses.append(_Deciding(rule, LATER, clause_name(rule, 0), span))
         else:
             span = list(rule.clauses())[pair.clause].span
             clauses.append(_Deciding(rule, pair.clause, clause_name(rule, pair.clause), span))
     relations = [traces.relation_by_key[key] for key in conflict.relations]
-    required, forbidden = _sides(traces, conflict)
+    required, forbidden = _sides(clauses)
+    at_odds = _at_odds(relations, required, forbidden, now.events)
     is_instant = not conflict.history and not any(one.number == LATER for one in clauses)
     is_instant = is_instant and all(_is_immediate(traces, one) for one in clauses)
     labels = [one.rule.label for one in clauses]
     return _conflict(
         clauses,
-        _reason_of_trace(traces, relations, required, forbidden, now.events),
-        sorted(_at_odds(relations, required, forbidden, now.events)),
+        _reason_of_trace(traces, relations, required, forbidden, at_odds),
+        sorted(at_odds),
         [(relation.span, f"the {kind_of(relation)}") for relation in relations],
         Witness(tuple(sorted(now.events)), now.conditions),
         path=_path(traces, conflict),
@@ -149,14 +151,13 @@ def _is_immediate(traces: TraceIndex, clause: _Deciding) -> bool:
     return all(atom.is_immediate for atom in traces.atoms(clause.obligations))
 
 
-def _sides(traces: TraceIndex, conflict: Conflict) -> tuple[set[str], set[str]]:
+def _sides(clauses: Iterable[_Deciding]) -> tuple[set[str], set[str]]:
     """The events that the clauses of a conflict require, and those that they forbid."""
-    from sleec_verify.traces.conflicts import LATER
-
     sides: dict[bool, set[str]] = {False: set(), True: set()}
-    for pair in conflict.pairs:
-        clauses = list(traces.ruleset.by_label[pair.rule].clauses())
-        for clause in clauses if pair.clause == LATER else [clauses[pair.clause]]:
+    for one in clauses:
+        # Without a number, any clause of the rule may decide.
+        every = list(one.rule.clauses())
+        for clause in every if one.number < 0 else [every[one.number]]:
             for response in literals(clause):
                 sides[response.negated].add(response.name)
     return sides[False], sides[True]
@@ -177,12 +178,11 @@ def _reason_of_trace(
     relations: Sequence[Relation],
     required: set[str],
     forbidden: set[str],
-    given: Collection[str],
+    at_odds: set[str],
 ) -> str:
-    at_odds = _at_odds(relations, required, forbidden, given)
     if relations:
-        due = _sides_in_words(sorted(at_odds & required), sorted(at_odds & forbidden))
-        return _ruled_out(due, [relation_in_words(traces.ruleset, relation) for relation in relations])
+        due = sides_in_words(sorted(at_odds & required), sorted(at_odds & forbidden))
+        return exclusion(due, [relation_in_words(traces.ruleset, relation) for relation in relations])
     names = sorted(at_odds & forbidden & required)
     if names:
         return f"{listed(map(quoted, names))} {'is' if len(names) == 1 else 'are'} both required and forbidden"
@@ -219,35 +219,17 @@ def _conflict(
     notes = [f"{one.name}: {quoted(' AND '.join(map(str, one.obligations)))}" for one in obliging]
     rules = list(dict.fromkeys(one.rule.label for one in clauses))
     return CONFLICT.finding(
-        f"{_subject([one.name for one in clauses])}{path}: {reason}",
+        f"{subject([one.name for one in clauses])}{path}: {reason}",
         spans[0][0],
         rules=tuple(rules),
         clauses=tuple(ClauseRef(one.rule.label, one.number) for one in clauses if one.number >= 0),
         obligations=tuple(at_odds),
         witness=witness,
         note="; ".join(notes) or None,
-        help=_help(rules),
+        help=help_for(rules),
         related=tuple(spans[1:]),
         timeline=timeline,
     )
-
-
-def _help(rules: Sequence[str]) -> str:
-    if not rules:
-        return "correct the constraints, or exclude the situation with ASSUME"
-    if len(rules) == 1:
-        return "correct the response, or exclude the situation with ASSUME"
-    if len(rules) == 2:
-        return "choose which rule wins, and add an UNLESS to the other; or exclude the situation with ASSUME"
-    return "choose a rule that gives way, and add an UNLESS to it; or exclude the situation with ASSUME"
-
-
-def _subject(names: Sequence[str]) -> str:
-    if not names:
-        return "the constraints contradict each other"
-    if len(names) == 1:
-        return f"{names[0]} cannot be followed"
-    return f"{listed(names)} contradict each other"
 
 
 def _reason(index: RulesetIndex, clash: InconsistentSet) -> str:
@@ -255,22 +237,9 @@ def _reason(index: RulesetIndex, clash: InconsistentSet) -> str:
     negative = sorted(o.name for o in clash.literals if o.negated)
     if not clash.origins:
         return f"{quoted(positive[0])} is both required and forbidden"
-    return _ruled_out(
-        _sides_in_words(positive, negative), [relation_in_words(index.ruleset, one) for one in clash.origins]
+    return exclusion(
+        sides_in_words(positive, negative), [relation_in_words(index.ruleset, one) for one in clash.origins]
     )
-
-
-def _sides_in_words(positive: Sequence[str], negative: Sequence[str]) -> str:
-    sides = []
-    for names, word in ((positive, "required"), (negative, "forbidden")):
-        if names:
-            sides.append(f"{listed(map(quoted, names))} {'is' if len(names) == 1 else 'are'} {word}")
-    return " and ".join(sides)
-
-
-def _ruled_out(due: str, relations: Sequence[str]) -> str:
-    excludes = f"{listed(relations)} {'excludes' if len(relations) == 1 else 'exclude'}"
-    return f"{due}, but {excludes} this" if due else f"{excludes} every response"
 
 
 CONFLICT = Check(

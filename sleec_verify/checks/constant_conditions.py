@@ -22,7 +22,7 @@ from sleec_runtime.model import (
     measures_of,
 )
 from sleec_verify.checks.base import Check, FindingKind
-from sleec_verify.checks.each import each
+from sleec_verify.checks.questions import ask_each
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
@@ -47,7 +47,7 @@ def _constant(index: RulesetIndex) -> Iterator[Finding]:
     changing: set[Formula] = set()
     source = index.ruleset.source
     places = ((f"line {source.place(place.condition.span).line}", place) for place in _places(index.ruleset))
-    yield from each(places, lambda place: _in_condition(index, place, changing))
+    yield from ask_each(places, lambda place: _in_condition(index, place, changing))
 
 
 def _in_condition(index: RulesetIndex, place: _Place, changing: set[Formula]) -> Iterator[Finding]:

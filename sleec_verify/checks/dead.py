@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.model import RELATIONS, Clause, MeasureRelation, Rule, in_text_order
 from sleec_verify.checks.base import Check, FindingKind
-from sleec_verify.checks.each import each, each_shape, in_both_parts
+from sleec_verify.checks.questions import ask_both_parts, ask_each, ask_each_shape
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
@@ -28,12 +28,12 @@ def _dead_rules(index: RulesetIndex) -> Iterator[Finding]:
             if not question.ask(question.encoder.any_of(guards)):
                 yield DEAD_RULE.finding(
                     f"rule {quoted(rule.label)} never applies",
-                    rule.label_span if rule.labelled else rule.span,
+                    rule.heading_span,
                     rules=(rule.label,),
                     help="check its condition and the assumptions, or remove it",
                 )
 
-    yield from each_shape(index, of)
+    yield from ask_each_shape(index, of)
 
 
 def _dead_hedges(index: RulesetIndex) -> Iterator[Finding]:
@@ -51,7 +51,7 @@ def _dead_hedges(index: RulesetIndex) -> Iterator[Finding]:
             yield finding
 
     # What relations between events add is asked only of the hedges that decide without them.
-    yield from in_both_parts(index, in_situations, lambda traces: _hedges_in_traces(traces, dead))
+    yield from ask_both_parts(index, in_situations, lambda traces: _hedges_in_traces(traces, dead))
 
 
 def _hedges_in_traces(traces: TraceIndex, dead: Collection[tuple[ClauseRef, ...]]) -> Iterator[Finding]:
@@ -70,7 +70,7 @@ def _hedges_in_traces(traces: TraceIndex, dead: Collection[tuple[ClauseRef, ...]
                 help="check its condition and the relations, or remove it",
             )
 
-    yield from each(places_of_hedges(traces.rules), of)
+    yield from ask_each(places_of_hedges(traces.rules), of)
 
 
 def places_of_hedges(rules: Iterable[Rule]) -> Iterator[tuple[str, tuple[Rule, int]]]:
@@ -115,7 +115,7 @@ def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
                         help="correct its condition, or remove it",
                     )
 
-    yield from each_shape(index, of)
+    yield from ask_each_shape(index, of)
 
 
 def _alternatives_with_hedges(clauses: Iterable[Clause]) -> bool:

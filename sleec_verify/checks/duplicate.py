@@ -19,10 +19,10 @@ def _duplicates(index: RulesetIndex) -> Iterator[Finding]:
         alike.append(rule)
         if first is None:
             continue
-        where = first.label_span if first.labelled else first.span
+        where = first.heading_span
         yield DUPLICATE_RULE.finding(
             f"rule {quoted(rule.label)} says the same as rule {quoted(first.label)}",
-            rule.label_span if rule.labelled else rule.span,
+            rule.heading_span,
             rules=(rule.label, first.label),
             help="remove one of them, or correct the one that should say something else",
             related=((where, "the same rule"),),

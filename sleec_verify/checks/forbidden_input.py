@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from typing import TypeGuard
 
 from sleec_runtime.model import Declaration, Rule, Statement, literals
-from sleec_verify.checks.base import Check, FindingKind, listed
+from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.encoding.trace_scope import responses_of, speaks_of_traces
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
-from sleec_verify.results.phrases import clause_name, quoted
+from sleec_verify.results.phrases import clause_name, listed, quoted
 
 
 def _forbidden_inputs(index: RulesetIndex) -> Iterator[Finding]:

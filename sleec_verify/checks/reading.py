@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from sleec_runtime.model import Clause, Formula, Not, Obligation, Reading, Rule
 from sleec_verify.checks.base import Check, FindingKind
-from sleec_verify.checks.each import each
+from sleec_verify.checks.questions import ask_each
 from sleec_verify.encoding.equation import conjunction, disjunction, guard, implications
 from sleec_verify.query.question import Question
 from sleec_verify.query.rule_shape import Shape, shape_at
@@ -36,7 +36,7 @@ def _readings(index: RulesetIndex) -> Iterator[Finding]:
             if parted is not None:
                 yield _finding(index, position, parted)
 
-    yield from each(index.labelled(), of)
+    yield from ask_each(index.labelled(), of)
 
 
 class _Parted(NamedTuple):
@@ -147,7 +147,7 @@ def _finding(index: RulesetIndex, position: int, parted: _Parted) -> Finding:
     ]
     return READING.finding(
         f"what rule {quoted(rule.label)} requires depends on how its exceptions are read",
-        rule.label_span if rule.labelled else rule.span,
+        rule.heading_span,
         rules=(rule.label,),
         clauses=tuple(ClauseRef(rule.label, n) for n in dict.fromkeys(deciding.values())),
         obligations=tuple(sorted({o.name for n in deciding.values() for o in clauses[n].obligations})),

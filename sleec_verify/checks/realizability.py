@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from sleec_verify.checks.base import Check, FindingKind, listed
+from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding, Witness
-from sleec_verify.results.phrases import quoted
+from sleec_verify.results.phrases import listed, quoted
 from sleec_verify.traces.index import trace_index_of
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def _finding(loss: Loss) -> Finding:
     act = loss.strategy.act
     labels = [rule.label for rule in loss.rules]
     acts = "one act" if loss.steps == 1 else f"{loss.steps} acts"
-    places = [rule.label_span if rule.labelled else rule.span for rule in loss.rules]
+    places = [rule.heading_span for rule in loss.rules]
     what = f"rule{'s' if len(labels) > 1 else ''} {listed(map(quoted, labels))}" if labels else "the relations"
     return REALIZABILITY.finding(
         f"{what} cannot always be followed: {acts} of the environment can make it impossible",

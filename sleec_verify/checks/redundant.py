@@ -7,16 +7,16 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Clause, Obligation, Rule
-from sleec_verify.checks.base import Check, FindingKind, listed, literals_of
+from sleec_verify.checks.base import Check, FindingKind, literals_of
 from sleec_verify.checks.dead import places_of_hedges
-from sleec_verify.checks.each import each, each_shape, in_both_parts
+from sleec_verify.checks.questions import ask_both_parts, ask_each, ask_each_shape
 from sleec_verify.checks.relevant_rules import in_words, rules_in
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.cone import rules_of_same_obligation
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
-from sleec_verify.results.phrases import clause_name, quoted
+from sleec_verify.results.phrases import clause_name, listed, quoted
 
 if TYPE_CHECKING:
     from sleec_verify.traces.index import TraceIndex
@@ -46,7 +46,7 @@ def with_others(findings: Iterator[Finding]) -> Iterator[Finding]:
 
 def _redundant_rules(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each rule without effect."""
-    yield from with_others(in_both_parts(index, _rules_in_situations, _rules_in_traces))
+    yield from with_others(ask_both_parts(index, _rules_in_situations, _rules_in_traces))
 
 
 def _rules_in_traces(traces: TraceIndex) -> Iterator[Finding]:
@@ -60,12 +60,12 @@ def _rules_in_traces(traces: TraceIndex) -> Iterator[Finding]:
         others = in_words(traces, answer.matter)
         yield REDUNDANT_RULE.finding(
             f"rule {quoted(rule.label)} can be removed: the rules require and allow the same without it",
-            rule.label_span if rule.labelled else rule.span,
+            rule.heading_span,
             rules=(rule.label, *rules_in(traces, answer.matter)),
             note=f"whoever follows {listed(others)} follows it, too" if others else "nothing can break it",
         )
 
-    yield from each(((rule.label, rule) for rule in traces.rules), of)
+    yield from ask_each(((rule.label, rule) for rule in traces.rules), of)
 
 
 def _rules_in_situations(index: RulesetIndex) -> Iterator[Finding]:
@@ -80,14 +80,14 @@ def _rules_in_situations(index: RulesetIndex) -> Iterator[Finding]:
         cover = [index.rules[other].label for other in needed]
         yield REDUNDANT_RULE.finding(
             f"rule {quoted(rule.label)} can be removed: every situation requires the same without it",
-            rule.label_span if rule.labelled else rule.span,
+            rule.heading_span,
             rules=(rule.label, *cover),
             note=f"{listed(map(quoted, cover))} {'requires' if len(cover) == 1 else 'require'} the same"
             if cover
             else "it requires nothing in any situation",
         )
 
-    yield from each_shape(index, of, lambda position: not rules_of_same_obligation(index, position))
+    yield from ask_each_shape(index, of, lambda position: not rules_of_same_obligation(index, position))
 
 
 def _makes_a_difference(index: RulesetIndex, position: int, others: Sequence[int]) -> bool:
@@ -134,7 +134,7 @@ def _needed(index: RulesetIndex, position: int, others: Sequence[int]) -> list[i
 
 def _redundant_hedges(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each hedge without effect."""
-    yield from in_both_parts(index, _hedges_in_situations, _hedges_in_traces)
+    yield from ask_both_parts(index, _hedges_in_situations, _hedges_in_traces)
 
 
 def _hedges_in_traces(traces: TraceIndex) -> Iterator[Finding]:
@@ -159,7 +159,7 @@ def _hedges_in_traces(traces: TraceIndex) -> Iterator[Finding]:
             help=what_to_do(hedge),
         )
 
-    yield from each(places_of_hedges(traces.rules), of)
+    yield from ask_each(places_of_hedges(traces.rules), of)
 
 
 def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
@@ -185,7 +185,7 @@ def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
                 help=what_to_do(clauses[number]),
             )
 
-    yield from each_shape(index, of, lambda position: not rules_of_same_obligation(index, position))
+    yield from ask_each_shape(index, of, lambda position: not rules_of_same_obligation(index, position))
 
 
 def what_to_do(hedge: Clause) -> str:

@@ -8,8 +8,8 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Atom, Never, Rule
-from sleec_verify.checks.base import Check, FindingKind, listed, literals_of
-from sleec_verify.checks.each import each, in_both_parts
+from sleec_verify.checks.base import Check, FindingKind, literals_of
+from sleec_verify.checks.questions import ask_both_parts, ask_each
 from sleec_verify.checks.relevant_rules import in_words, rules_in
 from sleec_verify.encoding.budget import as_far_as_decided
 from sleec_verify.encoding.equation import conjunction
@@ -21,7 +21,7 @@ from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
+from sleec_verify.results.phrases import listed, quoted
 
 if TYPE_CHECKING:
     from sleec_verify.traces.index import TraceIndex
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 def _vacuous(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each rule that is triggered only in situations that conflict."""
-    yield from in_both_parts(index, _in_situations, partial(_in_traces, index))
+    yield from ask_both_parts(index, _in_situations, partial(_in_traces, index))
 
 
 def _in_situations(index: RulesetIndex) -> Iterator[Finding]:
@@ -51,7 +51,7 @@ def _in_situations(index: RulesetIndex) -> Iterator[Finding]:
             if others is not None:
                 yield _finding(index, position, others)
 
-        yield from each(_by_trigger(index), of)
+        yield from ask_each(_by_trigger(index), of)
 
 
 def _in_traces(index: RulesetIndex, traces: TraceIndex) -> Iterator[Finding]:
@@ -66,14 +66,14 @@ def _in_traces(index: RulesetIndex, traces: TraceIndex) -> Iterator[Finding]:
         others = in_words(traces, matter)
         yield VACUOUS_CONFLICT.finding(
             f"rule {quoted(rule.label)} can be triggered, but never without a conflict",
-            rule.label_span if rule.labelled else rule.span,
+            rule.heading_span,
             rules=(rule.label, *rules_in(traces, matter)),
             note=f"it always conflicts with {listed(others)}" if others else _alone(traces, rule),
             help="whenever it is triggered, some rule or relation must be broken: correct it, or what it conflicts "
             "with",
         )
 
-    yield from each(((rule.label, rule) for rule in traces.rules), of)
+    yield from ask_each(((rule.label, rule) for rule in traces.rules), of)
 
 
 def _alone(traces: TraceIndex, rule: Rule) -> str:
@@ -104,7 +104,7 @@ def _finding(index: RulesetIndex, position: int, others: Sequence[int]) -> Findi
     triggered = [Atom("trigger", rule.trigger), *([] if rule.guard is None else [rule.guard])]
     return VACUOUS_CONFLICT.finding(
         f"rule {quoted(rule.label)} can be triggered, but never without a conflict",
-        rule.label_span if rule.labelled else rule.span,
+        rule.heading_span,
         rules=(rule.label, *labels),
         # Whatever the measures are there is a conflict, but each must be something.
         witness=smallest_situation(index, conjunction(triggered), _measures(index, [position, *others])),

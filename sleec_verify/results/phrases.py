@@ -14,10 +14,10 @@ _LONGEST_CONDITION = 80
 """The most characters of a condition in the name of an exception."""
 
 
-def listed(names: Iterable[str]) -> str:
-    """``a``, ``a and b``, ``a, b and c``."""
+def listed(names: Iterable[str], word: str = "and") -> str:
+    """``a``, ``a and b``, ``a, b and c``, or with another `word`."""
     *most, last = names
-    return f"{', '.join(most)} and {last}" if most else last
+    return f"{', '.join(most)} {word} {last}" if most else last
 
 
 def counted(number: int, noun: str) -> str:

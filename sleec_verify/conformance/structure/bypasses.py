@@ -6,7 +6,6 @@ import ast
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from sleec_verify.checks.base import listed
 from sleec_verify.conformance.structure.abstract_execution import REPLACERS, AbstractExecutor
 from sleec_verify.conformance.structure.methods import Group, Method
 from sleec_verify.conformance.structure.names import Names
@@ -26,6 +25,7 @@ from sleec_verify.conformance.structure.values import (
     UnknownValue,
     Value,
 )
+from sleec_verify.results.phrases import listed
 
 _ACTIVATORS = {
     f"contextpy3.{name}"

@@ -89,7 +89,7 @@ class StructureCheck:
                 "missing-method",
                 f"no method of the target is that of {rule.label}",
                 None,
-                span=rule.label_span if rule.labelled else rule.span,
+                span=rule.heading_span,
                 rules=(rule.label,),
                 help=f'mark one with @sleec.rule("{rule.label}"), or implement() its obligations',
             )

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 
 from sleec_runtime.model import Rule
 from sleec_runtime.support.suggestions import nearest
-from sleec_verify.checks.base import listed
 from sleec_verify.conformance.structure.abstract_execution import AbstractExecutor, Execution
 from sleec_verify.conformance.structure.bodies import compare
 from sleec_verify.conformance.structure.methods import Method, Variant, calls_super
@@ -15,6 +14,7 @@ from sleec_verify.conformance.structure.program import Function
 from sleec_verify.conformance.structure.report import Findings, clause_name, expression
 from sleec_verify.conformance.structure.values import Layer, OwnLayer, Value
 from sleec_verify.results.finding import ClauseRef
+from sleec_verify.results.phrases import listed
 
 
 @dataclass(eq=False)

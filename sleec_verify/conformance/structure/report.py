@@ -6,10 +6,10 @@ import ast
 from dataclasses import dataclass, field
 
 from sleec_runtime.model import Rule, Ruleset, Span
-from sleec_verify.checks.base import listed
 from sleec_verify.conformance.structure.kinds import KINDS
 from sleec_verify.conformance.structure.target import PythonFile
 from sleec_verify.results.finding import ClauseRef, Finding
+from sleec_verify.results.phrases import listed
 
 NAME = "structure"
 

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Rule
 from sleec_runtime.support.suggestions import nearest
-from sleec_verify.checks.base import listed
 from sleec_verify.conformance.structure.names import Names
 from sleec_verify.conformance.structure.program import Class, Function, Scope
 from sleec_verify.conformance.structure.report import Findings
 from sleec_verify.conformance.structure.resolve import Resolver, maybe_runtime
 from sleec_verify.conformance.structure.values import Api, Code, Module, Object, Runtime, Table, Text, Value
+from sleec_verify.results.phrases import listed
 
 if TYPE_CHECKING:
     from sleec_verify.conformance.structure.uses import Use

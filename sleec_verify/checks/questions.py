@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 _Asked = TypeVar("_Asked")
 
 
-def each(asked: Iterable[tuple[str, _Asked]], question: Callable[[_Asked], Iterable[Finding]]) -> Iterator[Finding]:
+def ask_each(asked: Iterable[tuple[str, _Asked]], question: Callable[[_Asked], Iterable[Finding]]) -> Iterator[Finding]:
     """The findings of `question` for each item of `asked`, which is given with its name for messages.
 
     Each question but the last spends at most half of the remaining budget, so that hard questions leave some for the
@@ -39,7 +39,7 @@ def each(asked: Iterable[tuple[str, _Asked]], question: Callable[[_Asked], Itera
         raise Undecided("; ".join(f"{_named(names)}: {reason}" for reason, names in why.items()))
 
 
-def each_shape(
+def ask_each_shape(
     index: RulesetIndex,
     question: Callable[[int], Iterable[Finding]],
     alone: Callable[[int], bool] = lambda position: True,
@@ -66,10 +66,10 @@ def each_shape(
             if key is None or key not in nothing_found:
                 yield label, position
 
-    return each(asked(), of)
+    return ask_each(asked(), of)
 
 
-def in_both_parts(
+def ask_both_parts(
     index: RulesetIndex,
     situations: Callable[[RulesetIndex], Iterable[Finding]],
     traces: Callable[[TraceIndex], Iterable[Finding]],
