@@ -88,7 +88,7 @@ class UnsupportedTimes(SleecError):
 
     def __init__(self, message: str, lines: Sequence[int], hint: str | None = None) -> None:
         super().__init__(
-            message, hint or "leave them out, or leave it at `sleec-verify check`, `entail` and `explain` for now"
+            message, hint or "leave them out, or use `sleec-verify check`, `entail` or `explain`, which support them"
         )
         self.lines = tuple(lines)
 
@@ -100,8 +100,8 @@ class UnsupportedCalculations(SleecError):
     def __init__(self, message: str, lines: Sequence[int]) -> None:
         super().__init__(
             message,
-            "compare one measure with a number, or two measures; or leave it at `sleec-verify check`, `entail` and "
-            "`explain`",
+            "compare one measure with a number, or two measures; or use `sleec-verify check`, `entail` or `explain`, "
+            "which support calculations",
         )
         self.lines = tuple(lines)
 
@@ -114,7 +114,7 @@ class WrongType(SleecError):
     """A value that does not fit its condition, measure or parameter. `name` is the name of the latter."""
 
     def __init__(self, name: str, value: object, expected: str, hint: str | None = None) -> None:
-        super().__init__(f"{name} is {expected}, and {represent(value)} is not", hint)
+        super().__init__(f"{name} is {expected}; got {represent(value)}", hint)
         self.name = name
 
 
@@ -134,7 +134,7 @@ class UnknownName(SleecError, LookupError):
     def _suggestion(self, name: str, known: Sequence[str]) -> str:
         near = nearest(name, known)
         if near is not None:
-            return f"did you mean {near}?"
+            return f"did you mean `{near}`?"
         if not known:
             return f"{self.holder} has no {self.kind}"
         return f"{self.holder} has {listed(known)}"
@@ -186,8 +186,8 @@ class UndeterminedDecision(SleecError):
 
     def __init__(self, triggers: Sequence[str], missing: Sequence[str], hint: str | None = None) -> None:
         super().__init__(
-            f"what {' and '.join(triggers)} calls for depends on what nobody reported: {listed(missing)}",
-            hint or "report these with update(), or load the ruleset without strict",
+            f"the decision for {' and '.join(triggers)} depends on unreported values: {listed(missing)}",
+            hint or "report them with update(), or load the ruleset without strict",
         )
         self.missing = tuple(missing)
 
@@ -200,7 +200,7 @@ class ConflictInContext(SleecError):
     """
 
     def __init__(self, message: str, conflict: Any) -> None:
-        super().__init__(message, "nothing was executed; `sleec-verify check` finds every such context beforehand")
+        super().__init__(message, "nothing was executed; `sleec-verify check` finds all such contexts")
         self.conflict = conflict
 
 
@@ -228,8 +228,8 @@ class Reentrant(SleecError):
 
     def __init__(self) -> None:
         super().__init__(
-            "the thread of this call is in the middle of a change of the instance",
-            "in a signal handler, only note that the signal came, and call the instance from the main loop",
+            "this thread is already changing the instance",
+            "in a signal handler, only record the signal, and call the instance from the main loop",
         )
 
 
@@ -239,9 +239,9 @@ class Forked(SleecError):
 
     def __init__(self) -> None:
         super().__init__(
-            "this process was forked from one in which something was pending, which goes on with it",
-            "load the rules anew in this process; restore(…) there what pending_snapshot() of this instance returns if "
-            "the other process has ended",
+            "this process is a fork of one with pending obligations, which continues with them",
+            "load the rules again in this process; if the other process has ended, restore(…) what "
+            "pending_snapshot() of this instance returns",
         )
 
 
@@ -276,7 +276,7 @@ class StillRunning(SleecError):
     def __init__(self, seconds: float) -> None:
         super().__init__(
             f"its code has not returned after {seconds:g} seconds",
-            "mark what takes long with completes=False and return at once, or raise the limit of the clock",
+            "mark slow code with completes=False and return at once, or raise the limit of the clock",
         )
         self.seconds = seconds
 

@@ -106,7 +106,7 @@ def watched(robot: object, obligations: Iterable[str]) -> Iterator[None]:
         if obligation_of(function) is None:
             if not hasattr(robot, "__dict__"):
                 raise Unbindable(
-                    f"{represent(robot)} takes no attributes, so its methods cannot be watched",
+                    f"{represent(robot)} accepts no attributes, so its methods cannot be watched",
                     f'mark {function.__name__} with @sleec_runtime.obligation("{name}")',
                 )
             # An attribute of the object hides the method of its class.

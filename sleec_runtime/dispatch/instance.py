@@ -108,7 +108,7 @@ class Instance:
                 earlier = found.get(label) or self._methods.get(label)
                 if earlier is not None:
                     raise AlreadyBound(
-                        f"rule {label} has the method {earlier.name}, and {method.name} would be a second",
+                        f"rule `{label}` already has the method `{earlier.name}`, and `{method.name}` is another",
                         f"unbind({label!r}) first, or mark one of them only",
                     )
                 found[label] = method
@@ -215,7 +215,7 @@ class Instance:
             return None
         decorator = "@cop.base" if layer is None else f'@cop.around(sleec.layers["{layer.name}"])'
         raise NotBound(
-            f"{method.name}, the method of rule {rule.label}, has no variant for {clause_name(rule, number)}",
+            f"`{method.name}`, the method of rule `{rule.label}`, has no variant for {clause_name(rule, number)}",
             [rule.label],
             f"write it under {decorator}, and bind the method when all its variants are there",
         )
@@ -226,7 +226,7 @@ class Instance:
         without = [name for name in names if name not in self._callables]
         if without:
             raise NotBound(
-                f"rule {rule.label} has no method, and {listed(without)} ({clause_name(rule, number)}) no callable",
+                f"rule `{rule.label}` has no method, and {listed(without)} ({clause_name(rule, number)}) no callable",
                 [rule.label],
                 f'mark a method with @sleec.rule("{rule.label}") and bind() its object, or implement() the obligations',
             )

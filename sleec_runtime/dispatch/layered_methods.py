@@ -38,7 +38,7 @@ def own_entries(attribute: object) -> list[Entry]:
         if guard is not _NO_GUARD:
             name = contextpy3.get_method_name(function)
             raise Unbindable(
-                f"a variant of {name} has a guard, so that something besides the rule would choose it",
+                f"a variant of `{name}` has a guard, but only the rule may choose variants",
                 "make the guard a condition of the rule",
             )
         entries.append((layer, function, kind))

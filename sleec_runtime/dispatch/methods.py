@@ -46,7 +46,7 @@ def mark(method: F, label: str, token: object, silent: bool) -> F:
     """
     if not isinstance(method, _METHODS):
         raise Unbindable(
-            f"{represent(method)} cannot be the method of rule {label}",
+            f"{represent(method)} cannot be the method of rule `{label}`",
             "mark a function or method, above its @cop.base or @cop.around",
         )
     if silent and not isinstance(method, LayeredMethod):
@@ -103,13 +103,13 @@ def refuse_misplaced(methods: Iterable[tuple[str, Method]], layers: Layers) -> N
             for layer, _, kind in definition:
                 if is_variant(kind) and with_variant.count(layer) > 1:
                     on = "the base" if layer is None else f"layer {getattr(layer, 'name', layer)}"
-                    raise Unbindable(f"{method.name} has two variants on {on}", "leave one of them out")
+                    raise Unbindable(f"`{method.name}` has two variants on {on}", "leave one of them out")
                 # A class may serve two instances: layers of the other one are not checked.
                 if not isinstance(layer, RuleLayer) or layer is not layers.get(layer.name):
                     continue
                 if layer.name.rpartition(".hc")[0] not in own[number]:
                     raise Unbindable(
-                        f"a variant of {method.name} is on layer {layer.name}, and {method.name} is the method of "
+                        f"a variant of `{method.name}` is on layer `{layer.name}`, but is the method of "
                         f"{' and '.join(sorted(own[number]))}",
                         "put it on a layer of that rule, or mark the method with the other rule too",
                     )
@@ -120,7 +120,7 @@ def _of_class(name: str, instance: object, owner: type) -> Method:
     if instance is None and any(
         isinstance(entry[1], types.FunctionType) for entries in definitions for entry in entries
     ):
-        raise Unbindable(f"{owner.__name__}.{name} needs an object", f"bind an instance of {owner.__name__}")
+        raise Unbindable(f"`{owner.__name__}.{name}` needs an object", f"bind an instance of {owner.__name__}")
     return Method(name, definitions, instance, owner, inspect.getattr_static(owner, name))
 
 

@@ -31,16 +31,16 @@ def allow_calls(rules: Iterable[Rule], methods: Mapping[str, Method], layers: La
                 continue
             if select(method.definitions, layer) is not None:
                 raise Unbindable(
-                    f"a plain call of {method.name} finds no variant for {clause_name(rule, number)} of rule "
-                    f"{rule.label}: a definition in a subclass hides it",
+                    f"a plain call of `{method.name}` finds no variant for {clause_name(rule, number)} of rule "
+                    f"`{rule.label}`: a definition in a subclass hides it",
                     "write all variants in one class, or use trigger()",
                 )
             if layer is None or not is_silent(clause):
                 continue
             if not isinstance(method.attribute, LayeredMethod):
                 raise Unbindable(
-                    f"a plain call of {method.name} runs it where {clause_name(rule, number)} decides, which has "
-                    "nothing to run",
+                    f"a plain call of `{method.name}` runs its base if {clause_name(rule, number)} is active, although "
+                    "that clause has no code",
                     f'write an empty variant under @cop.around(sleec.layers["{layer.name}"]), or use trigger()',
                 )
             silent.append((method, layer))

@@ -85,6 +85,6 @@ def refuse_misfit(label: str, function: Callable[..., Any], args: tuple[Any, ...
         plain = getattr(function, "func", function)
         name = getattr(plain, "__name__", None) or represent(plain)
         raise WrongArguments(
-            f"{name}, the code of rule {label}, cannot be called with these arguments: {error}",
-            f"give the trigger what {name}{text_of(signature)} takes; nothing was run",
+            f"`{name}`, the code of rule `{label}`, cannot be called with these arguments: {error}",
+            f"give the trigger the arguments of {name}{text_of(signature)}; nothing was executed",
         ) from None

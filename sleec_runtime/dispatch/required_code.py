@@ -51,7 +51,7 @@ def require_one_start(rule: Rule, clause: Clause) -> None:
     starts = {_start(obligation) for obligation in clause.obligations if not obligation.negated}
     if len(starts) > 1:
         raise NotBound(
-            f"a clause of rule {rule.label} asks for things at different times, which one method cannot do",
+            f"a clause of rule `{rule.label}` has obligations with different start times, for one method",
             [rule.label],
             "unbind() its method, and implement() each obligation; or write two rules",
         )
@@ -76,10 +76,10 @@ def require_alternatives(rule: Rule, obligation: Obligation, code: Code) -> None
     ]
     if names:
         raise NotBound(
-            f"rule {rule.label} may ask for {listed(dict.fromkeys(names))} in place of {obligation}, "
-            "and there is no callable for it",
+            f"rule `{rule.label}` may require {listed(dict.fromkeys(names))} in place of {obligation}, "
+            "but there is no callable for it",
             [rule.label],
-            "implement() it: what is due in place of something else has no variant",
+            "implement() it: alternatives have no variants",
         )
 
 

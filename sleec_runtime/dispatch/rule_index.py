@@ -75,7 +75,7 @@ class RuleIndex:
         for name, value in changes.items():
             if name not in self.numbers:
                 is_trigger = name in self.whole.triggers
-                hint = "it is a trigger: call trigger() when it happens" if is_trigger else None
+                hint = "it is a trigger: call trigger() when it occurs" if is_trigger else None
                 raise UnknownCondition(name, self.vocabulary, hint)
             checked[self.numbers[name]] = None if value is None else fit(name, value, self.vocabulary[name])
         return checked
@@ -94,9 +94,7 @@ def _in_order(rules: Iterable[Rule]) -> Mapping[str, int]:
     order: dict[str, int] = {}
     for number, rule in enumerate(rules):
         if rule.label in order:
-            raise SleecError(
-                f"two rules have the label {represent(rule.label)}", "a label names one rule, and its layers"
-            )
+            raise SleecError(f"two rules have the label {represent(rule.label)}", "give each rule its own label")
         order[rule.label] = number
     return order
 

@@ -46,9 +46,9 @@ def conflict_in_words(cause: Conflict, decisions: tuple[Decision, ...]) -> str:
         for c in cause.constraints
     )
     if not literals:
-        return f"this situation is one that must not be: {forbidding}"
+        return f"the constraints forbid this situation: {forbidding}"
     verb = "is" if len(cause.literals) == 1 else "are"
-    return f"{literals} {verb} due, against {forbidding}" if forbidding else f"{literals} are both due"
+    return f"{literals} {verb} due, but forbidden by {forbidding}" if forbidding else f"{literals} are both due"
 
 
 def _with_rules(literal: Obligation, decisions: tuple[Decision, ...]) -> str:

@@ -1,4 +1,4 @@
-"""Checking what is given to the runtime, before anything is done with it."""
+"""Checks of the arguments of `Sleec`."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ if TYPE_CHECKING:
 
 
 def ruleset(given: Ruleset, reading: Reading | None) -> Ruleset:
-    """The rules, under the reading if there is one. Raises WrongType."""
+    """The ruleset, with the reading if one is given. Raises WrongType."""
     if not isinstance(given, Ruleset):
         hint = "read one: sleec_runtime.language.parse(text), or sleec_runtime.load(path) for a file"
-        raise WrongType("what is to be in force", given, "a Ruleset", hint)
+        raise WrongType("the ruleset", given, "a Ruleset", hint)
     return given if reading is None else given.read_as(reading)
 
 
 def check_choices(**choices: object) -> None:
-    """Raises WrongType for one that is neither True nor False."""
+    """Raises WrongType for a value that is not True or False."""
     for name, choice in choices.items():
         if not isinstance(choice, bool):
-            raise WrongType(name, choice, "a choice, True or False", "give True or False")
+            raise WrongType(name, choice, "a bool", "give True or False")
 
 
 def demand(
@@ -38,9 +38,9 @@ def demand(
     require_proved: bool = False,
     require_tied: bool = False,
 ) -> Demand | None:
-    """What the certificate must say, if there is one.
+    """The requirements on the certificate, if there is one.
 
-    Raises SleecError where something is asked of a certificate that is not given, and what `Demand` raises.
+    Raises SleecError for requirements without a certificate, and as `Demand`.
     """
     if certificate is None:
         asked = {"key": key is not None, "require_proved": require_proved, "require_tied": require_tied}
@@ -55,7 +55,7 @@ def demand(
 
 
 def check_clock(clock: Clock | None) -> None:
-    """Raises WrongType for a clock that is none."""
+    """Raises WrongType for an object that is not a clock."""
     if clock is not None:
         from sleec_runtime.timed.clock import check_clock as check
 
@@ -72,11 +72,11 @@ def world_time(now: Time | None) -> Time:
 
 
 def triggers(names: Iterable[str]) -> tuple[str, ...]:
-    """The names of triggers, once each. Raises WrongType."""
+    """The names of triggers, each once. Raises WrongType."""
     hint = f"give a list: [{represent(names)}]" if isinstance(names, str) else 'give a list: ["A", "B"]'
     if not isinstance(names, str):
         try:
             return tuple(dict.fromkeys(names))
         except TypeError:
             pass
-    raise WrongType("what occurs together", names, "a list of names of triggers", hint)
+    raise WrongType("the argument of trigger_all", names, "a list of names of triggers", hint)

@@ -1,8 +1,8 @@
-"""The paper's own mode (Section 4): layers globally active, renewed on each change of context.
+"""Global activation, the mode of the paper (Section 4): each change of context activates layers globally.
 
-For code that calls layered methods itself, as ROS callbacks of the paper's Listing 2 do. It cannot be made safe:
-ContextPy3's global layers are one tuple that is swapped a layer at a time, so a call that comes while two layers
-change sees one changed and the other not; and each call walks all active layers (about 0.5 µs each).
+It is for code that calls layered methods itself, such as the ROS callbacks of Listing 2 in the paper. It cannot be made
+safe: ContextPy3 changes one layer at a time, so that a call between two changes sees only the first. Each call walks
+all active layers (about 0.5 µs each).
 """
 
 from __future__ import annotations
@@ -46,12 +46,12 @@ class Host(Protocol):
 
 
 class GlobalActivation:
-    """Keeps the layers of the active clauses globally active: the layer manager LM, for every rule as if its trigger
-    occurred. Use `trigger` wherever you can; use this where something else makes the call.
+    """Keeps the layers of the active clauses globally active: the layer manager LM of the paper, for each rule as if
+    its trigger occurred. Use `trigger` where you can, and this only where other code makes the call.
 
-    What it does not do: check each call for conflicts, tell a guard that is false from a rule's ε, or change several
-    layers at once. A new layer is activated before the old one of its rule is deactivated, because ContextPy3 lets the
-    last activated one decide; the other way round the base would run in between.
+    It does not check each call for conflicts, distinguish a false guard from the ε of a rule, or change several layers
+    atomically. It activates the new layer of a rule before it deactivates the old one, because in ContextPy3 the last
+    activated layer decides; in the other order, the base could run in between.
     """
 
     def __init__(self, sleec: Host) -> None:
@@ -60,14 +60,12 @@ class GlobalActivation:
         self._end = self._not_started
 
     def start(self) -> GlobalActivation:
-        """Activates the layers of now, and renews them on each change. O(rules).
+        """Activates the layers of the current context, and renews them on each change. O(rules).
 
-        Raises UnsupportedTimes for rules with times, ConflictInContext (or UndeterminedDecision) if some trigger could
-        not be answered in this context,
-        Unbindable for a bound method that a plain call would not dispatch by the layers, and SleecError if this is on
-        already, or one of the layers is active: then nothing is activated. As long as this is on, a change into a
-        context in which some trigger could not be answered, or to a layer that someone else activated, is refused, and
-        so is binding such a method.
+        Raises UnsupportedTimes for rules with times; ConflictInContext (or UndeterminedDecision) if a trigger would
+        raise it in this context; Unbindable for a bound method that a plain call cannot dispatch; SleecError if global
+        activation is already on, or other code has activated one of the layers. Then nothing is activated. While it is
+        on, changes of context and bindings with these problems are refused.
         """
         self._sleec.hold(lambda snapshot: _GLOBAL_LAYERS.run(partial(self._start, snapshot)))
         return self
@@ -75,7 +73,7 @@ class GlobalActivation:
     def _start(self, snapshot: Snapshot) -> None:
         _refuse_times(snapshot)
         if self._sleec.activated_globally:
-            raise SleecError("global activation is on already", "stop() it first")
+            raise SleecError("global activation is already on", "stop() it first")
         self._sleec.allow_calls()
         for trigger in snapshot.index.number_of:
             due_in(snapshot, (trigger,))
@@ -85,7 +83,7 @@ class GlobalActivation:
         self._end = self._sleec.listen(self._changed, self._refuse)
 
     def stop(self) -> None:
-        """Deactivates what this activated."""
+        """Deactivates the layers that this object activated."""
         self._sleec.hold(lambda snapshot: _GLOBAL_LAYERS.run(self._stop))
 
     def _stop(self) -> None:
@@ -104,7 +102,7 @@ class GlobalActivation:
     def _refuse(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         _GLOBAL_LAYERS.refuse_reentry()
         _refuse_times(after)
-        # What a NEVER says of the context may be at odds with rules that do not mention what changed.
+        # A NEVER may now contradict rules that do not mention the changed names.
         everything = before.mark is not after.mark
         for trigger in after.index.number_of if everything else dict.fromkeys(rule.trigger for rule in rules):
             due_in(after, (trigger,))
@@ -113,7 +111,7 @@ class GlobalActivation:
     def _refuse_active(self, layers: dict[str, RuleLayer | None]) -> None:
         for label, layer in layers.items():
             if layer is not None and layer is not self._active.get(label) and layer in contextpy3._BASELAYERS:
-                raise SleecError(f"layer {layer.name} is globally active already", "deactivate it first")
+                raise SleecError(f"layer `{layer.name}` is already globally active", "deactivate it first")
 
     def _changed(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         layers = self._due_layers(after, rules)
@@ -137,7 +135,7 @@ class GlobalActivation:
                 contextpy3.global_activate_layer(layer)
                 self._active[label] = layer
             if old is not None:
-                # Unless someone else did.
+                # Unless other code deactivated it.
                 if old in contextpy3._BASELAYERS:
                     contextpy3.global_deactivate_layer(old)
                 if layer is None:
@@ -149,4 +147,4 @@ class GlobalActivation:
 
 
 def _refuse_times(snapshot: Snapshot) -> None:
-    require_untimed(snapshot.index.ruleset, "global activation, where nothing is watched,")
+    require_untimed(snapshot.index.ruleset, "global activation")

@@ -365,7 +365,7 @@ class Sleec:
     def attach(self, monitor: Monitor) -> None:
         """Lets `monitor` observe each dispatch; call it within `hold`. Raises SleecError if another monitor does."""
         if self._monitor is not None:
-            raise SleecError("a monitor is on already", "stop() it first")
+            raise SleecError("a monitor is already on", "stop() it first")
         self._monitor = monitor
 
     def detach(self, monitor: Monitor) -> None:
@@ -419,9 +419,10 @@ class Sleec:
         if problems:
             labels = [label for problem in problems for label in problem.rules]
             raise NotBound(
-                "the rules stay as they are: " + listed([problem.message for problem in problems], "; "),
+                "the rules are not replaced, because code is missing: "
+                + listed([problem.message for problem in problems], "; "),
                 labels,
-                "bring the code with replace(…, bind=…, implement=…)",
+                "add the code with replace(…, bind=…, implement=…)",
             )
         known = {name: value for name, value in before.conditions.items() if name in index.vocabulary}
         after = Snapshot.first(index, known, before.number + 1)

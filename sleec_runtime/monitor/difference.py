@@ -36,8 +36,8 @@ class Difference:
             f"{what}: {listed(names)}"
             for what, names in (
                 ("not executed", self.missing),
-                ("executed, and not due", self.unexpected),
-                ("executed, and prohibited", self.prohibited),
+                ("executed but not due", self.unexpected),
+                ("executed but prohibited", self.prohibited),
             )
             if names
         ]

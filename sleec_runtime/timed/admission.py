@@ -50,7 +50,7 @@ class Admission:
             )
         watched = [task for stage in stages if not stage.watched for task in stage.tasks if self._is_watched(task, now)]
         if watched and self._ledger.closed:
-            raise SleecError("the instance is closed, and what is due needs to be watched", "load the rules anew")
+            raise SleecError("the instance is closed and schedules no more obligations", "load the rules again")
         for task in watched:
             self.watch(task)
         for stage in stages:

@@ -26,8 +26,8 @@ from sleec_runtime.timed.unit import Unit, composed_units, units_of
 
 @dataclass(frozen=True)
 class Heir:
-    """The instance that goes on with what is pending: its rules and code, and what time it is, on its `clock` and in
-    the `world`."""
+    """The instance that continues with what is pending: its rules and code, and the time on its `clock` and in the
+    `world`."""
 
     index: RuleIndex
     instance: Instance
@@ -38,8 +38,8 @@ class Heir:
 
 @dataclass(frozen=True)
 class Recovered:
-    """The open `tasks` in their order, the `units` that start some of them, and what cannot be recovered: rules that
-    had been replaced, each with an obligation."""
+    """The open `tasks` in order, the `units` that start some of them, and in `left_out` what cannot be recovered: the
+    labels of replaced rules, each with an obligation."""
 
     tasks: Sequence[Task]
     units: Sequence[Unit]
@@ -47,10 +47,10 @@ class Recovered:
 
 
 def recover(data: object, heir: Heir) -> Recovered:
-    """What is pending by `data`. O(contexts · size of the rules + pending).
+    """The pending obligations in `data`. O(contexts · size of the rules + pending).
 
-    A unit that has not been started, and whose windows have closed since, is not started. Raises SnapshotRefused for
-    data that are malformed, of other rules, or of a later time; NotBound and WrongArguments as a trigger does.
+    A unit whose windows have closed since the snapshot does not start. Raises SnapshotRefused for data that are
+    malformed, of other rules, or from a later time; NotBound and WrongArguments as a trigger does.
     """
     whole = _record(data, "it", "format", "ruleset", "saved_at", "contexts", "decisions", "pending", "left_out")
     if type(whole["format"]) is not int or whole["format"] != FORMAT:
@@ -117,9 +117,8 @@ def _value(name: str, data: object, index: RuleIndex) -> object:
 
 @dataclass
 class _Dispatch:
-    """A rule that spoke: all that it asks for, and which of it is `open`. `starts`: what is still to be started, with
-    how many seconds after its window opens. `groups` are the responses that have open tasks, by the paths that lead to
-    them."""
+    """A decision with all its tasks. `open` are the open ones, by path. `starts` are those that are still to start,
+    with the seconds from the opening of the window. `groups` are the responses with open tasks, by path."""
 
     origin: Origin
     roots: tuple[Task, ...]
@@ -129,7 +128,7 @@ class _Dispatch:
     open: dict[Path, Task] = field(default_factory=dict)
 
     def refuse_both(self) -> None:
-        """Raises SnapshotRefused if something is open beside the obligation in whose place it is due."""
+        """Raises SnapshotRefused if both a task and its alternative are open."""
         for path, task in self.open.items():
             for length in range(1, len(path), 2):
                 other = self.open.get(path[:length])
@@ -137,7 +136,7 @@ class _Dispatch:
                     _refuse("pending", task.name, f"pending in place of {other.name}, not beside it")
 
     def units(self, now: Time) -> Iterator[Unit]:
-        """What starts the tasks that are to be started, and whose windows have not closed by `now`."""
+        """The units of the tasks that are still to start and whose windows have not closed by `now`."""
         for path, group in self.groups.items():
             for unit in composed_units(self.origin, group) if path else self.code or ():
                 for task in unit.tasks:
@@ -162,9 +161,9 @@ def _dispatch(data: object, where: str, contexts: Sequence[Snapshot], then: Time
         triggers |= {rule.trigger}
         outcome = snapshot.outcome(rule, triggers)
     if not isinstance(outcome, Decision) or type(decision["clause"]) is not int:
-        _refuse(where, decision, "a rule that speaks in its context")
+        _refuse(where, decision, "a rule that applies in its context")
     if outcome.clause != decision["clause"]:
-        _refuse(f"{where}.clause", decision["clause"], f"{outcome.clause}, the clause that decides in its context")
+        _refuse(f"{where}.clause", decision["clause"], f"{outcome.clause}, the active clause in its context")
     args, kwargs = _arguments(decision["arguments"], f"{where}.arguments")
     origin = Origin(outcome, then + triggered, snapshot, heir.instance, args, kwargs, triggers)
     try:
@@ -215,7 +214,7 @@ def _task(data: object, where: str, dispatches: Sequence[_Dispatch]) -> Task:
     if task.path[:-1] not in dispatch.groups:
         dispatch.groups[task.path[:-1]] = group
         for one in group:
-            # Over, unless it is found to be pending.
+            # Over, unless the data have it as pending.
             one.state = "over" if one.literal.negated else "done"
     dispatch.open[task.path] = task
     task.state = item["state"]
@@ -224,7 +223,7 @@ def _task(data: object, where: str, dispatches: Sequence[_Dispatch]) -> Task:
 
 
 def _found(group: tuple[Task, ...], path: object, where: str) -> tuple[Task, tuple[Task, ...]]:
-    """The task that `path` leads to, and the response that it is in."""
+    """The task at `path`, and its response."""
     if type(path) is not list or len(path) % 2 == 0:
         _refuse(where, path, "a path to an obligation of the rule")
     task = _chosen(group, path[0], where)

@@ -30,7 +30,7 @@ def refuse(
     for name in (*(() if settled else events), *(task.name for task in starting)):
         forbidden = agenda.prohibitions(name, now)
         if forbidden:
-            raise prohibited(f"{name} is due, and {prohibitions_in_words(forbidden, now)}", name, forbidden)
+            raise prohibited(f"`{name}` is due, but {prohibitions_in_words(forbidden, now)}", name, forbidden)
     _refuse_what_stays_forbidden(stages, agenda, now)
     in_force = tuple(
         Decision(task.origin.rule, task.origin.decision.clause, (task.literal,), ()) for task in agenda.forbidden(now)
@@ -76,7 +76,7 @@ def _refuse_if_forbidden(task: Task, prohibitions: Iterable[Task], now: Time) ->
     for other in prohibitions:
         if other.name == task.name and other.covers_all(max(task.first, now), task.last):
             raise prohibited(
-                f"{task.name} is due ({task.origin.rule.label}, {window_in_words(task, now)}), and "
+                f"`{task.name}` is due ({task.origin.rule.label}, {window_in_words(task, now)}), but "
                 f"{prohibitions_in_words([other], now)}",
                 task.name,
                 [other],
@@ -85,5 +85,5 @@ def _refuse_if_forbidden(task: Task, prohibitions: Iterable[Task], now: Time) ->
 
 def done_though_forbidden(name: str, prohibitions: Sequence[Task], now: Time) -> Prohibited:
     """The error for `name`, which was done although `prohibitions` forbid it."""
-    message = f"{name} was done, and {prohibitions_in_words(prohibitions, now)}"
-    return prohibited(message, name, prohibitions, "it was begun before that")
+    message = f"`{name}` was done, but {prohibitions_in_words(prohibitions, now)}"
+    return prohibited(message, name, prohibitions, "it was started before that")

@@ -71,7 +71,9 @@ def _seconds(length: Length, origin: Origin) -> Rational:
     for name in length.measures:
         value = origin.snapshot.conditions.get(name)
         if value is None:
-            raise UndeterminedDecision((origin.rule.trigger,), (name,), f"report {name} with update(): it is how long")
+            raise UndeterminedDecision(
+                (origin.rule.trigger,), (name,), f"report `{name}` with update(): it gives the length of a window"
+            )
         if isinstance(value, (bool, str)):
             raise WrongType(name, value, _LENGTH)
         values[name] = value

@@ -107,7 +107,7 @@ class Scheduler:
     def completed(self, name: str, task: Task | None = None) -> tuple[Pending, ...]:
         """`name` is done: `Sleec.completed`, and `Pending.completed` of `task`."""
         if task is not None and task.literal.negated:
-            raise SleecError(f"{name} is forbidden here, so that it cannot be completed", "complete what is to be done")
+            raise SleecError(f"`{name}` is a prohibition, which cannot be completed", "complete an obligation")
         snapshot, _ = self._state()
         index = snapshot.index
         discharged, broken, waiting, now = self._ledger.change(partial(self._discharge, name, task, index))
@@ -174,9 +174,11 @@ class Scheduler:
         from sleec_runtime.timed.recovery import Heir, recover
 
         if self._ledger.closed:
-            raise SleecError("the instance is closed, and what is pending needs to be watched", "load the rules anew")
+            raise SleecError("the instance is closed and schedules no more obligations", "load the rules again")
         if self._restored or any(self._ledger.agenda):
-            raise SnapshotRefused("a snapshot is restored once, and before the first trigger", "load the rules anew")
+            raise SnapshotRefused(
+                "a snapshot can be restored only once, and before the first trigger", "load the rules again"
+            )
         snapshot, instance = self._state()
         now = self.clock.now()
         recovered = recover(data, Heir(snapshot.index, instance, self._chains, now, world))
@@ -194,7 +196,7 @@ class Scheduler:
             if task.otherwise is not None and not task.literal.negated and task.last is not None and task.last < now:
                 self._events.miss(task)
         for label, name in recovered.left_out:
-            lost = SnapshotRefused(f"{name} was pending under rules that had been replaced, and is not restored")
+            lost = SnapshotRefused(f"`{name}` was pending under rules that had been replaced, and is not restored")
             self._events.report(Failure(now, label, (name,), lost))
 
     def tick(self) -> None:

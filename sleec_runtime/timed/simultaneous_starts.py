@@ -28,11 +28,11 @@ class SimultaneousStarts:
         for task in self._starting(stages, now):
             if task.name in self._forbidden:
                 by = self._forbidden[task.name]
-                message = f"{task.name} is due, and {prohibitions_in_words([by], now)}"
+                message = f"`{task.name}` is due, but {prohibitions_in_words([by], now)}"
                 raise prohibited(message, task.name, [by], since=self.at)
         for task in self._forbidding(stages, now):
             if task.name in self._done:
-                message = f"{task.name} was done at this moment, and {prohibitions_in_words([task], now)}"
+                message = f"`{task.name}` was done at this moment, but {prohibitions_in_words([task], now)}"
                 raise prohibited(message, task.name, [task], since=self.at)
 
     def with_started(self, stages: Sequence[Stage], now: Time) -> SimultaneousStarts:

@@ -95,7 +95,7 @@ class TimerEvents:
         """Reports that the window of an unfulfilled obligation has closed."""
         assert task.last is not None, "a window without an end does not close"
         length = duration_in_words(task.last - task.origin.moment)
-        message = f"{task.name} was not done within {length} of the trigger of rule {task.origin.rule.label}"
+        message = f"`{task.name}` was not done within {length} of the trigger of rule `{task.origin.rule.label}`"
         self.report(self._failure((task,), DeadlineMissed(message, task.name, task.last)))
 
     def report(self, failure: Failure) -> None:

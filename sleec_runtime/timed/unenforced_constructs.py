@@ -1,4 +1,4 @@
-"""What of a ruleset its runtime does not see to, said when the rules are put in force."""
+"""Constructs of a ruleset that the runtime does not enforce. They are named when the rules are put in force."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from sleec_runtime.support.messages import listed
 
 
 def has_times(ruleset: Ruleset) -> bool:
-    """Whether a response of the rules says when it is due, or what is due in its place."""
+    """Whether a response of the rules has a window or an alternative."""
     return any(
         obligation.timing is not None
         for rule in ruleset.rules
@@ -35,7 +35,8 @@ def has_times(ruleset: Ruleset) -> bool:
 
 
 def name_limits(ruleset: Ruleset, chains: bool, strict: bool) -> None:
-    """Warns of what the runtime does not enforce, by NotEnforced; if `strict`, raises UnsupportedTimes instead.
+    """Issues a NotEnforced warning for constructs that the runtime does not enforce; if `strict`, raises
+    UnsupportedTimes instead.
 
     O(size of the rules).
     """
@@ -47,13 +48,13 @@ def name_limits(ruleset: Ruleset, chains: bool, strict: bool) -> None:
         raise UnsupportedTimes(
             message,
             [line for _, line in found],
-            "leave these out, or load the ruleset without strict_times and see to them yourself",
+            "leave them out, or load the ruleset without strict_times and enforce them yourself",
         )
     warnings.warn(NotEnforced(message, found), stacklevel=_outside())
 
 
 def _outside() -> int:
-    """How many calls up the code is that uses the runtime: a warning is to point there."""
+    """The stack level of the code that uses the runtime, to which a warning should point."""
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "sleec_runtime":
         level, frame = level + 1, frame.f_back
@@ -61,7 +62,7 @@ def _outside() -> int:
 
 
 def not_enforced(ruleset: Ruleset, chains: bool) -> Iterator[tuple[str, Span]]:
-    """What each is called, and where it stands, in the order of the text."""
+    """The constructs that the runtime does not enforce, each with its place, in text order."""
     triggers = {rule.trigger for rule in ruleset.rules} if has_times(ruleset) and not chains else set()
     done = {o.name for rule in ruleset.rules for clause in rule.clauses() for o in literals(clause) if not o.negated}
     for statement in ruleset.statements:
@@ -70,17 +71,17 @@ def not_enforced(ruleset: Ruleset, chains: bool) -> Iterator[tuple[str, Span]]:
         elif isinstance(statement, Rule):
             for leaf in (leaf for formula in formulas_of(statement) for leaf in leaves(formula)):
                 if isinstance(leaf, Atom) and leaf.kind == "trigger" and leaf.name in done:
-                    yield f"conditions of {statement.label} on {leaf.name} where that is done as a response", leaf.span
+                    yield f"conditions of `{statement.label}` on `{leaf.name}` as a response", leaf.span
             for clause in statement.clauses():
                 for obligation in _asked(clause):
                     yield from _limits(obligation)
                     if not obligation.negated and obligation.name in triggers:
-                        what = f"that {obligation.name} triggers rules when it is done (chains=True does)"
+                        what = f"rules that `{obligation.name}` triggers as a response (chains=True enforces them)"
                         yield what, obligation.span
 
 
 def _asked(clause: Clause) -> Iterator[Obligation]:
-    """What a clause asks for, and what comes in place of that."""
+    """The obligations of a clause and of its alternatives."""
     for obligation in clause.obligations:
         yield obligation
         if obligation.timing is not None:
@@ -94,7 +95,7 @@ def _limits(obligation: Obligation) -> Iterator[tuple[str, Span]]:
     if window is None:
         return
     if window.end is None and not obligation.negated:
-        yield f"{obligation.name} eventually (it is begun, and has no deadline)", window.span
+        yield f"`{obligation.name}` eventually (it is started, without a deadline)", window.span
     for length in (window.start, window.end):
         for name in length.measures if length is not None else ():
-            yield f"a window for as long as {name} says, while that has no value", window.span
+            yield f"a window of length `{name}` while `{name}` has no value", window.span

@@ -27,7 +27,9 @@ def window_in_words(task: Task, now: Time) -> str:
 
 def prohibitions_in_words(prohibitions: Iterable[Task], now: Time) -> str:
     """Which rules forbid it, and for how long from `now` on."""
-    return listed([f"{task.origin.rule.label} forbids it {_for_how_long(task, now)}" for task in prohibitions], " and ")
+    return listed(
+        [f"rule `{task.origin.rule.label}` forbids it {_for_how_long(task, now)}" for task in prohibitions], " and "
+    )
 
 
 def _for_how_long(task: Task, now: Time) -> str:
@@ -36,5 +38,5 @@ def _for_how_long(task: Task, now: Time) -> str:
     if task.at_once or task.last == begin:
         return f"for a moment{later}" if later else "at this moment"
     if task.last is None:
-        return f"for good{later}"
+        return f"permanently{later}"
     return f"for {duration_in_words(task.last - begin, '' if later else 'more ')}{later}"

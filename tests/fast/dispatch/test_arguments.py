@@ -30,7 +30,7 @@ def test_nothing_runs_because_the_code_of_a_later_rule_does_not_take_the_argumen
         done.append("o1")
 
     sleec.implement({"o1": first, "o2": lambda: done.append("o2")})
-    with pytest.raises(WrongArguments, match="of rule r2, cannot be called with these arguments: too many") as caught:
+    with pytest.raises(WrongArguments, match="of rule `r2`, cannot be called with these arguments: too many") as caught:
         sleec.trigger("a", "please")
     assert isinstance(caught.value, TypeError)
     assert done == []
@@ -73,9 +73,9 @@ def test_methods_static_methods_and_what_has_no_signature() -> None:
             done.append("second")
 
     sleec.bind(Robot())
-    with pytest.raises(WrongArguments, match="second, the code of rule r2"):
+    with pytest.raises(WrongArguments, match="`second`, the code of rule `r2`"):
         sleec.trigger("a", "please")
-    with pytest.raises(WrongArguments, match="first, the code of rule r1"):
+    with pytest.raises(WrongArguments, match="`first`, the code of rule `r1`"):
         sleec.trigger("a")
     assert done == []
     sleec.implement({"o3": dict})
@@ -124,7 +124,7 @@ def test_two_variants_on_one_layer_are_refused() -> None:
         @cop.around(sleec.layers["r2.hc1"])
         def method(self) -> None: ...
 
-    with pytest.raises(Unbindable, match=r"on layer r2\.hc1, and method is the method of r1"):
+    with pytest.raises(Unbindable, match=r"on layer `r2\.hc1`, but is the method of r1"):
         sleec.bind(Astray())
     assert set(sleec.missing()) == {"r1", "r2"}
 
@@ -136,7 +136,7 @@ def test_two_variants_on_one_layer_are_refused() -> None:
         @cop.before(sleec.layers["r2.hc1"])
         def method(self) -> None: ...
 
-    with pytest.raises(Unbindable, match=r"on layer r2\.hc1, and method is the method of r1"):
+    with pytest.raises(Unbindable, match=r"on layer `r2\.hc1`, but is the method of r1"):
         sleec.bind(Advised())
 
     elsewhere = cop.Layer("elsewhere")
@@ -171,7 +171,7 @@ def test_functions_of_one_name_are_looked_at_each_for_itself() -> None:
 
     module = types.ModuleType("module")
     vars(module).update(first=made("r1"), second=made("r2"))
-    with pytest.raises(Unbindable, match=r"on layer r2\.hc1, and method is the method of r1"):
+    with pytest.raises(Unbindable, match=r"on layer `r2\.hc1`, but is the method of r1"):
         sleec.bind(module)
 
 
@@ -239,7 +239,7 @@ def test_marked_implementations_are_asked_whatever_sees_them() -> None:
     robot = Robot()
     with Monitor(sleec, print, watch=[robot]):
         sleec.implement(robot)
-        with pytest.raises(WrongArguments, match="second, the code of rule r2"):
+        with pytest.raises(WrongArguments, match="`second`, the code of rule `r2`"):
             sleec.trigger("a", "please")
         assert done == []
         sleec.trigger("a")

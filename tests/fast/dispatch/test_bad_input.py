@@ -53,7 +53,7 @@ CASES: dict[str, Case] = {
     "unknown condition": (
         lambda s: s.update({"UserUndresed": True}),
         errors.UnknownCondition,
-        "did you mean UserUndressed",
+        "did you mean `UserUndressed`",
     ),
     "trigger as condition": (lambda s: s.update({"Visit": True}), errors.UnknownCondition, "it is a trigger"),
     "far from any name": (lambda s: s.update({"qqqqqqqq": True}), errors.UnknownCondition, "the ruleset has "),
@@ -66,17 +66,17 @@ CASES: dict[str, Case] = {
     "broken whole": (lambda s: s.update({"Visitors": 2.5}), errors.WrongType, "whole number"),
     "not on the scale": (lambda s: s.update({"Risk": "middle"}), errors.WrongType, "low < high"),
     "number for scale": (lambda s: s.update({"Risk": 1}), errors.WrongType, "low < high"),
-    "unknown trigger": (lambda s: s.trigger("Visits"), errors.UnknownTrigger, "did you mean Visit"),
+    "unknown trigger": (lambda s: s.trigger("Visits"), errors.UnknownTrigger, "did you mean `Visit`"),
     "unknown trigger of several": (lambda s: s.trigger_all(["Visit", "X"]), errors.UnknownTrigger, "'X'"),
-    "unknown trigger asked": (lambda s: s.due("Visits"), errors.UnknownTrigger, "did you mean Visit"),
+    "unknown trigger asked": (lambda s: s.due("Visits"), errors.UnknownTrigger, "did you mean `Visit`"),
     "unknown layer": (lambda s: s.layers["dress_assist.hc3"], errors.UnknownLayer, "dress_assist.hc"),
-    "unknown label": (lambda s: s.rule("dress_asist"), errors.UnknownLabel, "did you mean dress_assist"),
-    "unbind unknown": (lambda s: s.unbind("dres_assist"), errors.UnknownLabel, "did you mean dress_assist"),
+    "unknown label": (lambda s: s.rule("dress_asist"), errors.UnknownLabel, "did you mean `dress_assist`"),
+    "unbind unknown": (lambda s: s.unbind("dres_assist"), errors.UnknownLabel, "did you mean `dress_assist`"),
     "unknown domain": (lambda s: s.enter_domain("moon"), errors.UnknownDomain, "has no domain"),
     "unknown obligation": (
         lambda s: s.implement({"OpenCurtain": print}),
         errors.UnknownObligation,
-        "did you mean OpenCurtains",
+        "did you mean `OpenCurtains`",
     ),
     "not callable": (lambda s: s.implement({"OpenCurtains": "open"}), errors.Unbindable, "not callable"),
     "implements nothing": (lambda s: s.implement(Unmarked()), errors.Unbindable, "implements no obligation"),
@@ -109,7 +109,7 @@ CASES: dict[str, Case] = {
     "bounds that exclude all": (
         lambda s: Threshold("UserUndressed", "radar", at_least=3, at_most=1),
         errors.SleecError,
-        "never reached",
+        "cannot be reached",
     ),
     "membership above 1": (
         lambda s: Sensors(s, Fuzzy("UserUndressed", "radar", lambda value: 2)).update({"radar": 1}),
@@ -139,7 +139,7 @@ CASES: dict[str, Case] = {
     "assumptions of an unknown trigger": (
         lambda s: s.broken_assumptions("Visits"),
         errors.UnknownTrigger,
-        "did you mean Visit",
+        "did you mean `Visit`",
     ),
     "number for obligation": (lambda s: s.implement({5: print}), errors.UnknownObligation, "name of an obligation"),
     "no readings": (lambda s: Sensors(s).update(None), errors.WrongType, "give a dict"),
@@ -191,7 +191,7 @@ def test_a_file_that_cannot_be_read() -> None:
 
 
 def test_a_domain_that_no_rule_has() -> None:
-    with pytest.raises(errors.UnknownDomain, match="did you mean household"):
+    with pytest.raises(errors.UnknownDomain, match="did you mean `household`"):
         sleec_runtime.load("rulesets/care-robot.sleec", domain="houshold")
 
 
@@ -212,7 +212,7 @@ def test_binding_is_all_or_nothing() -> None:
         @sleec.rule("r2")
         def too(self) -> None: ...
 
-    with pytest.raises(errors.AlreadyBound, match="rule r2 has the method two, and too would be a second"):
+    with pytest.raises(errors.AlreadyBound, match="rule `r2` already has the method `two`, and `too` is another"):
         sleec.bind(Twice())
 
     class Both:

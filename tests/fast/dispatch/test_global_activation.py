@@ -215,7 +215,7 @@ def test_a_function_without_layers_is_refused_where_a_hedge_comes_to_oblige_noth
 
     sleec.bind(method)
     with sleec.activate_globally():
-        with pytest.raises(Unbindable, match=r"runs it where r\.hc1 decides"):
+        with pytest.raises(Unbindable, match=r"runs its base if r\.hc1 is active"):
             sleec.replace(parse("RULE r WHEN a THEN o1 UNLESS c"))
         assert not sleec.ruleset.by_label["r"].hedges
 
@@ -253,10 +253,10 @@ def test_it_is_on_once_and_gives_way_to_no_one() -> None:
     sleec = running("RULE r WHEN a THEN o1 UNLESS c IN WHICH CASE o2")
     layer = sleec.layers["r.hc1"]
     with sleec.activate_globally():
-        with pytest.raises(SleecError, match="on already"):
+        with pytest.raises(SleecError, match="already on"):
             sleec.activate_globally()
         cop.global_activate_layer(layer)
-        with pytest.raises(SleecError, match=r"layer r\.hc1 is globally active already"):
+        with pytest.raises(SleecError, match=r"layer `r\.hc1` is already globally active"):
             sleec.update({"c": True})
         assert dict(sleec.conditions) == {}
         cop.global_deactivate_layer(layer)

@@ -90,7 +90,7 @@ def test_it_is_silent_on_a_robot_that_is_properly_structured() -> None:
     ("plan", "words"),
     [
         (["open"], "not executed: Say"),
-        (["open", "say", "ask"], "executed, and not due: Ask"),
+        (["open", "say", "ask"], "executed but not due: Ask"),
         (["say", "open"], "executed Say, Open where Open, Say was due"),
         (["open", "open", "say"], "executed Open, Open, Say where Open, Say was due"),
         ([], "not executed: Open, Say"),
@@ -105,7 +105,7 @@ def test_it_tells_what_was_executed_and_what_was_due(sleec: Sleec, plan: list[st
 def test_it_tells_what_was_prohibited(sleec: Sleec) -> None:
     (difference,) = differences(sleec, "ask", "open", c=True)
     assert difference.prohibited == ("Open",)
-    assert str(difference) == "a: executed, and prohibited: Open"
+    assert str(difference) == "a: executed but prohibited: Open"
 
 
 def test_it_is_silent_where_the_prohibited_is_left_undone(sleec: Sleec) -> None:
@@ -234,7 +234,7 @@ def test_what_cannot_be_watched_is_not_bound(sleec: Sleec) -> None:
         def open(self) -> None: ...
 
     with Monitor(sleec, print):
-        with pytest.raises(Unbindable, match="takes no attributes"):
+        with pytest.raises(Unbindable, match="accepts no attributes"):
             sleec.bind(Slots())
         assert "r1" in sleec.missing()
 

@@ -62,7 +62,7 @@ def test_one_reading_is_one_change_of_all_that_follows_from_it(sleec: Sleec) -> 
     sensors.update({"thermometer": None})
     assert dict(sleec.conditions) == {"Risk": "moderate"}
     assert told == [1, 2]
-    with pytest.raises(UnknownSensor, match="did you mean thermometer"):
+    with pytest.raises(UnknownSensor, match="did you mean `thermometer`"):
         sensors.update({"radar": 5, "termometer": 3})
     with pytest.raises(WrongType, match="a sensor value"):
         sensors.update({"radar": "far"})
@@ -74,15 +74,15 @@ def test_one_reading_is_one_change_of_all_that_follows_from_it(sleec: Sleec) -> 
     [
         ([Threshold("Risk", "s", at_least=1)], "is a measure"),
         ([Fuzzy("Risk", "s", triangle(1, 2, 3))], "is a measure"),
-        ([Fuzzy("Warm", "s", triangle(1, 2, 3), cut=0)], "give one above 0"),
+        ([Fuzzy("Warm", "s", triangle(1, 2, 3), cut=0)], "give a number above 0"),
         ([Fuzzy("Warm", "s", triangle(1, 2, 3), cut=1.5)], "at most 1"),
         ([Scale("Fever", "s", [1, 2])], "has no scale"),
-        ([Scale("Risk", "s", [1])], "give 2 rising cuts"),
-        ([Scale("Risk", "s", [2, 1])], "give 2 rising cuts"),
-        ([Scale("Risk", "s", [1, 1])], "give 2 rising cuts"),
-        ([Direct("Fever", "s")], "is no number"),
-        ([Direct("Risk", "s")], "is no number"),
-        ([Direct("Temperature", "s"), Direct("Temperature", "t")], "two predicates decide"),
+        ([Scale("Risk", "s", [1])], "give 2 increasing cuts"),
+        ([Scale("Risk", "s", [2, 1])], "give 2 increasing cuts"),
+        ([Scale("Risk", "s", [1, 1])], "give 2 increasing cuts"),
+        ([Direct("Fever", "s")], "is not a number"),
+        ([Direct("Risk", "s")], "is not a number"),
+        ([Direct("Temperature", "s"), Direct("Temperature", "t")], "two predicates set"),
     ],
 )
 def test_a_predicate_must_fit_what_it_decides(sleec: Sleec, predicates: list[Predicate], words: str) -> None:
@@ -99,13 +99,13 @@ def test_a_predicate_of_a_condition_that_is_gone_is_refused(sleec: Sleec) -> Non
 
 
 def test_what_predicates_are_made_of_is_checked(sleec: Sleec) -> None:
-    with pytest.raises(UnknownCondition, match="did you mean Fever"):
+    with pytest.raises(UnknownCondition, match="did you mean `Fever`"):
         Sensors(sleec, Threshold("Fevr", "s", at_least=1))
     with pytest.raises(SleecError, match="no bound"):
         Threshold("Fever", "s")
     with pytest.raises(WrongType):
         Threshold("Fever", "s", at_least="38")
-    with pytest.raises(SleecError, match="left to right"):
+    with pytest.raises(SleecError, match="increasing order"):
         trapezoid(1, 3, 2, 4)
     with pytest.raises(WrongType):
         triangle(1, None, 3)

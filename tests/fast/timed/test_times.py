@@ -141,7 +141,7 @@ def test_a_missed_deadline_is_told_and_kept():
     assert home.sleec.failures == (failure,)
     assert isinstance(failure.error, errors.DeadlineMissed)
     assert (failure.error.obligation, failure.error.until, due.state) == ("X", 9, "missed")
-    assert str(failure) == "X (a): X was not done within 9 seconds of the trigger of rule a"
+    assert str(failure) == "X (a): `X` was not done within 9 seconds of the trigger of rule `a`"
     assert home.sleec.completed("X") == (), "too late"
 
 
@@ -163,7 +163,7 @@ def test_what_is_due_at_once_and_takes_time_has_no_deadline():
 
 def test_a_measure_says_how_long():
     home = Home("MEASURE patience: integer\nRULE a WHEN A THEN X WITHIN 1 TO patience seconds")
-    with pytest.raises(errors.UndeterminedDecision, match="report patience with update") as caught:
+    with pytest.raises(errors.UndeterminedDecision, match="report `patience` with update") as caught:
         home.sleec.trigger("A")
     assert caught.value.missing == ("patience",)
     home.sleec.update({"patience": -1})
@@ -185,10 +185,10 @@ def test_a_calculation_says_how_long():
         slow=("X",),
     )
     home.sleec.update({"warmth": 20})
-    with pytest.raises(errors.UndeterminedDecision, match="report load with update"):
+    with pytest.raises(errors.UndeterminedDecision, match="report `load` with update"):
         home.sleec.trigger("A")
     home.sleec.update({"load": 100})
-    with pytest.raises(errors.WrongType, match=r"from 0 to 1,000,000,000,000 seconds, and -80 is not"):
+    with pytest.raises(errors.WrongType, match=r"from 0 to 1,000,000,000,000 seconds; got -80"):
         home.sleec.trigger("A")
     home.sleec.update({"load": 15})
     (due,) = home.sleec.trigger("A").due
@@ -312,7 +312,7 @@ def test_a_prohibition_refuses_until_it_ends_before_anything_runs():
     assert shown(done.due) == ["NOT SoundAlarm (quiet): in force, closes in 5 seconds"]
     assert done.due[0].prohibited
     for left in ("for 5 more", "for 4 more", "for 3 more", "for 2 more", "for 1 more second", "at this moment"):
-        with pytest.raises(errors.Prohibited, match=f"quiet forbids it {left}") as caught:
+        with pytest.raises(errors.Prohibited, match=f"rule `quiet` forbids it {left}") as caught:
             home.sleec.trigger("Test")
         assert (caught.value.obligation, caught.value.over) == ("SoundAlarm", 6)
         assert isinstance(caught.value, errors.ConflictInContext)
@@ -334,7 +334,7 @@ def test_a_prohibition_is_over_when_its_window_is():
     assert (one.state, one.is_open) == ("over", False)
     home.clock.advance(1)
     assert one.state == "over"
-    with pytest.raises(errors.SleecError, match="forbidden here"):
+    with pytest.raises(errors.SleecError, match="a prohibition, which cannot be completed"):
         one.completed()
 
 
@@ -378,7 +378,7 @@ def test_what_is_forbidden_when_its_window_opens_waits_until_it_is_not():
 def test_what_is_forbidden_for_the_whole_of_its_window_is_refused_at_the_trigger():
     home = Home("RULE a WHEN A THEN X WITHIN 3 TO 5 seconds\nRULE b WHEN B THEN NOT X WITHIN 5 seconds")
     with pytest.raises(
-        errors.Prohibited, match=r"X is due \(a, opens in 3 seconds, closes in 5 seconds\), and b forbids"
+        errors.Prohibited, match=r"`X` is due \(a, opens in 3 seconds, closes in 5 seconds\), but rule `b` forbids"
     ):
         home.sleec.trigger_all(["A", "B"])
     home.sleec.trigger("B")
@@ -398,7 +398,7 @@ def test_what_is_begun_before_a_prohibition_and_done_within_is_told():
     home.sleec.trigger("Test")
     home.sleec.trigger("Sleep")
     home.clock.advance(1)
-    with pytest.raises(errors.Prohibited, match="SoundAlarm was done, and quiet forbids it for 4 more seconds"):
+    with pytest.raises(errors.Prohibited, match="`SoundAlarm` was done, but rule `quiet` forbids it for 4 more"):
         home.sleec.completed("SoundAlarm")
     assert not [one for one in home.sleec.pending() if not one.prohibited], "it is done all the same"
 
@@ -406,7 +406,7 @@ def test_what_is_begun_before_a_prohibition_and_done_within_is_told():
 def test_a_callable_that_brings_the_prohibition_of_itself_is_told():
     home = Home("RULE a WHEN A THEN X\nRULE b WHEN B THEN NOT X WITHIN 5 seconds")
     home.sleec.implement({"X": lambda: home.sleec.trigger("B")})
-    with pytest.raises(errors.Prohibited, match="it was begun before that"):
+    with pytest.raises(errors.Prohibited, match="it was started before that"):
         home.sleec.trigger("A")
 
 
@@ -546,7 +546,7 @@ def test_pending_obligations_finish_under_the_rules_that_asked_for_them():
     home.sleec.trigger("Sleep")
     home.sleec.replace(parse("RULE new WHEN Test THEN SoundAlarm"))
     assert [one.rule for one in home.sleec.pending()] == ["quiet", "post", "alarm"]
-    with pytest.raises(errors.Prohibited, match="quiet forbids it for 5 more seconds"):
+    with pytest.raises(errors.Prohibited, match="rule `quiet` forbids it for 5 more seconds"):
         home.sleec.trigger("Test")
     home.clock.advance(20)
     assert home.log == [(0, "CallNurse"), (3, "Fetch"), (10, "SoundAlarm")]
@@ -620,9 +620,9 @@ def test_what_a_method_cannot_do_is_refused():
 
     sleec.bind(method)
     assert set(sleec.missing()) == {"a", "b"}
-    with pytest.raises(errors.NotBound, match="different times"):
+    with pytest.raises(errors.NotBound, match="different start times"):
         sleec.trigger("A")
-    with pytest.raises(errors.NotBound, match="may ask for Z in place of X"):
+    with pytest.raises(errors.NotBound, match="may require Z in place of X"):
         sleec.trigger("B")
     sleec.implement({"Z": lambda: None})
     assert set(sleec.missing()) == {"a"}
@@ -710,10 +710,10 @@ def test_what_cannot_be_enforced_is_named_at_load(tmp_path):
     assert isinstance(warning.message, errors.NotEnforced)
     assert warning.message.constructs == (
         ("the relation witness", 3),
-        ("X eventually (it is begun, and has no deadline)", 4),
-        ("that X triggers rules when it is done (chains=True does)", 4),
-        ("a window for as long as long says, while that has no value", 5),
-        ("Z eventually (it is begun, and has no deadline)", 5),
+        ("`X` eventually (it is started, without a deadline)", 4),
+        ("rules that `X` triggers as a response (chains=True enforces them)", 4),
+        ("a window of length `long` while `long` has no value", 5),
+        ("`Z` eventually (it is started, without a deadline)", 5),
     )
     with pytest.warns(errors.NotEnforced) as caught:
         Sleec(parse(LIMITED), chains=True)
@@ -739,13 +739,13 @@ def test_eventually_is_begun_and_a_prohibition_for_good_is_kept():
     home = Home("RULE a WHEN A THEN X EVENTUALLY\nRULE b WHEN B THEN NOT X EVENTUALLY", slow=("X",))
     (due,) = home.sleec.trigger("A").due
     assert str(due) == "X (a): under way, never closes"
-    with pytest.raises(errors.Prohibited, match="b forbids it for good"):
+    with pytest.raises(errors.Prohibited, match="rule `b` forbids it permanently"):
         home.sleec.trigger("B")
     home.clock.advance(10_000)
     assert home.sleec.completed("X") == (due,)
     home.sleec.trigger("B")
     home.clock.advance(10_000)
-    with pytest.raises(errors.Prohibited, match="for good") as caught:
+    with pytest.raises(errors.Prohibited, match="permanently") as caught:
         home.sleec.trigger("A")
     assert caught.value.over is None
 
@@ -815,7 +815,7 @@ def test_what_the_clock_starts_at_one_time_happens_at_once():
     home.sleec.trigger("A")
     home.clock.advance(10)
     assert home.taken() == [(0, "X"), (0, "X"), (3, "Y")]
-    assert "Y was done at this moment, and b forbids it at this moment" in str(home.told[0].error)
+    assert "`Y` was done at this moment, but rule `b` forbids it at this moment" in str(home.told[0].error)
     home.sleec.trigger("C")
     home.clock.advance(10)
     assert home.taken() == [(10, "X"), (10, "X"), (14, "Y")], "once it is allowed"
@@ -828,7 +828,7 @@ def test_without_a_handler_the_log_is_told(caplog):
     sleec.trigger("A")
     clock.advance(9)
     assert [record.name for record in caplog.records] == ["sleec_runtime"]
-    assert "X was not done within 9 seconds" in caplog.text
+    assert "`X` was not done within 9 seconds" in caplog.text
 
 
 def test_a_handler_that_raises_stops_nothing(caplog):

@@ -46,16 +46,19 @@ class Home:
 @pytest.mark.parametrize(
     ("triggers", "seconds", "text"),
     [
-        (["Sleep"], 0.8, "Alarm is due, and quiet forbids it for 3.2 more seconds"),
-        (["Sleep"], 3, "Alarm is due, and quiet forbids it for 1 more second"),
-        (["Sleep"], 4, "Alarm is due, and quiet forbids it at this moment"),
-        (["Sleep"], 3.9999, "Alarm is due, and quiet forbids it for 0.001 more seconds"),
-        (["Nap"], 2.5, "Alarm is due, and later forbids it for 2.5 more seconds"),
-        (["Holiday"], 5, "Alarm is due, and never forbids it for good"),
+        (["Sleep"], 0.8, "`Alarm` is due, but rule `quiet` forbids it for 3.2 more seconds"),
+        (["Sleep"], 3, "`Alarm` is due, but rule `quiet` forbids it for 1 more second"),
+        (["Sleep"], 4, "`Alarm` is due, but rule `quiet` forbids it at this moment"),
+        (["Sleep"], 3.9999, "`Alarm` is due, but rule `quiet` forbids it for 0.001 more seconds"),
+        (["Nap"], 2.5, "`Alarm` is due, but rule `later` forbids it for 2.5 more seconds"),
+        (["Holiday"], 5, "`Alarm` is due, but rule `never` forbids it permanently"),
         (
             ["Sleep", "Nap"],
             3,
-            "Alarm is due, and quiet forbids it for 1 more second and later forbids it for 2 more seconds",
+            (
+                "`Alarm` is due, but rule `quiet` forbids it for 1 more second and "
+                "rule `later` forbids it for 2 more seconds"
+            ),
         ),
     ],
 )
@@ -69,14 +72,14 @@ def test_a_refusal_says_for_how_long(triggers: list[str], seconds: float, text: 
 @pytest.mark.parametrize(
     ("before", "now", "text"),
     [
-        ("Nap", "Smoke", "later forbids it for 3 seconds, 2 seconds from now"),
-        ("Holiday", "Smoke", "never forbids it for good"),
+        ("Nap", "Smoke", "rule `later` forbids it for 3 seconds, 2 seconds from now"),
+        ("Holiday", "Smoke", "rule `never` forbids it permanently"),
     ],
 )
 def test_a_refusal_of_what_opens_later_says_from_when(before: str, now: str, text: str) -> None:
     home = Home()
     home.sleec.trigger(before)
-    assert home.refused(now) == f"Alarm is due (soon, opens in 3 seconds, closes in 4 seconds), and {text}"
+    assert home.refused(now) == f"`Alarm` is due (soon, opens in 3 seconds, closes in 4 seconds), but {text}"
 
 
 def test_pending_says_what_is_left() -> None:

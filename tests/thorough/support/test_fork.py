@@ -198,7 +198,7 @@ def test_what_is_renewed_is_what_still_exists():
     robot.sleec.trigger("T2")
     forks.renew()
     assert renewed == ["renewed"]
-    with pytest.raises(errors.Forked, match="load the rules anew in this process"):
+    with pytest.raises(errors.Forked, match="load the rules again in this process"):
         robot.sleec.trigger("T1")
 
 

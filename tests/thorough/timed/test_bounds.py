@@ -81,7 +81,7 @@ NUMBERS: dict[str, object] = {
     "a Decimal of 1,400 digits": Decimal("1" * 700 + "." + "1" * 700),
     "another real number": Odd("1e10000000"),
     "a real number without digits": Odd("many"),
-    "a Decimal that is no number": Decimal("sNaN"),
+    "a Decimal that is not a number": Decimal("sNaN"),
     "an infinite Decimal": Decimal("Infinity"),
     "a large int": LONG_INT,
     "an int that Python does not print": 10**4_400,

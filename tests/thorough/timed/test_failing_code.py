@@ -135,7 +135,7 @@ def test_code_that_does_not_return_is_reported_and_the_end_does_not_wait_for_it(
     (failure,) = told
     assert isinstance(failure.error, errors.StillRunning)
     assert (failure.rule, failure.obligations, failure.error.seconds) == ("a", ("X",), 0.2)
-    assert "its code has not returned after 0.2 seconds (mark what takes long with completes=False" in str(failure)
+    assert "its code has not returned after 0.2 seconds (mark slow code with completes=False" in str(failure)
     sleec.close()
     clock.close()
     assert sleec.failures == (failure,)

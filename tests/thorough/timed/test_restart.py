@@ -140,7 +140,7 @@ def test_prohibitions_stay_in_force_and_come_into_force() -> None:
     other.sleec.trigger("Dust")
     other.clock.advance(2)
     other = restarted(other)
-    with pytest.raises(errors.Prohibited, match="nap forbids it for 2 more seconds"):
+    with pytest.raises(errors.Prohibited, match="rule `nap` forbids it for 2 more seconds"):
         other.sleec.trigger("Dust")
     other.clock.advance(3)
     other.sleec.trigger("Dust")
@@ -168,7 +168,7 @@ def test_what_raised_is_not_started_again() -> None:
     assert other.pending() == ["Vacuum (clean): waiting, closes in 3 seconds"]
     other.clock.advance(10)
     assert other.log == []
-    assert other.failures() == ["Vacuum (clean): Vacuum was not done within 3 seconds of the trigger of rule clean"]
+    assert other.failures() == ["Vacuum (clean): `Vacuum` was not done within 3 seconds of the trigger of rule `clean`"]
 
 
 def test_what_is_held_back_is_started_when_it_is_not_forbidden() -> None:
@@ -275,7 +275,7 @@ def test_what_was_not_begun_yet_is_started() -> None:
         "NOT Z (b): in force, closes in 9 seconds",
     ]
     other.clock.advance(5)
-    assert other.failures() == ["X (a): X was not done within 5 seconds of the trigger of rule a"]
+    assert other.failures() == ["X (a): `X` was not done within 5 seconds of the trigger of rule `a`"]
 
 
 def test_what_follows_from_an_event_that_has_not_happened_is_not_due() -> None:
@@ -355,7 +355,7 @@ def test_a_deadline_that_has_passed_is_missed_and_its_otherwise_starts() -> None
     other = restarted(robot, down=310, slow=(*SLOW, "CallAmbulance"))
     assert other.log == [("CallAmbulance", "bath")]
     assert other.failures() == [
-        "CallNurse (fall): CallNurse was not done within 300 seconds of the trigger of rule fall"
+        "CallNurse (fall): `CallNurse` was not done within 300 seconds of the trigger of rule `fall`"
     ]
     assert isinstance(other.sleec.failures[0].error, errors.DeadlineMissed)
     assert other.pending() == ["CallAmbulance (fall): under way, closes in 50 seconds"]
@@ -379,8 +379,8 @@ def test_a_window_that_has_opened_is_made_use_of_and_one_that_has_closed_is_not(
     other = restarted(robot, down=61)
     assert other.taken() == []
     assert other.failures() == [
-        "OfferWalk (walk): OfferWalk was not done within 60 seconds of the trigger of rule walk",
-        "Open (walk): Open was not done within 60 seconds of the trigger of rule walk",
+        "OfferWalk (walk): `OfferWalk` was not done within 60 seconds of the trigger of rule `walk`",
+        "Open (walk): `Open` was not done within 60 seconds of the trigger of rule `walk`",
     ]
 
 
@@ -392,7 +392,7 @@ def test_a_moment_that_has_passed_is_missed(slow: tuple[str, ...]) -> None:
     other = restarted(robot, down=3, slow=slow)
     assert other.taken() == ["Apologise"]
     assert other.pending() == []
-    assert other.failures() == ["Wash (wash): Wash was not done within 2 seconds of the trigger of rule wash"]
+    assert other.failures() == ["Wash (wash): `Wash` was not done within 2 seconds of the trigger of rule `wash`"]
 
 
 def test_a_prohibition_that_is_over_is_over() -> None:
@@ -410,7 +410,7 @@ def test_else_is_made_use_of_while_its_window_is_open() -> None:
     assert restarted(robot, down=6).taken() == ["Right"]
     other = restarted(robot, down=9)
     assert other.taken() == []
-    assert other.failures() == ["Left (either): Left was not done within 4 seconds of the trigger of rule either"]
+    assert other.failures() == ["Left (either): `Left` was not done within 4 seconds of the trigger of rule `either`"]
 
 
 # What is saved --------------------------------------------------------------------------------------------
@@ -483,7 +483,7 @@ def test_rules_that_were_replaced_are_reported_as_lost() -> None:
     (one,) = other.sleec.restore(snapshot, SAVED_AT)
     assert one.rule == "other"
     assert other.failures() == [
-        "CallNurse (fall): CallNurse was pending under rules that had been replaced, and is not restored"
+        "CallNurse (fall): `CallNurse` was pending under rules that had been replaced, and is not restored"
     ]
 
 
@@ -598,10 +598,10 @@ def test_a_snapshot_is_restored_once_and_first(snapshot: Any) -> None:
     robot = Robot()
     robot.sleec.restore(snapshot, SAVED_AT)
     robot.taken()
-    refused(robot, snapshot, "restored once, and before the first trigger")
+    refused(robot, snapshot, "restored only once, and before the first trigger")
     robot = Robot()
     robot.sleec.trigger("Sleep")
-    refused(robot, snapshot, "restored once, and before the first trigger")
+    refused(robot, snapshot, "restored only once, and before the first trigger")
     robot.sleec.close()
     with pytest.raises(errors.SleecError, match="the instance is closed"):
         robot.sleec.restore(snapshot, SAVED_AT)
@@ -695,7 +695,7 @@ def test_whatever_is_changed_in_a_snapshot_is_refused_or_harmless(snapshot: Any)
             r"malformed at contexts\[0\]: Risk is a measure on the scale",
         ),
         (("contexts", 0, "domain"), "ward", r"malformed at contexts\[0\]: unknown domain 'ward'"),
-        (("decisions", 0, "rule"), "fell", r"decisions\[0\] is .* and should be a rule that speaks in its context"),
+        (("decisions", 0, "rule"), "fell", r"decisions\[0\] is .* and should be a rule that applies in its context"),
         (("decisions", 0, "clause"), 1, r"decisions\[0\].clause is 1, and should be 0"),
         (("decisions", 0, "triggered"), 1, "should be a number up to 0"),
         (("decisions", 0, "arguments"), None, "should be a decision with arguments"),
