@@ -96,6 +96,7 @@ def test_an_interruption_at_any_moment_leaves_nothing_behind(
     monkeypatch.setattr("subprocess.run", lambda *_, **__: done)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     monkeypatch.setattr("sleec_verify.certificates.directory.check_free", lambda *_: None)
+    monkeypatch.setattr("sleec_verify.cli.cache.store.program_identity", lambda: "")
     write = WRITERS[writer]
     write(tmp_path)  # what is imported on the way is imported now
     moment = 0
