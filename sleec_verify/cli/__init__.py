@@ -1,7 +1,7 @@
 """The command ``sleec-verify``.
 
-Exit codes: 0 all holds; 1 findings at or above ``--fail-level``; 2 unusable input or usage; 3 some verdict is unknown;
-130 interrupted by Ctrl-C; 141 the pipe that the output goes to was closed, as by ``| head``.
+Exit codes: 0 all checks hold; 1 findings of at least ``--fail-level``; 2 invalid input or usage; 3 a check was
+inconclusive; 130 interrupted by Ctrl-C; 141 the reader closed the output, for example ``| head``.
 """
 
 from __future__ import annotations
@@ -23,29 +23,29 @@ COMPLETION = "_SLEEC_VERIFY_COMPLETE"
 
 
 def main() -> NoReturn:
-    """Run the command line and exit. No error of a user's, and no closed pipe, shows a traceback."""
-    # Almost all that a run makes lives until its end; looking for garbage in it is 5 % of a short run.
+    """Run the command line and exit. Errors of the user and closed pipes show no traceback."""
+    # Almost all objects live until the end of the run; garbage collection would be 5 % of a short run.
     gc.set_threshold(100_000, 50, 50)
     for stream in (sys.stdout, sys.stderr):
-        # A file's name, or a terminal, may be of an encoding that cannot say what is to be written.
+        # The encoding of the terminal may not contain all characters of the output.
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     try:
         code = run(sys.argv[1:])
     except KeyboardInterrupt:  # before there was anything to interrupt
         code = INTERRUPTED
-    # Nothing is left to do, and taking 100,000 rules apart one by one before the end would take its time.
+    # Exit without freeing memory: for 100,000 rules that would take time.
     os._exit(code)
 
 
 def run(arguments: Sequence[str]) -> int:
-    """Run the command line with these arguments; the exit code."""
+    """Run the command line with these arguments, and return the exit code."""
     from sleec_verify.cli import exits
 
     # A program may be started without one of its streams: Python then has None in its place.
     for stream, name, other in ((sys.stdout, "output", sys.stderr), (sys.stderr, "error", sys.stdout)):
         if stream is None:
-            _tell(f"error: standard {name} is closed, so that nothing can be written to it", other)
+            _tell(f"error: standard {name} is closed", other)
             return exits.UNUSABLE
     try:
         code = _told(arguments)

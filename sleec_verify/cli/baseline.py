@@ -1,4 +1,4 @@
-"""Writing the baseline of a gate: the findings that there are."""
+"""Write the baseline of the gate: all current findings."""
 
 from __future__ import annotations
 
@@ -26,13 +26,14 @@ if TYPE_CHECKING:
 
 
 def write_baseline(now: Tree, config: Config, paths: Sequence[str], file: str | None, check: Check) -> int:
-    """Write the findings of now to `file`, or to the baseline of `config`. With `paths`, those of other rulesets stay.
+    """Write the current findings to `file`, or to the baseline of `config`. With `paths`, entries of other rulesets are
+    kept.
 
     Raises:
-        SleecError: something cannot be read or written.
+        SleecError: a file cannot be read or written.
     """
     if file is None and config.baseline is None:
-        raise click.UsageError("say where: --baseline FILE, or baseline in the configuration")
+        raise click.UsageError("name the baseline file: --baseline FILE, or baseline in the configuration")
     target = file or now.repository.here(config.at(config.baseline or ""))
     require_writable(target, ())
     before = _before(target)

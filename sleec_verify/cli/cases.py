@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @click.command(
     "cases",
-    short_help="Few situations that reach every clause, for trials.",
+    short_help="Choose a small set of situations for tests.",
     epilog="Example: sleec-verify cases rulesets/household.sleec --coverage mcdc",
 )
 @options.paths(several=False)
@@ -29,15 +29,15 @@ if TYPE_CHECKING:
     type=click.Choice(("clause", "condition", "mcdc", "pairwise")),
     default="clause",
     show_default=True,
-    help="What to reach: every clause; besides, every condition true and false; every condition deciding by itself; "
-    "every two conditions of a rule in all combinations.",
+    help="What to cover: every clause; or also every condition true and false; or also every condition deciding on its "
+    "own; or also all combinations of any two conditions of a rule.",
 )
-@click.option("--single", is_flag=True, help="One trigger at a time.")
+@click.option("--single", is_flag=True, help="Use only one trigger in each situation.")
 @options.domain
 @options.reading
 @options.output_format("toml", "json")
-@click.option("-o", "--output", metavar="FILE", type=options.PATH, help="Write to this file instead; it must be new.")
-@click.option("--force", is_flag=True, help="With -o: replace the file.")
+@click.option("-o", "--output", metavar="FILE", type=options.PATH, help="Write to this file. It must not exist.")
+@click.option("--force", is_flag=True, help="With -o: overwrite the file.")
 @options.max_size
 def command(
     path: str,
@@ -49,16 +49,17 @@ def command(
     output: str | None,
     force: bool,
 ) -> int:
-    """Choose a near-smallest set of situations for the rules in FILE that reaches every clause, or all of another
-    criterion, with what is due in each (- for standard input).
+    """Choose a small set of situations that covers the rules in FILE (- for standard input), with the obligations in
+    each situation.
 
-    As TOML, it is what the pytest plugin collects from a file *.cases.toml. What no situation reaches is listed.
+    The pytest plugin collects the TOML output from files named *.cases.toml. The output lists what no situation can
+    cover.
     """
     from sleec_verify.conformance.cases.selection import choose_cases
     from sleec_verify.conformance.cases.writer import json_text, toml
 
     if output is not None and os.path.lexists(output) and not force:
-        raise click.UsageError(f"{output} exists; say --force to replace it")
+        raise click.UsageError(f"{output} exists; use --force to overwrite it")
     ruleset = one_ruleset(path, reading, domain)
     found = choose_cases(ruleset, criterion, domain if domain in ruleset.domains else None, single)
     render = toml if form == "toml" else json_text
@@ -84,4 +85,4 @@ def _from(output: str | None, path: str) -> str | None:
 
 def _in_short(found: Cases) -> str:
     every = found.reached + len(found.unreached)
-    return f"{counted(len(found.cases), 'situation')}: {found.reached} of {every} goals reached"
+    return f"{counted(len(found.cases), 'situation')}: {found.reached} of {every} goals covered"

@@ -20,28 +20,35 @@ if TYPE_CHECKING:
 
 @click.command(
     "certify",
-    short_help="Proofs of what a check found, for others to check.",
+    short_help="Write or verify proofs of the results of check.",
     epilog="Example: sleec-verify certify rulesets/hospital-ward.sleec -o ward.certificate",
 )
 @options.paths(several=False)
 @click.option("-o", "--output", metavar="DIR", type=options.PATH, help="Write the certificate to this folder.")
-@click.option("--check", "checked", metavar="DIR", type=options.PATH, help="Check this certificate of FILE instead.")
+@click.option("--check", "checked", metavar="DIR", type=options.PATH, help="Verify this certificate of FILE.")
 @options.scope(options.reading, options.domain, options.untimed, options.chains)
 @options.fail_level
 @click.option(
-    "--sign", "private", metavar="KEY", type=options.PATH, help="Sign it with this private Ed25519 key, in PEM."
+    "--sign",
+    "private",
+    metavar="KEY",
+    type=options.PATH,
+    help="Sign the certificate with this private Ed25519 key (PEM).",
 )
 @click.option(
     "--key",
     "public",
     metavar="PUB",
     type=options.PATH,
-    help="With --check: refuse it unless it is signed by this key.",
+    help="With --check: reject the certificate unless it is signed with this key.",
 )
 @click.option(
-    "--checker", metavar="PROGRAM", type=options.PATH, help="With --check: what judges the proofs, as check-lrat does."
+    "--checker",
+    metavar="PROGRAM",
+    type=options.PATH,
+    help="With --check: check the proofs with this program, for example check-lrat.",
 )
-@click.option("--force", is_flag=True, help="With -o: replace the certificate that is there.")
+@click.option("--force", is_flag=True, help="With -o: overwrite an existing certificate.")
 @options.requirements("")
 @options.output_format("full", "json")
 @options.timeout
@@ -62,16 +69,16 @@ def command(
     require_tied: bool,
     form: str,
 ) -> int:
-    """Check the rules in FILE and write a certificate: for what was proved, the clauses and their refutation (DIMACS,
-    LRAT), for what was refuted the witnesses, and a manifest. With --check, have a certificate checked: all of it is
-    computed again from the text of the rules.
+    """Check the rules in FILE and write a certificate of the results: the clauses and their refutations (DIMACS, LRAT)
+    for proved checks, the witnesses for refuted checks, and a manifest. With --check, verify a certificate: everything
+    is computed again from the text of the rules.
 
-    What is required with -o is so before the certificate is written, and again whenever it is checked.
+    --require-proved and --require-tied apply when the certificate is written and whenever it is verified.
 
-    Exit codes are those of `check`; a certificate that is refused is unusable, 2.
+    The exit codes are those of `check`. Rejected certificates exit with 2.
     """
     if (output is None) == (checked is None):
-        raise click.UsageError("say -o DIR to write a certificate, or --check DIR to have one checked")
+        raise click.UsageError("use -o DIR to write a certificate, or --check DIR to verify one")
     _refuse_stray(context, ("public", "checker") if checked is None else ("private", "force"))
     from sleec_runtime.certificate.manifest import Required
 
@@ -87,8 +94,8 @@ def _refuse_stray(context: click.Context, names: tuple[str, ...]) -> None:
 
     for parameter in context.command.params:
         if parameter.name in names and context.get_parameter_source(parameter.name) != ParameterSource.DEFAULT:
-            without = "with --check" if parameter.name in ("public", "checker") else "with -o"
-            raise click.UsageError(f"{parameter.opts[0]} goes {without} only")
+            needed = "--check" if parameter.name in ("public", "checker") else "-o"
+            raise click.UsageError(f"{parameter.opts[0]} needs {needed}")
 
 
 def _write(
@@ -179,13 +186,13 @@ def _check(
             complain(refusal)
         return exits.UNUSABLE
     if public is None and confirmed.signed:
-        note("the certificate is signed; whether by whom it should be, --key PUB tells")
+        note("the certificate is signed, but its signature was not verified; use --key PUB")
     write(told(form, confirmed.ruleset, checked, confirmed.manifest.whole, confirmed.shown, judge, confirmed.tied))
     return exits.code((one.result for one in confirmed.shown), fail_level)
 
 
 def _read(path: str, checked: str) -> Ruleset:
-    """The rules in FILE. If they are none any more since they were certified, it is that which is said."""
+    """The rules in FILE. Raises CertificateRefused if FILE is no longer a ruleset since it was certified."""
     from sleec_runtime.certificate.coverage import read_manifest
     from sleec_runtime.errors import CertificateRefused, LanguageError
 
@@ -195,6 +202,6 @@ def _read(path: str, checked: str) -> Ruleset:
         if read_manifest(checked).sha256 == error.source.sha256:
             raise
         raise CertificateRefused(
-            [("ruleset-changed", f"the certificate is not of this text, which is no ruleset: {error.source.path}")],
+            [("ruleset-changed", f"the certificate is of another text; {error.source.path} is not a valid ruleset")],
             f"sleec-verify check {error.source.path}",
         ) from None

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 @click.command(
     "check",
-    short_help="Are the rules free of conflict, and does each make sense?",
+    short_help="Check the rules for contradictions and other mistakes.",
     epilog="Example: sleec-verify check rulesets/ --format concise --fail-level warning",
 )
 @options.paths(several=True)
@@ -38,17 +38,21 @@ if TYPE_CHECKING:
     "--realizable",
     metavar="N",
     type=click.IntRange(1, 100),
-    help="Ask besides: can the robot always keep the rules, if the environment acts up to N times?",
+    help="Also check whether the robot can always follow the rules, if the environment acts at most N times.",
 )
 @options.fail_level
 @options.output_format(*FORMATS)
 @options.output
 @click.option(
-    "--certify", "certificate", metavar="DIR", type=options.PATH, help="Write a certificate of it to this folder, too."
+    "--certify",
+    "certificate",
+    metavar="DIR",
+    type=options.PATH,
+    help="Also write a certificate of the results to this folder.",
 )
 @options.requirements("With --certify: ")
 @options.no_cache
-@click.option("--watch", "watched", is_flag=True, help="Check again whenever a file changes, until Ctrl-C.")
+@click.option("--watch", "watched", is_flag=True, help="Check again after each change of a file, until Ctrl-C.")
 @options.timeout_of_each_run
 @options.max_size
 def command(
@@ -67,11 +71,10 @@ def command(
 ) -> int:
     """Check rulesets: files, folders of *.sleec files, or - for standard input.
 
-    Every check is decided for all situations, not for examples. A finding comes with the smallest situation that shows
-    it. `sleec-verify rules` tells what is looked for.
+    Every check covers all situations. Findings show a smallest situation. `sleec-verify rules` lists all findings.
 
-    What was decided is kept: rules that did not change are not checked again. It is kept in the user's cache folder, or
-    in the folder that the environment's SLEEC_VERIFY_CACHE names; SLEEC_VERIFY_CACHE=off keeps nothing.
+    Results are cached: rules that did not change are not checked again. The cache is in the user's cache folder, or in
+    the folder that the environment variable SLEEC_VERIFY_CACHE names. SLEEC_VERIFY_CACHE=off disables it.
     """
     if output is not None:
         from sleec_verify.files.placement import require_writable
@@ -80,18 +83,18 @@ def command(
     cache = None if no_cache else cache_of_environment()
 
     if certificate is None and (require_proved or require_tied):
-        raise click.UsageError("what is required is required of a certificate: say --certify DIR")
+        raise click.UsageError("--require-proved and --require-tied need --certify DIR")
     if certificate is not None:
         from sleec_verify.certificates.directory import check_free
 
         if watched:
-            raise click.UsageError("--certify writes a certificate once: leave out --watch")
+            raise click.UsageError("--certify cannot be combined with --watch")
         check_free(certificate, force=False)
 
     def once() -> int:
         found = rulesets(paths, scope.reading, scope.domain)
         if certificate is not None and len(found) > 1:
-            raise click.UsageError("a certificate is of one ruleset: name one file")
+            raise click.UsageError("--certify needs exactly one file")
         with nullcontext() if timeout is None else limited(timeout):
             required = (require_proved, require_tied)
             outcomes = _outcomes(found, scope, realizable, cache, certificate, required)

@@ -13,19 +13,19 @@ if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
 
 _SUMMARIES = {
-    "check": "Are the rules free of conflict, and does each make sense?",
-    "entail": "What do the rules oblige in a situation?",
-    "explain": "What do the rules oblige in a situation, and why?",
-    "compile": "The rules as formulas or clauses (Equation 1).",
-    "cases": "Few situations that reach every clause, for trials.",
-    "certify": "Proofs of what a check found, for others to check.",
-    "conform": "Does a robot's code have the structure that the rules ask for?",
-    "convert": "The rules in another language or reading.",
-    "diff": "What changes between two versions of the rules?",
-    "gate": "May this change to the rules go in?",
-    "fmt": "The rules in their usual layout.",
+    "check": "Check the rules for contradictions and other mistakes.",
+    "entail": "Show what the rules require in a situation.",
+    "explain": "Explain what the rules require in a situation.",
+    "compile": "Translate the rules into formulas or clauses.",
+    "cases": "Choose a small set of situations for tests.",
+    "certify": "Write or verify proofs of the results of check.",
+    "conform": "Check a robot's code against the rules.",
+    "convert": "Translate rules into another language or reading.",
+    "diff": "Compare the meaning of two versions of the rules.",
+    "gate": "Decide in CI whether a change may be merged.",
+    "fmt": "Format rules.",
     "rules": "List and explain every finding code.",
-    "completion": "A script by which a shell completes commands.",
+    "completion": "Print a completion script for a shell.",
 }
 
 
@@ -54,8 +54,8 @@ class _Lazy(click.Group):
             from sleec_verify.results.phrases import shortened
 
             near = nearest(args[0], _SUMMARIES)
-            hint = f"did you mean {near}?" if near else f"there are {', '.join(_SUMMARIES)}"
-            raise click.UsageError(f"there is no command {shortened(args[0])!r}; {hint}", ctx)
+            hint = f"did you mean {near}?" if near else f"the commands are {', '.join(_SUMMARIES)}"
+            raise click.UsageError(f"there is no command called {shortened(args[0])!r}; {hint}", ctx)
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -70,10 +70,10 @@ class _Lazy(click.Group):
     no_args_is_help=True,
 )
 @click.version_option(__version__, message="%(prog)s %(version)s")
-@click.option("--traceback", is_flag=True, expose_value=False, help="Where something fails, show the traceback.")
+@click.option("--traceback", is_flag=True, expose_value=False, help="Show tracebacks of errors.")
 def sleec_verify() -> None:
-    """Prove things about SLEEC rules.
+    """Verify SLEEC rules for robots.
 
-    Exit codes: 0 all holds; 1 findings; 2 unusable input or usage; 3 some verdict is unknown;
-    130 interrupted (Ctrl-C); 141 the output was closed by its reader.
+    Exit codes: 0 all checks hold; 1 findings; 2 invalid input or usage; 3 a check was inconclusive;
+    130 interrupted (Ctrl-C); 141 the reader closed the output.
     """

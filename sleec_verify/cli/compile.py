@@ -18,19 +18,19 @@ if TYPE_CHECKING:
 
 @click.command(
     "compile",
-    short_help="The rules as formulas or clauses (Equation 1).",
+    short_help="Translate the rules into formulas or clauses.",
     epilog="Example: sleec-verify compile rulesets/household.sleec --to dimacs > household.cnf",
 )
 @options.paths(several=False)
-@click.option("--to", "form", type=click.Choice(FORMS), required=True, help="What to write.")
+@click.option("--to", "form", type=click.Choice(FORMS), required=True, help="Output format.")
 @options.domain
 @options.reading
 @options.max_size
 def command(path: str, form: str, domain: str | None, reading: Reading | None) -> int:
-    """Compile the rules in FILE (- for standard input) into classical logic.
+    """Translate the rules in FILE (- for standard input) into classical logic.
 
-    sympy and latex are for people: the guards and implications of Equation 1. cnf, dimacs, smtlib and json are for
-    solvers: clauses, linear in the size of the rules, with a map from variables to names.
+    sympy and latex are for people: the guards and implications of Equation 1 of the paper. cnf, dimacs, smtlib and json
+    are for solvers: clauses of linear size, with a map from variables to names.
     """
     ruleset = one_ruleset(path, reading, domain)
     require_untimed(ruleset, "Equation 1")

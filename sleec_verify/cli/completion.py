@@ -15,17 +15,17 @@ if TYPE_CHECKING:
 
 @click.command(
     "completion",
-    short_help="A script by which a shell completes commands.",
+    short_help="Print a completion script for a shell.",
     epilog="Example: sleec-verify completion bash > ~/.sleec-verify-completion.bash",
 )
 @click.argument("shell", type=click.Choice(("bash", "zsh", "fish")))
 def command(shell: str) -> int:
-    """Print a script for SHELL by which it completes commands, options, their values, finding codes and paths.
+    """Print a script that completes commands, options, values, finding codes and paths in a shell.
 
     \b
-    bash  put  eval "$(sleec-verify completion bash)"  into ~/.bashrc
-    zsh   put  eval "$(sleec-verify completion zsh)"  into ~/.zshrc, below compinit
-    fish  put  sleec-verify completion fish | source  into ~/.config/fish/config.fish
+    bash  add  eval "$(sleec-verify completion bash)"  to ~/.bashrc
+    zsh   add  eval "$(sleec-verify completion zsh)"  to ~/.zshrc, below compinit
+    fish  add  sleec-verify completion fish | source  to ~/.config/fish/config.fish
     """
     from click.shell_completion import get_completion_class
 
@@ -34,6 +34,6 @@ def command(shell: str) -> int:
     kind = get_completion_class(shell)
     assert kind is not None, "click knows the shells that are offered"
     script: ShellComplete = kind(sleec_verify, {}, "sleec-verify", COMPLETION)
-    # Its own source() looks for the shell's version first, and fails where the shell is on another machine.
+    # ShellComplete.source() runs the shell to get its version, which fails if the shell is on another machine.
     write_data((script.source_template % script.source_vars() + "\n",))
     return exits.HOLDS

@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 
 @click.command(
     "conform",
-    short_help="Does a robot's code have the structure that the rules ask for?",
+    short_help="Check a robot's code against the rules.",
     epilog="Example: sleec-verify conform examples/household_robot.py --ruleset rulesets/household.sleec",
 )
 @click.argument("target", metavar="TARGET", type=options.PATH)
-@click.option("--ruleset", "path", metavar="FILE", required=True, type=options.PATH, help="The rules.")
+@click.option("--ruleset", "path", metavar="FILE", required=True, type=options.PATH, help="The file with the rules.")
 @options.domain
 @options.reading
 @options.fail_level
@@ -40,18 +40,18 @@ def command(
     form: str,
     output: str | None,
 ) -> int:
-    """Check that the code in TARGET does what the rules say, by reading it: a Python file, a folder, the name of a
-    module on sys.path, or - for standard input. Nothing of it is imported or run.
+    """Check that the code in TARGET follows the rules: a Python file, a folder, the name of a module on sys.path, or -
+    for standard input. The code is read, but not imported or run.
 
-    Each rule must have a method with a variant for each clause, which calls what implements the obligations of the
-    clause, in order; and nothing may reach these around the dispatch. A place that cannot be decided without running
-    the code is reported as such, and the exit code is 3 if nothing worse is found.
+    Each rule needs a method with a variant for each clause. The variant must call the code of the obligations of its
+    clause, in order. No other code may call these directly. Code that cannot be decided without running it is reported
+    as inconclusive, with exit code 3 if there are no findings.
     """
     from sleec_verify.conformance.structure import UNDECIDED, check_structure
     from sleec_verify.conformance.structure.target import python_files
 
     if target == path == "-":
-        raise click.UsageError("standard input can be TARGET or the rules, not both")
+        raise click.UsageError("TARGET and the rules cannot both be standard input")
     if output is not None:
         from sleec_verify.files.placement import require_writable
 

@@ -17,23 +17,25 @@ if TYPE_CHECKING:
 
 @click.command(
     "convert",
-    short_help="The rules in another language or reading.",
+    short_help="Translate rules into another language or reading.",
     epilog="Example: sleec-verify convert rulesets/medication-round.sleec --to legos",
 )
 @options.paths(several=False)
-@click.option("--to", type=click.Choice(TARGETS), required=True, help="dsl is SLEEC-TK's dialect, legos LEGOS-SLEEC's.")
+@click.option(
+    "--to", type=click.Choice(TARGETS), required=True, help="Output language: dsl for SLEEC-TK, legos for LEGOS-SLEEC."
+)
 @click.option(
     "--reading",
     type=click.Choice(("cascade", "priority")),
-    help="The reading of the result; hedges are rewritten where it changes. The DSL has only priority.",
+    help="The reading of the result. Exceptions are rewritten if it changes. The DSL has only priority.",
 )
-@click.option("--domain", metavar="NAME", help="Only the rules of this domain, which then apply everywhere.")
+@click.option("--domain", metavar="NAME", help="Convert only the rules of this domain, without the domain.")
 @options.max_size
 def command(path: str, to: Target, reading: Reading | None, domain: str | None) -> int:
-    """Write the rules in FILE (- for standard input) in another language or for another reading.
+    """Translate the rules in FILE (- for standard input) into another language or another reading.
 
-    The result obliges the same in every situation; comments and the order stay. What the other language cannot say
-    is refused, never left out.
+    The result requires the same in every situation. Comments and order are preserved. Rules that the other language
+    cannot express are an error.
     """
     ruleset = one_ruleset(path, None, domain)
     converted = convert(ruleset if domain is None else of_domain(ruleset, domain), to, reading)

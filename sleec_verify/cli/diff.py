@@ -28,7 +28,7 @@ _READINGS = click.Choice(("cascade", "priority"))
 
 @click.command(
     "diff",
-    short_help="What changes between two versions of the rules?",
+    short_help="Compare the meaning of two versions of the rules.",
     epilog="Example: sleec-verify diff rulesets/hospital.sleec rulesets/household.sleec",
 )
 @click.argument("paths", metavar="OLD NEW | PATH…", nargs=-1, type=options.PATH)
@@ -36,37 +36,41 @@ _READINGS = click.Choice(("cascade", "priority"))
     "--git",
     "revision",
     metavar="REV",
-    help="Compare the files at or below PATH with those of this revision; OLD..NEW compares two revisions, OLD...NEW "
-    "the newer one with what both have in common.",
+    help="Compare the files at or below PATH with this revision. OLD..NEW compares two revisions, OLD...NEW compares "
+    "NEW with the common ancestor of both.",
 )
 @click.option(
     "--assert",
     "assertions",
     metavar="TEXT",
     multiple=True,
-    help='What must hold of the new rules in every situation: "never RefuseRequest when MedicalEmergency", '
+    help='An assertion about the new rules in every situation: "never RefuseRequest when MedicalEmergency", '
     '"always CallNurse when FallDetected".',
 )
 @click.option(
-    "--assertions", "file", metavar="FILE", type=options.PATH, help="A file of such properties, one a line; # comments."
+    "--assertions",
+    "file",
+    metavar="FILE",
+    type=options.PATH,
+    help="A file with one assertion per line, and # comments.",
 )
 @options.domain
 @options.reading
-@click.option("--old-reading", type=_READINGS, help="Read the old rules this way.")
-@click.option("--new-reading", type=_READINGS, help="Read the new rules this way.")
+@click.option("--old-reading", type=_READINGS, help="The reading of the old rules.")
+@click.option("--new-reading", type=_READINGS, help="The reading of the new rules.")
 @options.untimed
 @click.option(
     "--missing-as-empty",
     is_flag=True,
-    help="Compare a file that only one side has with no rules at all; else it is an error.",
+    help="If only one side has a file, compare it with an empty ruleset. Otherwise this is an error.",
 )
 @click.option(
     "--fail-on",
     type=click.Choice(("change", "loss", "conflict", "nothing")),
     default="change",
     show_default=True,
-    help="Exit with 1 if what is obliged changes; if an obligation is lost or a conflict is new; only if a conflict is "
-    "new; or never for what changes. An assertion that does not hold is always 1.",
+    help="Exit with 1 for any change; for lost obligations and new conflicts; for new conflicts only; or never. "
+    "Failed assertions always exit with 1.",
 )
 @options.output_format("full", "concise", "json")
 @options.timeout
@@ -85,11 +89,11 @@ def command(
     fail_on: FailOn,
     form: str,
 ) -> int:
-    """Compare what two versions of rules mean, not how they are written: two files, two folders, or with --git what is
-    below PATH (. if none is said) with what a revision has there.
+    """Compare the meaning of two versions of the rules, not their text: two files, two folders, or with --git the files
+    below PATH (default: .) with those of a revision.
 
-    For every obligation that some situation gains or loses, the smallest situation is shown, before and after, with the
-    clauses that decide, and the number of situations that it concerns.
+    For every obligation that is gained or lost, the output shows a smallest situation, the clauses that decide before
+    and after, and the number of affected situations.
     """
     from sleec_verify.report.difference import RENDERERS
     from sleec_verify.report.difference_report import DifferenceReport
@@ -97,14 +101,14 @@ def command(
 
     asserting = bool(assertions or file)
     if file == "-" and "-" in paths and revision is None:
-        raise click.UsageError("standard input cannot be both a side and the assertions: name a file for one of them")
+        raise click.UsageError("standard input cannot be both rules and assertions; use a file for one of them")
     try:
         versions, names = _versions(paths, revision)
         said = None if file is None else _source(file)
     except SleecError as error:
         complain(error)
         return exits.UNUSABLE
-    # What is the same on both sides need not be read, unless it is asked about.
+    # Unchanged files are read only for assertions.
     left = [one for one in versions if asserting or len(versions) == 1 or not one.unchanged]
     readings = (old_reading or reading, new_reading or reading)
     compared, rulesets = [], []
@@ -131,9 +135,7 @@ def _versions(paths: Sequence[str], revision: str | None) -> tuple[list[Versions
 
     if revision is None:
         if len(paths) != 2:
-            raise click.UsageError(
-                "two files or two folders are compared: name the old and the new one, or say --git REV"
-            )
+            raise click.UsageError("name the old and the new version: two files, two folders, or --git REV")
         old_path, new_path = paths
         return of_paths(old_path, new_path, note_link), (old_path, new_path)
     repository = Repository(note_link)

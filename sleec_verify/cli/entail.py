@@ -19,16 +19,16 @@ if TYPE_CHECKING:
 
 @click.command(
     "entail",
-    short_help="What do the rules oblige in a situation?",
+    short_help="Show what the rules require in a situation.",
     epilog='Example: sleec-verify entail rulesets/household.sleec --when CurtainOpenRequest --given "UserUndressed"',
 )
 @options.situation
 @options.output_format("full", "concise", "json")
 def command(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Scope, form: str) -> int:
-    """What the rules in FILE oblige in one situation (- for standard input).
+    """Show what the rules in FILE (- for standard input) require and forbid in one situation.
 
-    Where the rules contradict one another in it, nothing is due, the conflict is shown, and the exit code is 1. What is
-    done may be a trigger, too: what becomes due once it is done is shown as a tree.
+    If the rules contradict each other there, the output is the conflict, and the exit code is 1. If a response
+    triggers other rules, the consequences are shown as a tree.
     """
     from sleec_verify.report import entailment
     from sleec_verify.report.palette import Palette
@@ -39,7 +39,7 @@ def command(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Sco
 
 
 def ask(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Scope) -> tuple[Ruleset, Context, Entailment]:
-    """The ruleset (its rules in domain), the situation that the options describe, and what is due in it."""
+    """The ruleset (its rules in the domain), the situation of the options, and what is due in it."""
     from sleec_verify.entailment.explanation import explain
     from sleec_verify.entailment.situation_text import parse_situation
 

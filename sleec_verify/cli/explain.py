@@ -17,15 +17,15 @@ if TYPE_CHECKING:
 
 @click.command(
     "explain",
-    short_help="What do the rules oblige in a situation, and why?",
+    short_help="Explain what the rules require in a situation.",
     epilog="Example: sleec-verify explain rulesets/household.sleec --when CurtainOpenRequest --given UserUndressed",
 )
 @options.situation
 def command(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Scope) -> int:
-    """Why the rules in FILE oblige what they do in one situation (- for standard input).
+    """Explain what the rules in FILE (- for standard input) require in one situation.
 
-    For each rule that is triggered: which clause decides, by which conditions, and where they stand. What follows
-    only from EXCLUSIVE and NEVER is told apart: no rule says to do it, and nothing executes it.
+    For each triggered rule, the output says which response or exception applies, and because of which conditions.
+    Consequences of EXCLUSIVE and NEVER are listed separately: no rule requires them, so the robot does not act on them.
     """
     from sleec_verify.report.explanation import render
     from sleec_verify.report.palette import Palette

@@ -19,22 +19,24 @@ from sleec_verify.results.phrases import counted
 
 @click.command(
     "fmt",
-    short_help="The rules in their usual layout.",
+    short_help="Format rules.",
     epilog="Example: sleec-verify fmt --check rulesets/",
 )
 @options.paths(several=True)
 @click.option("--write", "mode", flag_value="write", help="Change the files in place.")
-@click.option("--check", "mode", flag_value="check", help="Change nothing; exit with 1 if --write would.")
-@click.option("--diff", "mode", flag_value="diff", help="Change nothing; show what --write would; exit as --check.")
+@click.option("--check", "mode", flag_value="check", help="Change nothing. Exit with 1 if --write would change a file.")
+@click.option(
+    "--diff", "mode", flag_value="diff", help="Change nothing. Show the changes of --write, and exit like --check."
+)
 @options.max_size
 def command(paths: tuple[str, ...], mode: str | None) -> int:
-    """Print the rules in FILE in their usual layout: files, folders, or - for standard input.
+    """Print the rules in the standard format. PATH is a file, a folder, or - for standard input.
 
-    Comments stay, and the rules say the same. No file is changed without --write.
+    Comments and meaning are preserved. Files are changed only with --write.
     """
     found = list(files(paths, note_link))
     if mode is None and len(found) > 1:
-        raise click.UsageError("several files: say --write, --check or --diff")
+        raise click.UsageError("several files need --write, --check or --diff")
     if mode == "write" and "-" in found:
         raise click.UsageError("standard input cannot be changed in place")
     changed = unusable = 0
@@ -80,9 +82,9 @@ def _laid_out(ruleset: Ruleset) -> str:
 
 def _show(path: str, ruleset: Ruleset, laid_out: str, mode: str) -> None:
     if mode == "write":
-        tell(f"laid out {path}")
+        tell(f"formatted {path}")
     elif mode == "check":
-        write_line(f"{ruleset.source.path} would change")
+        write_line(f"{ruleset.source.path} is not formatted")
     else:
         from difflib import unified_diff
         from io import StringIO

@@ -30,38 +30,41 @@ STEP_SUMMARY = "GITHUB_STEP_SUMMARY"
 
 @click.command(
     "gate",
-    short_help="May this change to the rules go in?",
+    short_help="Decide in CI whether a change may be merged.",
     epilog="Example: sleec-verify gate --base HEAD rulesets/",
 )
 @click.argument("paths", metavar="[PATH]…", nargs=-1, type=options.PATH)
 @click.option(
-    "--base", metavar="REV", help="The revision that the change is to go into; else that of the configuration."
+    "--base", metavar="REV", help="The revision into which the change is merged. Default: from the configuration."
 )
 @click.option(
-    "--config", "config_file", metavar="FILE", type=options.PATH, help="The configuration; else the nearest one."
+    "--config",
+    "config_file",
+    metavar="FILE",
+    type=options.PATH,
+    help="The configuration file. Default: the nearest one.",
 )
 @click.option(
-    "--all", "everything", is_flag=True, help="Examine every ruleset, not only those that differ from the base."
+    "--all", "everything", is_flag=True, help="Examine all rulesets, not only those that differ from the base."
 )
 @click.option(
     "--assert",
     "texts",
     metavar="TEXT",
     multiple=True,
-    help="What must hold of the rules, besides what the configuration says.",
+    help="An assertion about the rules, in addition to the configuration.",
 )
 @options.untimed
-@click.option("--baseline", metavar="FILE", type=options.PATH, help="Findings that are known and do not block.")
-@click.option(
-    "--write-baseline", is_flag=True, help="Write all findings of now to the baseline file, and do nothing else."
-)
+@click.option("--baseline", metavar="FILE", type=options.PATH, help="A file of known findings, which do not block.")
+@click.option("--write-baseline", is_flag=True, help="Only write all current findings to the baseline file.")
 @click.option(
     "--summary",
     metavar="FILE",
     type=options.PATH,
-    help=f"Write a summary in Markdown; an earlier one is replaced. Where ${STEP_SUMMARY} is set, it goes there too.",
+    help=f"Write a Markdown summary to this file, and overwrite an earlier summary. If ${STEP_SUMMARY} is set, also "
+    "write the summary there.",
 )
-@options.requirements("Ask for certificates. ")
+@options.requirements("Require certificates. ")
 @options.output_format(*FORMATS)
 @options.output
 @options.no_cache
@@ -83,12 +86,12 @@ def command(
     output: str | None,
     no_cache: bool,
 ) -> int:
-    """One verdict on a change to the rules at or below PATH, for CI: check, diff with what the change and the base have
-    in common, assertions, conformance of the configured code, and clause coverage.
+    """Decide whether a change to the rules at or below PATH may be merged. The gate runs check, diff against the common
+    ancestor of the change and the base, assertions, conformance of the configured code, and clause coverage.
 
-    What blocks is set in [tool.sleec-verify] of pyproject.toml, or in sleec-verify.toml, as the base has it.
+    The policy is in [tool.sleec-verify] of pyproject.toml, or in sleec-verify.toml, in the version of the base.
 
-    Exit codes: 0 passed; 1 something blocks; 2 something cannot be read or set so; 3 something is not decided.
+    Exit codes: 0 passed; 1 blocked; 2 invalid input or configuration; 3 inconclusive.
     """
     from sleec_verify.changes.gate import evidence, gate
     from sleec_verify.changes.gate.settings import config_of, no_config, read_sides
@@ -109,7 +112,7 @@ def command(
         return write_findings(now, own, paths, baseline, check)
     name = base if base is not None or own is None else own.base
     if name is None:
-        raise click.UsageError("say which revision the change is to go into: --base main, or base in the configuration")
+        raise click.UsageError("name the base revision: --base main, or base in the configuration")
     _check_files(output, summary)
     tip = commit(name)
     shared = merge_base((name, tip), ("HEAD", "HEAD"))
@@ -212,7 +215,7 @@ def _check_files(output: str | None, summary: str | None) -> None:
     except OSError as error:
         raise SleecError(f"{summary} cannot be read: {error.strerror}") from None
     if not ours:
-        raise SleecError(f"{summary} is there already, and is no summary of a gate", "name another file, or remove it")
+        raise SleecError(f"{summary} exists and is not a summary of the gate", "name another file, or remove it")
 
 
 def _summarize(found: GateResult, path: str | None) -> None:
@@ -230,7 +233,7 @@ def _summarize(found: GateResult, path: str | None) -> None:
             with open(step, "a", encoding="utf-8", errors="replace") as file:
                 file.write(text)
         except OSError as error:
-            raise SleecError(f"{step}, which ${STEP_SUMMARY} names, cannot be written: {error.strerror}") from None
+            raise SleecError(f"{step} (from ${STEP_SUMMARY}) cannot be written: {error.strerror}") from None
 
 
 def _exit_code(found: GateResult) -> int:

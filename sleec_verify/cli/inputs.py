@@ -1,4 +1,4 @@
-"""From the paths on the command line to rulesets."""
+"""Rulesets for the paths on the command line."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from sleec_verify.cli.output import note, note_link
 from sleec_verify.files.folders import SUFFIX, rulesets_below
 from sleec_verify.report.outcome import UnusableInput
 from sleec_verify.results.internal_error import internal_errors_of
-from sleec_verify.results.phrases import listed, shortened
+from sleec_verify.results.phrases import listed, quoted, shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset
 
 
 class UnknownDomain(SleecError):
-    """A domain that no ruleset names."""
+    """A domain that no ruleset has."""
 
 
 def files(paths: Iterable[str], skipped: Callable[[str], None] = lambda _: None) -> Iterator[str | UnusableInput]:
-    """The files that `paths` mean: a folder stands for every ``*.sleec`` below it, sorted. None comes twice. `skipped`
-    is called for each link that is not followed."""
+    """The files of `paths`, each once. A folder stands for all ``*.sleec`` files below it, sorted. `skipped` is called
+    for each link that is not followed."""
     seen = set()
     for path in paths:
         closed: list[UnusableInput] = []
@@ -82,13 +82,13 @@ def one_ruleset(path: str, reading: Reading | None, domain: str | None) -> Rules
 
 
 def note_mixed_domains(ruleset: Ruleset) -> None:
-    """Tell where rules that are never in force together are taken together, for want of --domain."""
+    """Write a note if rules of several domains are combined because --domain is missing."""
     if len(ruleset.domains) > 1:
-        note(f"the rules of the domains {listed(ruleset.domains)} are taken together; choose one with --domain")
+        note(f"the rules of the domains {listed(ruleset.domains)} are combined; choose one domain with --domain")
 
 
 def _note_no_domains(domain: str) -> None:
-    note(f"no rule has a domain, so all of them count in {shortened(domain)}")
+    note(f"no rule has a domain, so all rules apply in {quoted(shortened(domain))}")
 
 
 def _load(path: str, reading: Reading | None) -> Ruleset | UnusableInput:
@@ -99,7 +99,7 @@ def _load(path: str, reading: Reading | None) -> Ruleset | UnusableInput:
 
 
 def unknown_domain(domain: str, named: Sequence[str]) -> UnknownDomain:
-    """The error of a domain that none of those `named` is."""
+    """The error for a domain that is not one of `named`."""
     near = nearest(domain, named)
-    hint = f"did you mean {near}?" if near else f"there are {', '.join(named)}"
-    return UnknownDomain(f"there is no domain {shortened(domain)}", hint)
+    hint = f"did you mean {quoted(near)}?" if near else f"the domains are {', '.join(named)}"
+    return UnknownDomain(f"there is no domain called {quoted(shortened(domain))}", hint)

@@ -17,11 +17,11 @@ _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 
 PATH = click.Path(readable=False)
-"""A path of which nothing is asked here: whether it can be read is told by what reads it."""
+"""A path without checks: the code that reads it reports errors."""
 
 
 def paths(several: bool) -> Callable[[_Command], _Command]:
-    """The argument for texts of rules. Whether they exist is told with the other errors of the input."""
+    """The argument for files with rules. The code that reads them reports errors."""
     if several:
         return click.argument("paths", metavar="PATH…", nargs=-1, required=True, type=PATH)
     return click.argument("path", metavar="FILE", type=PATH)
@@ -30,19 +30,19 @@ def paths(several: bool) -> Callable[[_Command], _Command]:
 reading = click.option(
     "--reading",
     type=click.Choice(("cascade", "priority")),
-    help="Read chains of hedges this way, whatever the file says: cascade stops at the first false condition, "
-    "priority takes the last true one.",
+    help="Read several exceptions this way, whatever the file says: cascade stops at the first exception whose "
+    "condition is false, priority takes the last exception whose condition is true.",
 )
 domain = click.option(
-    "--domain", metavar="NAME", help="Only the rules of this domain, with those that apply everywhere."
+    "--domain", metavar="NAME", help="Use only the rules of this domain and the rules that apply everywhere."
 )
 untimed = click.option(
     "--untimed",
     type=click.Choice(("at", "eventually")),
     default="at",
     show_default=True,
-    help="When a response without a window is due, in rules with time: at the moment of its trigger, as LEGOS-SLEEC "
-    "has it, or at some time from then on, as SLEEC-TK has it.",
+    help="In rules with time, a response without a window is required at the instant of its trigger (at, as in "
+    "LEGOS-SLEEC) or at any time from then on (eventually, as in SLEEC-TK).",
 )
 chains = click.option(
     "--no-chains",
@@ -50,8 +50,7 @@ chains = click.option(
     flag_value=False,
     type=bool,
     default=True,
-    help="Let a response trigger no rule: the one-step reading of the paper. The DSL and files with time count chains "
-    "all the same.",
+    help="Responses trigger no rules, as in the paper. Ignored for the DSL and for rules with time.",
 )
 
 
@@ -73,13 +72,14 @@ def scope(*options: Callable[[_Command], _Command]) -> Callable[[_Command], _Com
 
 
 when = click.option(
-    "--when", metavar="TRIGGERS", multiple=True, help="What occurs, separated by commas: --when Fall,Night"
+    "--when", metavar="TRIGGERS", multiple=True, help="The triggers that occur, separated by commas: --when Fall,Night"
 )
 given = click.option(
     "--given",
     metavar="FACTS",
     multiple=True,
-    help='What is the case, separated by commas: --given "UserAsleep, not Undressed, UserAge=15". The rest is false.',
+    help="The conditions and measures, separated by commas: "
+    '--given "UserAsleep, not Undressed, UserAge=15". Everything else is false.',
 )
 
 
@@ -89,7 +89,7 @@ def _limit(context: click.Context, parameter: click.Parameter, written: str) -> 
         size = size_in_bytes(written)
     except ValueError as error:
         raise click.BadParameter(str(error)) from None
-    # The root context is closed even where a later option is refused.
+    # The root context is closed even if a later option is rejected.
     context.find_root().with_resource(size_limit(size))
 
 
@@ -119,23 +119,23 @@ def _within(context: click.Context, parameter: click.Parameter, seconds: float |
 _TIMEOUT: dict[str, Any] = {
     "metavar": "SECONDS",
     "type": _Seconds(),
-    "help": "Stop deciding after this time. What is undecided by then is unknown. Without it, each file has a budget "
-    "of work, which ends at the same place on every machine.",
+    "help": "Stop after this time; checks that are not finished are unknown. Without this option, each file has a "
+    "limited number of steps, which is the same on every machine.",
 }
 timeout = click.option("--timeout", callback=_within, expose_value=False, **_TIMEOUT)
-"""For the whole run of a command."""
+"""The limit of a whole command."""
 timeout_of_each_run = click.option("--timeout", **_TIMEOUT)
-"""For a command that runs more than once; it gets the seconds."""
+"""The limit in seconds, for a command that runs more than once."""
 
 
 def requirements(where: str) -> Callable[[_Command], _Command]:
-    """``--require-proved`` and ``--require-tied``, with a word on where they count."""
+    """``--require-proved`` and ``--require-tied``; `where` is the first words of their help."""
 
     def decorate(command: _Command) -> _Command:
-        proved = "the checker that is proved in Coq judges every refutation"
-        tied = "every verdict that rests on a refutation is proved of the rules themselves"
+        proved = "a checker that is proved correct in Coq accepts every refutation"
+        tied = "every verdict from a refutation is proved in Coq for the rules themselves"
         for name, what in (("--require-tied", tied), ("--require-proved", proved)):
-            command = click.option(name, is_flag=True, help=f"{where}Refuse a certificate unless {what}.")(command)
+            command = click.option(name, is_flag=True, help=f"{where}Reject a certificate unless {what}.")(command)
         return command
 
     return decorate
@@ -148,32 +148,30 @@ max_size = click.option(
     show_default=True,
     callback=_limit,
     expose_value=False,
-    help="Refuse to read a file that is larger than this, as in 200kB, 16MiB or 1000000.",
+    help="Reject larger files. Examples: 200kB, 16MiB, 1000000.",
 )
 fail_level = click.option(
     "--fail-level",
     type=click.Choice(SEVERITIES),
     default="error",
     show_default=True,
-    help="Exit with 1 if there is a finding as grave as this.",
+    help="Exit with 1 if there is a finding of at least this severity.",
 )
 output = click.option(
     "-o",
     "--output",
     metavar="FILE",
     type=PATH,
-    help="Write to this file instead, whole or not at all. A file that is there is replaced.",
+    help="Write to this file, atomically. An existing file is overwritten.",
 )
 
-no_cache = click.option(
-    "--no-cache", is_flag=True, help="Decide everything anew, and keep nothing of it for the next time."
-)
+no_cache = click.option("--no-cache", is_flag=True, help="Do not use or write the cache.")
 
 
 def output_format(*names: str) -> Callable[[_Command], _Command]:
-    """``--format``, of which the first name is the default."""
+    """``--format``; the first name is the default."""
     return click.option(
-        "--format", "form", type=click.Choice(names), default=names[0], show_default=True, help="How to say it."
+        "--format", "form", type=click.Choice(names), default=names[0], show_default=True, help="Output format."
     )
 
 

@@ -1,4 +1,4 @@
-"""Writing to the two streams, and to a file where one is asked for."""
+"""Write to standard output, standard error, and output files."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def report(outcomes: Sequence[Outcome], form: str, output: str | None) -> None:
 
 
 def write(parts: Iterable[str]) -> None:
-    """Write to standard output what a renderer made, which is escaped already."""
+    """Write the output of a renderer, which is already escaped, to standard output."""
     sys.stdout.writelines(parts)
 
 
@@ -47,9 +47,9 @@ def write_line(text: str) -> None:
 
 
 def write_data(parts: Iterable[str]) -> None:
-    """Write a text for other programs to standard output: in UTF-8 whatever the locale, line breaks as they are.
+    """Write a text for other programs to standard output: in UTF-8 for every locale, with unchanged line breaks.
 
-    Names of files are written with the bytes that they have. A terminal gets escapes for what would steer it.
+    File names keep their bytes. On a terminal, control characters are escaped.
     """
     if sys.stdout.isatty():
         from sleec_runtime.support.messages import escaped
@@ -60,7 +60,7 @@ def write_data(parts: Iterable[str]) -> None:
 
 
 def note(message: str) -> None:
-    """Tell of what may not be as expected on standard error; it changes neither the output nor the exit code."""
+    """Write a note to standard error. It changes neither the output nor the exit code."""
     from sleec_verify.report.palette import Palette
 
     tell(f"{Palette.of(sys.stderr)('note', 'note')}: {message}")
@@ -75,12 +75,12 @@ def tell(line: str) -> None:
 
 
 def note_link(path: str) -> None:
-    """Tell of a link that is not followed."""
+    """Write a note about a link that is not followed."""
     note(f"the link {path} is skipped: its target is not a ruleset below the same folder")
 
 
 def complain(error: SleecError) -> None:
-    """Tell of an error of the input on standard error, with its places in the text."""
+    """Write an error of the input to standard error, with its places in the text."""
     from sleec_verify.report.full import error_lines
     from sleec_verify.report.palette import Palette
 

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
 PATIENCE = 1.0
-"""Seconds before a bar is shown: what is done sooner needs none, nor the time to import it."""
+"""Seconds before a bar is shown. Shorter runs do not import it."""
 
 
 class Progress:
-    """Shows how far a check has come. It stays silent unless standard error is a terminal."""
+    """Shows the progress of the checks, if standard error is a terminal."""
 
     def __init__(self) -> None:
         self._started = time.monotonic()

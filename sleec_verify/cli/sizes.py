@@ -19,15 +19,15 @@ _MOST = 2**50
 
 
 def size_in_bytes(written: str) -> int:
-    """The bytes that ``16MiB``, ``200kB`` or a plain number says.
+    """The number of bytes of ``16MiB``, ``200kB`` or a plain number.
 
     Raises:
-        ValueError: it says no size, none, or an absurd one.
+        ValueError: it is not a size, or not between 1 byte and 1 PiB.
     """
     match = _SIZE.fullmatch(written)
     unit = match and _UNITS.get(match[2].lower())
     if match is None or unit is None:
-        raise ValueError(f"{written!r} is not a size; write a number of bytes, or a unit as in 200kB or 16MiB")
+        raise ValueError(f"{written!r} is not a size; write a number of bytes, for example 200kB, 16MiB or 1000000")
     size = int(match[1]) * unit
     if not 0 < size <= _MOST:
         raise ValueError(f"{written!r} is not between 1 byte and 1 PiB")

@@ -1,4 +1,4 @@
-"""``sleec-verify check --watch``: once more whenever a file changes."""
+"""``sleec-verify check --watch``: check again after each change of a file."""
 
 from __future__ import annotations
 
@@ -16,24 +16,22 @@ from sleec_verify.cli.output import complain, tell
 from sleec_verify.report.outcome import UnusableInput
 
 PAUSE = 0.3
-"""Seconds between two looks. A look asks the system for each file's time and size, which any number of rulesets that
-people write can stand."""
+"""Seconds between two polls of the modification times and sizes of the files."""
 
 CLEAR = "\033[2J\033[3J\033[H"
 
 
 def watch(paths: Sequence[str], once: Callable[[], int]) -> int:
-    """Call `once` at first, and again after each change of a file that `paths` mean, new and deleted ones included,
-    until Ctrl-C, which is how this ends.
+    """Call `once`, and again after each change, creation or deletion of a file of `paths`, until Ctrl-C.
 
-    What is wrong with the input is told, and waited for to be mended.
+    Errors of the input are shown, and do not end the loop.
     """
     if "-" in paths:
         raise click.UsageError("standard input cannot be watched; name files or folders")
     seen = None
     try:
         while True:
-            # Taken before the check: what changes while it runs is seen at the next look.
+            # Taken before the check, so that changes during the check start another one.
             now = _state(paths)
             if now != seen:
                 seen = now
@@ -51,7 +49,7 @@ def _tell(once: Callable[[], int]) -> None:
         once()
     except SleecError as error:
         complain(error)
-    tell(f"{time.strftime('%H:%M:%S')}, waiting for changes; Ctrl-C ends this")
+    tell(f"{time.strftime('%H:%M:%S')}, waiting for changes; press Ctrl-C to stop")
 
 
 def _state(paths: Sequence[str]) -> list[tuple[object, ...]]:

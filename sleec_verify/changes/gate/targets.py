@@ -25,7 +25,7 @@ def conform(target: Target, locate: Locate, known: KnownFindings) -> TargetConfo
             found.ruleset = load(locate(target.at(target.rules)))
             if target.domain is not None and target.domain not in found.ruleset.domains:
                 named = ", ".join(found.ruleset.domains) or "none"
-                raise SleecError(f"there is no domain {target.domain} in {target.rules}", f"it has {named}")
+                raise SleecError(f"{target.rules} has no domain called `{target.domain}`", f"it has {named}")
             code = locate(target.at(target.code))
             if not os.path.lexists(code):  # what is not there might be a module from elsewhere
                 raise SleecError(f"there is no file or folder {code}", "check the spelling of its name and folder")

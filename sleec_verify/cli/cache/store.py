@@ -59,7 +59,7 @@ class Cache:
         if named == OFF:
             return None
         if named and os.path.lexists(named) and not os.path.isdir(named):
-            raise SleecError(f"{VARIABLE} is {named}, which is no folder", f"name a folder, or say {VARIABLE}={OFF}")
+            raise SleecError(f"{VARIABLE} is {named}, which is not a folder", f"name a folder, or set {VARIABLE}={OFF}")
         folder = named or _users()
         return None if folder is None else cls(folder, tell, chosen=bool(named))
 
@@ -77,7 +77,7 @@ class Cache:
         if head == entry.head(path, body):
             with suppress(Exception):  # what a decoder may raise at what it does not expect is of every kind
                 return entry.decode(body)
-        self._tell(f"the cache entry {path} is broken; what it held is decided anew")
+        self._tell(f"the cache entry {path} is damaged; its results are recomputed")
         return None
 
     def keep(self, ruleset: Ruleset, scope: Scope, results: tuple[CheckResult, ...]) -> None:
@@ -90,7 +90,7 @@ class Cache:
             self._put(path, entry.head(path, body) + b"\n" + body)
         except OSError as error:
             if self._chosen:
-                self._tell(f"nothing can be kept in {self._folder}: {error.strerror}")
+                self._tell(f"the cache folder {self._folder} cannot be written: {error.strerror}")
 
     def path(self, ruleset: Ruleset, scope: Scope) -> str | None:
         """Where the results for a ruleset are kept. None for one that was made without a text."""

@@ -25,7 +25,7 @@ from sleec_runtime.support.suggestions import nearest
 from sleec_verify.conformance.cases.case import Case, CasesError
 from sleec_verify.entailment.situation_text import SituationError, parse_assignment, parse_situation
 from sleec_verify.files.toml import read_toml
-from sleec_verify.results.phrases import shortened
+from sleec_verify.results.phrases import quoted, shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset, Value
@@ -94,7 +94,8 @@ def _case(path: Path, number: int, entry: dict[str, Any], ruleset: Ruleset) -> C
         domain = entry.get("domain")
         if domain is not None and domain not in ruleset.domains:
             raise SituationError(
-                f"there is no domain {shortened(str(domain))}", f"the rules have {', '.join(ruleset.domains) or 'none'}"
+                f"there is no domain called {quoted(shortened(str(domain)))}",
+                f"the rules have {', '.join(ruleset.domains) or 'none'}",
             )
         obligations = _obligations(entry.get("obligations", []), ruleset)
         prohibitions = _obligations(entry["prohibitions"], ruleset) if "prohibitions" in entry else None

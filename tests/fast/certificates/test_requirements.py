@@ -168,7 +168,7 @@ def test_what_the_theory_does_not_speak_of_is_not_tied(cli: Cli, build: Build) -
 
 def test_check_requires_something_of_a_certificate_only(cli: Cli) -> None:
     ran = cli("check", "rules.sleec", "--require-tied", files={"rules.sleec": RULES})
-    assert (ran.code, "say --certify DIR" in ran.err) == (2, True)
+    assert (ran.code, "need --certify DIR" in ran.err) == (2, True)
 
 
 SETTINGS = [(f"{flag.removeprefix('--')} = true", ()) for flag in FLAGS] + [("", (flag,)) for flag in FLAGS]

@@ -187,18 +187,18 @@ def test_a_file_of_assertions(cli: Cli) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["a.sleec"], "two files or two folders"),
-        (["a.sleec", "a.sleec", "a.sleec"], "two files or two folders"),
+        (["a.sleec"], "two files, two folders"),
+        (["a.sleec", "a.sleec", "a.sleec"], "two files, two folders"),
         (["a.sleec", "nothing.sleec"], "there is no file nothing.sleec"),
         (["a.sleec", "."], ". is a folder, and a.sleec is not"),
         (["empty", "nothing"], "there is no folder nothing"),
         (["nothing", "empty"], "there is no folder nothing"),
         (["-", "empty"], "empty is a folder, and - is not"),
         (["-", "-"], "standard input cannot be both sides"),
-        (["-", "a.sleec", "--assertions", "-"], "standard input cannot be both a side and the assertions"),
+        (["-", "a.sleec", "--assertions", "-"], "standard input cannot be both rules and assertions"),
         (["empty", "empty"], "there is no .sleec file below"),
         (["a.sleec", "a.sleec", "--assertions", "nothing"], "there is no file nothing"),
-        (["domains.sleec", "domains.sleec", "--domain", "hme"], "did you mean home?"),
+        (["domains.sleec", "domains.sleec", "--domain", "hme"], "did you mean `home`?"),
     ],
 )
 def test_bad_input(cli: Cli, tmp_path: Path, arguments: list[str], message: str) -> None:

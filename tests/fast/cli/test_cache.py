@@ -199,7 +199,7 @@ def test_a_broken_entry_is_decided_anew(name: str, folder: Path, cli: Cli, solve
     ran = cli("check", "a.sleec")
     assert solves() == 1
     assert (ran.code, ran.out) == (sound.code, sound.out)
-    assert f"note: the cache entry {entry} is broken; what it held is decided anew\n" in ran.err
+    assert f"note: the cache entry {entry} is damaged; its results are recomputed\n" in ran.err
     assert cli("check", "a.sleec") == sound
     assert solves() == 0
 
@@ -213,7 +213,7 @@ def test_an_entry_under_another_name_is_none(folder: Path, cli: Cli) -> None:
     clash.write_bytes(fine.read_bytes())
     ran = cli("check", "a.sleec")
     assert ran.code == 1
-    assert "is broken" in ran.err
+    assert "is damaged" in ran.err
 
 
 @pytest.mark.skipif(os.name != "posix", reason="pipes and devices are those of POSIX")
@@ -248,10 +248,10 @@ def test_a_folder_or_file_in_the_wrong_place_is_told_of(in_place_of: str, folder
         folder.write_text("")
     ran = cli("check", "a.sleec")
     if in_place_of == "all":
-        assert (ran.code, "which is no folder" in ran.err) == (2, True)
+        assert (ran.code, "which is not a folder" in ran.err) == (2, True)
     else:
         assert (ran.code, ran.out) == (sound.code, sound.out)
-        assert f"note: nothing can be kept in {folder}: " in ran.err
+        assert f"note: the cache folder {folder} cannot be written: " in ran.err
 
 
 def test_a_hash_that_fits_makes_no_sense_of_nonsense(folder: Path, cli: Cli) -> None:
@@ -268,7 +268,7 @@ def test_a_hash_that_fits_makes_no_sense_of_nonsense(folder: Path, cli: Cli) -> 
         entry.write_bytes(entry_of_cache.head(str(entry), body) + b"\n" + body)
         ran = cli("check", "a.sleec")
         assert (ran.code, ran.out) == (sound.code, sound.out)
-        assert "is broken" in ran.err
+        assert "is damaged" in ran.err
 
 
 # What is kept ------------------------------------------------------------------------------------------------
@@ -388,7 +388,7 @@ def test_a_file_is_no_cache(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("SLEEC_VERIFY_CACHE", "a.sleec")
     ran = cli("check", "a.sleec", files={"a.sleec": CLASH})
     assert ran.code == 2
-    assert "error: SLEEC_VERIFY_CACHE is a.sleec, which is no folder" in ran.err
+    assert "error: SLEEC_VERIFY_CACHE is a.sleec, which is not a folder" in ran.err
     assert "SLEEC_VERIFY_CACHE=off" in ran.err
     assert cli("check", "a.sleec", "--no-cache").code == 1
 
@@ -400,7 +400,7 @@ def test_what_cannot_be_kept_is_told_once_asked_for(folder: Path, cli: Cli, monk
     monkeypatch.setattr("os.makedirs", fail)
     ran = cli("check", "a.sleec", files={"a.sleec": CLASH})
     assert ran.code == 1
-    assert f"note: nothing can be kept in {folder}: Permission denied\n" in ran.err
+    assert f"note: the cache folder {folder} cannot be written: Permission denied\n" in ran.err
     monkeypatch.delenv("SLEEC_VERIFY_CACHE")
     monkeypatch.setenv("XDG_CACHE_HOME", str(folder))
     assert cli("check", "a.sleec").err == ""

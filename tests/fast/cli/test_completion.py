@@ -124,7 +124,7 @@ def test_what_the_other_shells_ask_is_answered(shell: str, home: Path) -> None:
     done = subprocess.run(line, env=asked, capture_output=True, text=True, check=True)
     assert "conform" in done.stdout
     assert "convert" in done.stdout
-    assert "The rules in another language or reading." in done.stdout
+    assert "Translate rules into another language or reading." in done.stdout
     assert "check" not in done.stdout
 
 

@@ -680,7 +680,7 @@ def test_what_is_decided_once_is_kept(
     entry.write_bytes(entry.read_bytes().replace(b"SLEEC101", b"SLEEC503"))
     ran = cli("gate", "--base", "main")
     assert (ran.code, ran.out) == (1, first.out)
-    assert "is broken; what it held is decided anew" in ran.err
+    assert "is damaged; its results are recomputed" in ran.err
 
 
 # Bad input ------------------------------------------------------------------------------------------------
@@ -734,7 +734,7 @@ def test_its_own_file_comes_first(cli: Cli, repository: Repository) -> None:
         (["--base", "main", "--config", "nothing.toml"], "there is no file nothing.toml"),
         (["--base", "main", "--config", "broken.toml"], "is no TOML"),
         (["--base", "main", "--baseline", "nothing.json"], "there is no baseline nothing.json"),
-        (["--base", "main", "--summary", "a.sleec"], "is there already, and is no summary"),
+        (["--base", "main", "--summary", "a.sleec"], "exists and is not a summary"),
         (["--base", "main", "nothing.sleec"], "there is no .sleec file at or below nothing.sleec"),
         (["--write-baseline"], "say where"),
     ],

@@ -213,10 +213,10 @@ def test_the_command_never_overwrites_unasked(tmp_path: Path, capsys: pytest.Cap
     output = tmp_path / "house.cases.toml"
     arguments = ["cases", "rulesets/household.sleec", "-o", str(output)]
     assert run(arguments) == 0
-    assert "3 situations: 12 of 12 goals reached" in capsys.readouterr().err
+    assert "3 situations: 12 of 12 goals covered" in capsys.readouterr().err
     before = output.read_text(encoding="utf-8")
     assert run([*arguments, "--coverage", "mcdc"]) == 2
-    assert "say --force to replace it" in capsys.readouterr().err
+    assert "use --force to overwrite it" in capsys.readouterr().err
     assert output.read_text(encoding="utf-8") == before
     assert run([*arguments, "--coverage", "mcdc", "--force"]) == 0
     assert output.read_text(encoding="utf-8") != before
