@@ -1,41 +1,37 @@
-"""From values back to text, in one canonical form: what is printed parses to the same ruleset, and prints the same.
+"""A ruleset in structured English as text, in one canonical form.
 
-One clause a line, a blank line between rules, and parentheses only where they are needed, except around a response of
-several obligations behind IN WHICH CASE and a guard with OR, which people read more easily with them.
+The text parses to the same ruleset, and prints the same again. There is one clause per line, a blank line between
+rules, and parentheses only where they are needed. Two exceptions make it easier to read: a response of several
+obligations after IN WHICH CASE, and a guard with OR.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Union
 
-from sleec_runtime.language.common.formula_printer import guard_text, print_formula, print_number
-from sleec_runtime.language.common.line_printer import behind, comment_lines, split_heading, trimmed
-from sleec_runtime.language.english.chain_printer import ChainPrinter
+from sleec_runtime.language.common.comment_lines import comment_lines, split_heading, trimmed, with_comment
+from sleec_runtime.language.common.formula_printer import print_formula, print_number
+from sleec_runtime.language.english.statement_printer import EnglishPrinter
 from sleec_runtime.model import (
     NO_COMMENTS,
     Assume,
     Claim,
-    Comments,
     Constant,
     Declaration,
     Exclusive,
     Measure,
     Never,
-    Relation,
     Rule,
     Ruleset,
     Statement,
 )
-
-_BesideRules = Union[Declaration, Measure, Constant, Exclusive, Never, Assume, "Claim", "Relation"]
 
 
 def print_ruleset(ruleset: Ruleset) -> str:
     """`ruleset` as a text in its own syntax, with its comments, ending in a line break (or empty).
 
     Raises:
-        Unsayable: something in it cannot be said in that syntax.
+        Unsayable: that syntax cannot express something in it.
     """
     if ruleset.syntax == "dsl":
         from sleec_runtime.language.dsl.printer import print_dsl
@@ -70,7 +66,7 @@ class _Printer:
                 rules += 1
                 labelled = statement.labelled or statement.label != f"rule_{rules}"
             heading, above = split_heading(_above(statement, labelled), bool(settings))
-            if before is not None and (settings or _stands_apart(before, statement)):
+            if before is not None and (settings or _is_separate(before, statement)):
                 yield ""
             if settings:
                 yield from comment_lines(heading)
@@ -93,30 +89,33 @@ class _Printer:
         own = rule.comments if self._with_comments else NO_COMMENTS
         first = rule.default.comments if self._with_comments else NO_COMMENTS
         if labelled:
-            yield behind(f"RULE {rule.label}", own.behind)
+            yield with_comment(f"RULE {rule.label}", own.behind)
             yield from comment_lines(trimmed(first.above))
             remark = first.behind
         else:
             remark = first.behind if own.behind is None else own.behind
-        lines = ChainPrinter(self._with_comments)
-        lines.begin("", Comments(behind=remark))
-        lines.write(f"WHEN {rule.trigger}{guard_text(rule.guard)} THEN ")
+        lines = EnglishPrinter(self._with_comments)
+        lines.begin(comment=remark)
+        lines.write(f"WHEN {rule.trigger}{lines.formulas.guard(rule.guard)} THEN ")
         lines.response(rule.default)
         lines.hedges(rule.hedges)
-        yield from lines.lines()
+        yield from lines.take_lines()
 
 
-def _other(statement: _BesideRules) -> Iterator[str]:
-    """The lines of a statement that is no rule, without the comments above it."""
-    if isinstance(statement, (Declaration, Measure, Constant, Exclusive, Never, Assume)):
-        yield behind(_statement(statement), statement.comments.behind)
-        return
-    from sleec_runtime.language.english.relations_printer import print_beside_rules
+def _other(statement: Statement) -> list[str]:
+    """The lines of a statement that is not a rule, without the comments above it."""
+    lines = EnglishPrinter()
+    lines.begin(comment=statement.comments.behind)
+    if isinstance(statement, Claim):
+        lines.write(f"{statement.kind.upper()} {statement.label} ")
+        lines.claim(statement)
+    else:
+        lines.write(_text(statement, lines))
+    return lines.take_lines()
 
-    yield from print_beside_rules(statement)
 
-
-def _statement(statement: Declaration | Measure | Constant | Exclusive | Never | Assume) -> str:
+def _text(statement: Statement, lines: EnglishPrinter) -> str:
+    assert not isinstance(statement, (Rule, Claim))
     if isinstance(statement, Declaration):
         agent = f" BY {statement.agent}" if statement.agent is not None else ""
         return f"{statement.kind.upper()} {', '.join(statement.names)}{agent}"
@@ -126,11 +125,13 @@ def _statement(statement: Declaration | Measure | Constant | Exclusive | Never |
         return f"CONSTANT {statement.name} = {statement.alias or print_number(statement.value)}"
     if isinstance(statement, Exclusive):
         return f"EXCLUSIVE {', '.join(statement.names)}"
-    return f"{'NEVER' if isinstance(statement, Never) else 'ASSUME'} {print_formula(statement.formula)}"
+    if isinstance(statement, (Never, Assume)):
+        return f"{'NEVER' if isinstance(statement, Never) else 'ASSUME'} {print_formula(statement.formula)}"
+    return f"RELATION {lines.relation(statement)}"
 
 
-def _stands_apart(before: Statement, statement: Statement) -> bool:
-    """Whether a blank line separates two statements: rules stand alone, others in groups of one kind."""
+def _is_separate(before: Statement, statement: Statement) -> bool:
+    """Whether a blank line separates two statements: each rule, and each group of other statements of one kind."""
     return isinstance(statement, Rule) or _group(before) != _group(statement)
 
 
@@ -142,8 +143,8 @@ def _group(statement: Statement) -> str:
 
 
 def _above(statement: Statement, labelled: bool) -> Sequence[str]:
-    """The comments above a statement. A rule without a label has no line apart from its default's: the comments of both
-    stand above it, and the one too many behind it, too."""
+    """The comments above a statement. A rule without a label shares the line of its default: the comments of both are
+    above it, also the second of two comments after it."""
     if not isinstance(statement, Rule) or labelled:
         return statement.comments.above
     own, default = statement.comments, statement.default.comments

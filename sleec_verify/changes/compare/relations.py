@@ -26,6 +26,6 @@ def _happens_before(statement: object) -> TypeGuard[EventRelation]:
 
 
 def _in_words(relation: Relation) -> str:
-    from sleec_runtime.language.english.relations_printer import print_beside_rules
+    from sleec_runtime.language.english.statement_printer import print_relation
 
-    return next(iter(print_beside_rules(relation))).removeprefix("RELATION ").partition("  //")[0]
+    return print_relation(relation)

@@ -1,4 +1,4 @@
-"""Lines of text with the comments above and behind them."""
+"""Comments as lines of text."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def split_heading(above: Sequence[str], has_settings: bool) -> tuple[Sequence[st
 
 
 def with_gaps(comments: Sequence[str]) -> list[str]:
-    """Comments with an empty line wherever there are some, at the beginning and at the end, too."""
+    """Comments with one empty line for several, also at the start and at the end."""
     found: list[str] = []
     for comment in comments:
         text = " ".join(comment.splitlines()).strip()
@@ -28,29 +28,29 @@ def with_gaps(comments: Sequence[str]) -> list[str]:
     return found
 
 
-def _without_leading(comments: Sequence[str]) -> list[str]:
-    found = with_gaps(comments)
-    return found[1:] if found and not found[0] else found
-
-
 def trimmed(comments: Sequence[str]) -> list[str]:
-    """Comments without empty ones at the beginning and at the end."""
+    """Comments without empty lines at the start and at the end."""
     found = _without_leading(comments)
     return found[:-1] if found and not found[-1] else found
 
 
 def comment_lines(comments: Sequence[str]) -> Iterator[str]:
-    """Comments as lines; an empty one is an empty line."""
+    """Comments as lines; an empty comment is an empty line."""
     for comment in comments:
         yield _comment(comment) if comment else ""
 
 
-def _comment(text: str) -> str:
-    return f"// {text}".rstrip()
-
-
-def behind(line: str, comment: str | None) -> str:
-    """A line with the comment behind it, if there is one."""
+def with_comment(line: str, comment: str | None) -> str:
+    """A line with the comment after it, if there is one."""
     if comment is None:
         return line
     return f"{line}  {_comment(' '.join(comment.splitlines()).strip())}"
+
+
+def _without_leading(comments: Sequence[str]) -> list[str]:
+    found = with_gaps(comments)
+    return found[1:] if found and not found[0] else found
+
+
+def _comment(text: str) -> str:
+    return f"// {text}".rstrip()
