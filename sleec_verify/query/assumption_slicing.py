@@ -1,8 +1,8 @@
-"""Assumptions cut down to what can matter where some triggers occur.
+"""Assumption slicing: the parts of assumptions that can matter if only some triggers occur.
 
-Where a situation is possible with a trigger, it is mostly possible without it: ``NOT (Rung AND Asleep)`` only ever
-keeps triggers from occurring, and ``NOT Rung OR Answered`` makes one occur only where another does. So a question about
-a trigger stays a question about its own rules, though the assumptions that name it name a hundred others.
+If a situation with a trigger is possible, it is usually possible without it. ``NOT (Rung AND Asleep)`` only prevents
+triggers, and ``NOT Rung OR Answered`` requires one only if another one occurs. So a question about a trigger stays a
+question about its own rules, even if the assumptions that name it also name a hundred others.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from sleec_verify.query.ruleset_index import RulesetIndex
 
 
 class AssumptionSlicing:
-    """Some assumptions, to be cut to one question after the other.
+    """Assumptions that can be sliced for one question after the other.
 
-    A trigger *may have to occur* where others do if some assumption, with those that need not occur taken not to,
-    could fail without it. Any other trigger can be taken out of a possible situation, and what is left is possible:
-    each assumption either holds whenever none of these occurs, or does not ask for any of them. O(size of the
-    assumptions) to make; a question costs what it concerns.
+    A trigger *may have to occur* with others if some assumption could be false without it, in a situation in which
+    triggers occur only as necessary. Any other trigger can be removed from a possible situation: each assumption either
+    holds whenever none of these triggers occurs, or does not require any of them. O(size of the assumptions) to create;
+    a question costs O(size of its slice).
     """
 
     def __init__(self, assumed: Iterable[Formula], kept: Iterable[str], measures: Iterable[Measure] = ()) -> None:
-        """`kept` are triggers that no question may leave out, `measures` those that the assumptions compare."""
+        """No slice leaves out the triggers `kept`. The assumptions compare `measures`."""
         self._measures = tuple(measures)
         self.formulas = list(dict.fromkeys(conjuncts(assumed)))
         self._asked_for = [frozenset(_asked_for(formula, True)) for formula in self.formulas]
@@ -37,10 +37,11 @@ class AssumptionSlicing:
             for name in set(names_in(formula)):
                 self._naming.setdefault(name, []).append(at)
         self.anywhere = self._grown(set(kept), list(range(len(self.formulas))))
-        """The triggers that may have to occur whatever the question: those `kept`, and what may come of no trigger."""
+        """The triggers that may have to occur in every question: those `kept`, and those that may have to occur without
+        any other trigger."""
 
     def occurring_with(self, triggers: Iterable[str]) -> set[str]:
-        """The triggers that may have to occur where these do, themselves and `anywhere` included."""
+        """The triggers that may have to occur with these, including themselves and `anywhere`."""
         fresh = set(triggers) - self.anywhere
         return self._grown(self.anywhere | fresh, [at for name in fresh for at in self._naming_trigger(name)])
 
@@ -59,8 +60,8 @@ class AssumptionSlicing:
     def reached(
         self, triggers: Iterable[str], naming: Callable[[set[str]], Iterable[Name]]
     ) -> tuple[set[str], set[Name]]:
-        """The triggers that may have to occur where `triggers` do and the assumptions tie to what is named there, and
-        all that is named: `naming` says what the rules of some triggers speak of, and the constraints on these."""
+        """The triggers that may have to occur with `triggers`, and all names that the assumptions connect. `naming`
+        gives the names in the rules of some triggers and in the constraints on these."""
         wanted = set(triggers) | self._always
         while True:
             may = self.occurring_with(wanted)
@@ -77,13 +78,12 @@ class AssumptionSlicing:
 
     @cached_property
     def _always(self) -> frozenset[str]:
-        """The triggers of which some occur in every situation."""
+        """Triggers of which at least one occurs in every situation."""
         cut = (Assume(without(formula, self.anywhere)) for formula in self.formulas)
         return _triggers_of_every_situation(RulesetIndex(Ruleset((*self._measures, *cut))))
 
     def about(self, names: Iterable[Name], occurring: set[str]) -> list[Formula]:
-        """The assumptions that share names with `names`, directly or through one another, where no triggers but these
-        occur."""
+        """The assumptions that share names with `names`, directly or indirectly, if only these triggers occur."""
         found: dict[int, Formula] = {}
         open_ = list(names)
         seen = set(open_)
@@ -100,8 +100,8 @@ class AssumptionSlicing:
         return [found[at] for at in sorted(found)]
 
     def kept_by(self, names: Iterable[Name], occurring: set[str]) -> list[Formula]:
-        """The same, with the assumptions that do not hold of nothing: a situation that is shown must name something for
-        these."""
+        """The same, with the assumptions that are false in the empty context: a situation that is shown must name
+        something for these."""
         demanding = (name for formula in self._demanding for name in names_in(without(formula, occurring)))
         return self.about({*names, *demanding}, occurring)
 
@@ -121,8 +121,8 @@ def _slicing(index: RulesetIndex) -> AssumptionSlicing:
 
 
 def _triggers_of_every_situation(index: RulesetIndex) -> frozenset[str]:
-    """The triggers of assumptions that are false where none of their triggers occurs: some of these occur in every
-    situation."""
+    """The triggers of assumptions that are false if none of their triggers occurs: at least one of these occurs in
+    every situation."""
     found: set[str] = set()
     seen: set[int] = set()
     for assumption in index.assumptions:
@@ -144,7 +144,7 @@ def _triggers_of_every_situation(index: RulesetIndex) -> frozenset[str]:
 
 
 def conjuncts(formulas: Iterable[Formula]) -> Iterator[Formula]:
-    """The parts of formulas that must each be true, so that they tie together only what they name."""
+    """The conjuncts of formulas, so that each connects only its own names."""
     for formula in formulas:
         if isinstance(formula, And):
             yield from conjuncts(formula.operands)
@@ -157,7 +157,7 @@ def conjuncts(formulas: Iterable[Formula]) -> Iterator[Formula]:
 
 
 def _asked_for(formula: Formula, positive: bool) -> Iterator[str]:
-    """The triggers whose occurring may make a formula true: those under an even number of negations."""
+    """The triggers whose occurrence may make a formula true: those under an even number of negations."""
     if isinstance(formula, Atom):
         if positive and formula.kind == "trigger":
             yield formula.name
@@ -169,7 +169,7 @@ def _asked_for(formula: Formula, positive: bool) -> Iterator[str]:
 
 
 def without(formula: Formula, occurring: set[str]) -> Formula:
-    """The formula where no triggers but these occur, as simple as that makes it."""
+    """The formula if only these triggers occur, simplified."""
     if isinstance(formula, Atom):
         return Truth(False) if formula.kind == "trigger" and formula.name not in occurring else formula
     if isinstance(formula, Not):

@@ -1,9 +1,9 @@
-"""The cone of influence: which rules and constraints can matter to a question.
+"""The cone of influence: the rules and constraints that can affect a question.
 
-A rule whose trigger does not occur obliges nothing, and whether a trigger occurs is free unless an `ASSUME` speaks of
-it. So a question about a situation concerns the rules of its triggers, the assumptions that share names with them, and
-the rules of the triggers that these rules name or these assumptions may force. Everything else can be left out without
-changing the answer, and questions about ten rules stay questions about ten rules in a ruleset of 100,000.
+A rule whose trigger does not occur obliges nothing, and triggers are free unless an `ASSUME` names them. So a question
+about a situation concerns the rules of its triggers and the assumptions that share names with them. It also concerns
+the rules of the triggers that these rules name or these assumptions may require. Everything else can be left out
+without changing the answer. So questions about ten rules stay questions about ten rules in a ruleset of 100,000.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from sleec_verify.query.ruleset_index import RulesetIndex
 def rules_active_with(index: RulesetIndex, trigger: str, satisfying: bool = False) -> list[int]:
     """The positions of the rules that may have to be active when `trigger` occurs, in the order of the text.
 
-    These are its own rules, and those of the triggers that such rules name, that assumptions tie to it or to the
-    conditions of such rules, or that assumptions require in any case. With `satisfying`, also those that the
+    These are its own rules, and those of the triggers that such rules name, that assumptions connect to it or to the
+    conditions of such rules, or that assumptions always require. With `satisfying`, they are also those that the
     constraints on the obligations of these rules require.
     """
     if not (index.names_triggers or (satisfying and index.constrains_triggers)):
@@ -38,14 +38,14 @@ def rules_active_with(index: RulesetIndex, trigger: str, satisfying: bool = Fals
 
 
 def _names_of_constraints(index: RulesetIndex, rules: Iterable[int]) -> Iterator[Name]:
-    """The names of situations in the constraints that may conflict with the obligations of some rules."""
+    """The triggers, conditions and measures in the constraints that may conflict with the obligations of some rules."""
     obliged = {o.name for position in rules for clause in index.clauses[position] for o in clause.obligations}
     for constraint in (*index.constraints_about(obliged), *constraints_on_situations(index)):
         yield from names_of_constraint(constraint)
 
 
 def rules_of_same_obligation(index: RulesetIndex, position: int) -> list[int]:
-    """The other rules that may oblige what the rule at `position` obliges, in situations that trigger it.
+    """The other rules that may oblige the same as the rule at `position`, in situations that trigger it.
 
     They are in the order of the text.
     """

@@ -1,9 +1,9 @@
-"""Which obligations cannot all be due: the minimal inconsistent sets of literals.
+"""The minimal inconsistent sets of literals: obligations that cannot all be due.
 
-What is due in a context is a set of literals, and the context conflicts when these, the context and the constraints
-have no common model over O (a "for all" over obligations inside an "exists" over contexts). The due literals are
-units, so it is enough to know every minimal set of literals that the constraints rule out, each with the situations
-in which they do: then "is there a conflicting context" is a plain question of satisfiability for each set.
+What is due in a context is a set of literals. The context conflicts if these, the context and the constraints have no
+common model over O (a "for all" over obligations inside an "exists" over contexts). The due literals are units. So it
+is enough to know every minimal set of literals that the constraints exclude, each with the situations in which they do.
+Then "is there a conflicting context" is one question of satisfiability for each set.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ Constraint = Exclusive | Never
 
 @dataclass(frozen=True)
 class InconsistentSet:
-    """These literals cannot all be due where the situation makes all the `labels` true.
+    """Literals that cannot all be due if the situation makes all the `labels` true.
 
-    `origins` are the constraints that rule it out; none for a name and its own negation.
+    `origins` are the constraints that exclude them. A name and its own negation have none.
     """
 
     literals: frozenset[Obligation]
@@ -33,24 +33,24 @@ class InconsistentSet:
 
     @property
     def situation(self) -> Formula:
-        """Where the literals clash, as one formula over triggers, conditions and measures."""
+        """The situations in which the literals are inconsistent, as one formula over triggers, conditions and measures."""
         return conjunction(sorted(self.labels, key=repr))
 
 
 @dataclass(frozen=True)
 class Exclusion:
-    """No two of these literals can be due together: an EXCLUSIVE of many names, whose pairs are not listed."""
+    """Literals of which no two can be due together: an EXCLUSIVE of many names, without a list of its pairs."""
 
     literals: tuple[Obligation, ...]
     origin: Exclusive
 
     def clash(self, one: Obligation, other: Obligation) -> InconsistentSet:
-        """The clash of two of its literals."""
+        """The inconsistent set of two of its literals."""
         return InconsistentSet(frozenset((one, other)), origins=(self.origin,))
 
 
 class InconsistentSets:
-    """Minimal inconsistent sets of literals: those that are `listed`, and all pairs of each of the `exclusions`."""
+    """The minimal inconsistent sets of literals: those that are `listed`, and all pairs of each of the `exclusions`."""
 
     def __init__(self, listed: Sequence[InconsistentSet], exclusions: Sequence[Exclusion] = ()) -> None:
         self.listed = listed
@@ -68,13 +68,13 @@ class InconsistentSets:
                 yield exclusion.clash(one, other)
 
     def literals(self) -> set[Obligation]:
-        """The literals of any of them."""
+        """The literals of all sets."""
         held = [*(clash.literals for clash in self.listed), *(set(exclusion.literals) for exclusion in self.exclusions)]
         return set().union(*held)
 
     @cached_property
     def _by_literal(self) -> dict[Obligation | None, list[InconsistentSet]]:
-        """The sets by their least literals."""
+        """The sets by their smallest literals."""
         index: dict[Obligation | None, list[InconsistentSet]] = {}
         for clash in self.listed:
             index.setdefault(min(clash.literals, default=None, key=str), []).append(clash)
@@ -85,8 +85,8 @@ class InconsistentSets:
         return [frozenset(exclusion.literals) for exclusion in self.exclusions]
 
     def among(self, literals: Collection[Obligation]) -> InconsistentSets:
-        """Those that these literals hold. O(the literals, and the sets whose least literal is one of them)."""
-        # In an order, so that the same rules make the same clauses.
+        """The sets that consist of these literals. O(the literals, and the sets whose smallest literal is one of them)."""
+        # Sorted, so that the same rules give the same clauses.
         ordered = sorted(set(literals), key=str)
         known = set(ordered)
         listed = [c for one in (None, *ordered) for c in self._by_literal.get(one, ()) if c.literals <= known]

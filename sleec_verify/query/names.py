@@ -11,7 +11,7 @@ Name = tuple[str, str]
 
 
 def names_in(formula: Formula) -> Iterator[Name]:
-    """The triggers, conditions and measures that a formula speaks of; obligations are left out."""
+    """The triggers, conditions and measures that a formula names, without obligations."""
     for leaf in leaves(formula):
         if isinstance(leaf, Atom):
             if leaf.kind != "obligation":
@@ -22,7 +22,7 @@ def names_in(formula: Formula) -> Iterator[Name]:
 
 
 def obligations_in(constraint: Exclusive | Never) -> Iterator[str]:
-    """The obligations that a constraint speaks of, repeats included."""
+    """The obligations that a constraint names, including repeats."""
     if isinstance(constraint, Exclusive):
         yield from constraint.names
     else:
@@ -32,7 +32,7 @@ def obligations_in(constraint: Exclusive | Never) -> Iterator[str]:
 
 
 def names_of_constraint(constraint: Exclusive | Never) -> Iterator[Name]:
-    """The triggers, conditions and measures that a constraint speaks of."""
+    """The triggers, conditions and measures that a constraint names."""
     if isinstance(constraint, Never):
         yield from names_in(constraint.formula)
 

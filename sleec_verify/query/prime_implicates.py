@@ -1,7 +1,7 @@
 """The minimal inconsistent sets of constraints, as prime implicates.
 
-The sets are prime implicates of the constraints over the literals that are obliged at all, found by resolution with
-subsumption. The parts of a `NEVER` that speak of situations only are kept whole, as labels that a resolvent inherits.
+The sets are prime implicates of the constraints over the literals that rules oblige, computed by resolution with
+subsumption. Parts of a `NEVER` about situations only are not decomposed: a resolvent inherits them as labels.
 """
 
 from __future__ import annotations
@@ -15,17 +15,16 @@ from sleec_verify.query.inconsistent_sets import Constraint, Exclusion, Inconsis
 from sleec_verify.query.ruleset_index import RulesetIndex
 
 LIMIT = 2_000
-"""How many cases a NEVER may have, and how many sets may come of resolving constraints that are tied to one another,
-before the question is given up."""
+"""The maximal number of cases of a NEVER, and of sets from a group of connected constraints."""
 
 MOST_LISTED = 20
-"""Names of an EXCLUSIVE of which all pairs are listed. Of larger ones, the pairs stay one `Exclusion`."""
+"""The maximal number of names of an EXCLUSIVE whose pairs are listed. A larger one is one `Exclusion`."""
 
 STEPS = 20_000
-"""How many resolvents may be formed for one group of constraints before the question is given up."""
+"""The maximal number of resolvents for one group of constraints."""
 
 _PER_STEP = 5
-"""What one of them costs in the steps of a budget."""
+"""The cost of one resolvent in steps of a budget."""
 
 
 class TooEntangled(Undecided):
@@ -49,9 +48,9 @@ def _inconsistent_sets(index: RulesetIndex) -> InconsistentSets:
 
 
 def constraints_on_situations(index: RulesetIndex) -> list[Constraint]:
-    """The constraints that rule out a situation whatever is obliged, each alone or several together.
+    """The constraints that exclude a situation for all obligations, each alone or several together.
 
-    Raises `Undecided` where the constraints are too entangled.
+    Raises `Undecided` if the constraints are too entangled.
     """
     return index.once(_constraints_on_situations)
 
@@ -62,15 +61,15 @@ def _constraints_on_situations(index: RulesetIndex) -> list[Constraint]:
 
 
 def inconsistent_sets(constraints: Iterable[Constraint], obliged: Collection[Obligation]) -> InconsistentSets:
-    """The minimal inconsistent sets of literals of `obliged` that these constraints give, without the sets of a name
-    and its negation.
+    """The minimal inconsistent sets of literals of `obliged` under these constraints, without the sets of a name and
+    its negation.
 
-    Raises `TooEntangled` past `LIMIT`; worst case exponential in the constraints that share obligations, linear in
-    the number of groups that share none.
+    Raises `TooEntangled` above `LIMIT`. Worst case exponential in the number of constraints that share obligations,
+    linear in the number of independent groups.
     """
     constraints = list(constraints)
     nevers = [constraint.formula for constraint in constraints if isinstance(constraint, Never)]
-    # What is resolved upon has to be listed.
+    # Obligations that are resolved on must be listed.
     resolved = {name for formula in nevers for name in _negated(formula, True)}
     found: list[InconsistentSet] = []
     for group in _groups([term for constraint in constraints for term in _terms(constraint, resolved)]):
@@ -90,7 +89,7 @@ def inconsistent_sets(constraints: Iterable[Constraint], obliged: Collection[Obl
 
 
 def _negated(formula: Formula, value: bool) -> Iterator[str]:
-    """The obligations that are not done in some case in which the formula has this value."""
+    """The obligations that are false in some case in which the formula has this value."""
     if isinstance(formula, Not):
         yield from _negated(formula.operand, not value)
     elif isinstance(formula, (And, Or)):
@@ -101,13 +100,13 @@ def _negated(formula: Formula, value: bool) -> Iterator[str]:
 
 
 def _not_listed(constraint: Exclusive, resolved: Collection[str]) -> list[str]:
-    """The names of which no pair is listed."""
+    """The names whose pairs are not listed."""
     names = sorted(set(constraint.names))
     return [name for name in names if name not in resolved] if len(names) > MOST_LISTED else []
 
 
 def _groups(terms: list[InconsistentSet]) -> list[list[InconsistentSet]]:
-    """The terms that are tied to one another by the obligations they share."""
+    """The terms that are connected by shared obligations."""
     union = UnionFind()
     for term in terms:
         first, *rest = sorted(literal.name for literal in term.literals) or [""]
@@ -144,7 +143,8 @@ _Term = tuple[frozenset[Obligation], frozenset[Formula]]
 
 
 def _disjuncts(formula: Formula, value: bool) -> list[_Term]:
-    """The disjunctive normal form of "formula has this value" over obligations, situations kept whole."""
+    """The disjunctive normal form of "formula has this value" over obligations. Parts about situations are not
+    decomposed."""
     if not any(isinstance(leaf, Atom) and leaf.kind == "obligation" for leaf in leaves(formula)):
         if isinstance(formula, Truth):
             return [(frozenset(), frozenset())] if formula.value == value else []
@@ -167,13 +167,13 @@ def _disjuncts(formula: Formula, value: bool) -> list[_Term]:
 
 
 def _minimal(found: Iterable[InconsistentSet]) -> list[InconsistentSet]:
-    """Those that no other subsumes, smallest first."""
+    """Those that no other one subsumes, smallest first."""
     kept: list[InconsistentSet] = []
     bits: dict[Obligation, int] = {}
     by_literal: dict[Obligation | None, list[tuple[int, frozenset[Formula]]]] = {}
     for clash in sorted(found, key=lambda c: (len(c.literals) + len(c.labels), len(c.origins))):
         mask = sum(bits.setdefault(literal, 1 << len(bits)) for literal in clash.literals)
-        # Whatever subsumes this one is kept under one of this one's literals, or has none.
+        # A set that subsumes this one is stored under one of this one's literals, or is empty.
         near = [by_literal.get(literal, ()) for literal in (None, *clash.literals)]
         spend(_PER_STEP + sum(map(len, near)) / 10)
         labels = clash.labels
@@ -184,14 +184,14 @@ def _minimal(found: Iterable[InconsistentSet]) -> list[InconsistentSet]:
 
 
 def _eliminated(terms: list[InconsistentSet], obliged: Collection[Obligation]) -> list[InconsistentSet]:
-    """The minimal sets over `obliged`: resolve on one obligation after the other, and after each drop the sets with a
-    literal of it that nothing obliges (Tison's method, kept to the literals that matter)."""
+    """The minimal sets over `obliged`. Resolves on one obligation after the other, and then drops the sets with a
+    literal of it that no rule obliges (Tison's method, restricted to the relevant literals)."""
     found = _minimal(terms)
     counts: dict[Obligation, int] = {}
     for term in found:
         for literal in term.literals:
             counts[literal] = counts.get(literal, 0) + 1
-    # Any other name has nothing to resolve or drop.
+    # For other names, there is nothing to resolve or drop.
     names = {literal.name for literal in counts if opposite(literal) in counts or literal not in obliged}
     steps = 0
     for name in sorted(

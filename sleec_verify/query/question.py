@@ -1,4 +1,5 @@
-"""A question over all contexts: grown from the clauses that matter, asked of a solver, answered with a situation."""
+"""A question over all contexts: a formula that grows from the relevant clauses, asked of a solver, with a situation as
+its answer."""
 
 from __future__ import annotations
 
@@ -15,21 +16,22 @@ from sleec_verify.query.ruleset_index import RulesetIndex
 class Question:
     """The formula of one question, with the assumptions that share names with it.
 
-    Grow it through `encoder` and the methods here, then `ask`. What is grown after the first `ask` is not seen.
+    Add clauses through `encoder` and the methods here, then `ask`. Clauses that are added after the first `ask` have no
+    effect.
     """
 
     def __init__(self, index: RulesetIndex, assuming: bool = True) -> None:
-        """`assuming` False leaves the assumptions out: for questions about them."""
+        """With `assuming` False, the assumptions are left out, for questions about them."""
         self.index = index
         self._assuming = assuming and bool(index.assumptions)
         self.encoder = Encoder(index.ruleset.measures)
         self._guards: dict[int, list[int]] = {}
         self._solver: Solver | None = None
         self._doubt: Undecided | None = None
-        """Why it is not known whether any situation is possible. If none is, every answer is no."""
+        """Why it is unknown whether any situation is possible. If none is, every answer is no."""
 
     def guards(self, position: int) -> list[int]:
-        """The guards of the rule at `position`, one literal a clause."""
+        """The guards of the rule at `position`, one literal for each clause."""
         guards = self._guards.get(position)
         if guards is None:
             rule = self.index.rules[position]
@@ -37,7 +39,7 @@ class Question:
         return guards
 
     def guards_of(self, rule: Rule) -> list[int]:
-        """The guards of a rule that is not in the ruleset: a variant to compare with."""
+        """The guards of a rule that is not in the ruleset, such as a variant to compare with."""
         return self.encoder.guards(rule, self.index.ruleset.reading)
 
     def due(self, positions: Sequence[int], about: frozenset[Obligation] | set[Obligation]) -> dict[Obligation, int]:
@@ -57,7 +59,7 @@ class Question:
         self.require(self.encoder.literal(formula))
 
     def names(self) -> list[Name]:
-        """The triggers, conditions and measures that the formula speaks of so far."""
+        """The triggers, conditions and measures in the formula so far."""
         named: list[Name] = [(key[0], key[1]) for key in self.encoder.variables if key[0] in ("trigger", "condition")]
         return [*named, *(("condition", measure) for measure in self.encoder.measures.measures())]
 
@@ -78,7 +80,7 @@ class Question:
     def ask(self, *literals: int) -> bool:
         """Whether some context makes the formula and all these literals true.
 
-        Raises `Undecided` where the solver did not decide.
+        Raises `Undecided` if the solver gave up.
         """
         if self._solver is None:
             self._solver = self._complete()
@@ -102,24 +104,24 @@ class Question:
             self._solver.add([refusal])
 
     def exclude(self, *literals: int) -> None:
-        """From the next `ask` on, not all of these are true together."""
+        """Require for all later calls of `ask` that these are not all true."""
         assert self._solver is not None, "before the first question, there is `require`"
         clause = [-literal for literal in literals]
         self.encoder.clauses.append(clause)
         self._solver.add([clause])
 
     def _refused(self) -> list[int] | None:
-        """A clause that rules out the model at hand, where measures cannot have values as it says."""
+        """A clause that excludes the current model, if the measures cannot have such values."""
         assert self._solver is not None
         return self.encoder.measures.refused(self._solver.holds, self.index.recorder is not None)
 
     def true(self, literal: int) -> bool:
-        """Whether the context that the last `ask` found makes a literal true."""
+        """Whether a literal is true in the context of the last `ask`."""
         assert self._solver is not None, "literals have values only after a question"
         return self._solver.holds(literal)
 
     def core(self) -> list[int]:
-        """Literals of the last `ask` that suffice for its answer to be no."""
+        """Literals of the last `ask` that are sufficient for the answer no."""
         assert self._solver is not None, "there is a core only after a question"
         return self._solver.core()
 
@@ -129,7 +131,7 @@ class Question:
         return [literal for literal in literals if literal in core]
 
     def situation(self) -> Context:
-        """The context that the last `ask` found, with a value for every name in the formula."""
+        """The context of the last `ask`, with a value for every name in the formula."""
         assert self._solver is not None, "there is a situation only after a question"
         true = self._solver.holds
         triggers, conditions = set(), {}
@@ -153,10 +155,10 @@ class Question:
 
 
 def is_possible(index: RulesetIndex) -> bool:
-    """Whether the assumptions leave any situation possible.
+    """Whether the assumptions allow any situation.
 
-    If they do, those that share no name with a question can be left out of it; if they do not, every question has the
-    answer no. It is asked once. Raises Undecided each time if it was not decided then.
+    If so, assumptions that share no name with a question can be left out of it. Otherwise, every question has the
+    answer no. Asked once. Raises `Undecided` each time if the first time was undecided.
     """
     answer = index.once(_is_possible)
     if isinstance(answer, Undecided):

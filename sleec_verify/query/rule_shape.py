@@ -1,6 +1,7 @@
-"""Rules up to renaming: conditions of one shape differ in names only, and these stand in the same order.
+"""Rules up to renaming. Conditions of one shape differ only in names, and the names have the same order.
 
-Whatever follows from the structure of the conditions and the order of their names is the same for rules of one shape.
+Everything that follows from the structure of the conditions and the order of their names is the same for rules of one
+shape.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Witness
 
 LARGEST = 100
-"""Nodes of formulas whose shape is taken. Larger ones hardly ever share one."""
+"""The maximal number of nodes of formulas with a shape. Larger formulas rarely share one."""
 
 Key = tuple[object, ...]
 
@@ -40,7 +41,7 @@ class Shape(NamedTuple):
     names: tuple[tuple[str, str], ...]
 
     def renamed(self, witness: Witness, names: tuple[tuple[str, str], ...]) -> Witness:
-        """A situation of these formulas, from that of formulas with the same shape and these names."""
+        """The situation of these formulas that corresponds to one of formulas with the same shape and these names."""
         new = {old: name for old, (_, name) in zip(names, self.names)}
         return Witness(
             tuple(new["trigger", name] for name in witness.triggers),
@@ -50,7 +51,7 @@ class Shape(NamedTuple):
 
 
 def shape_of(formulas: Iterable[Formula], measures: Mapping[str, Measure]) -> Shape | None:
-    """The shape of some formulas; None if they are large, or compare measures with one another."""
+    """The shape of some formulas. None if they are large, or compare measures with each other."""
     found = _Nodes(measures)
     try:
         tops = [found.node(formula) for formula in formulas]
@@ -58,7 +59,7 @@ def shape_of(formulas: Iterable[Formula], measures: Mapping[str, Measure]) -> Sh
         return None
     names = tuple(sorted(found.names))
     rank = {found.names[name]: at for at, name in enumerate(names)}
-    # The places of names in the order of their first use tell how to rank them.
+    # Names are ranked by their first use.
     ranks = tuple(rank[at] for at in range(len(names)))
     return Shape((tuple(tops), ranks, *found.nodes), names)
 
@@ -66,7 +67,7 @@ def shape_of(formulas: Iterable[Formula], measures: Mapping[str, Measure]) -> Sh
 def shape_at(index: RulesetIndex, position: int) -> Shape | None:
     """The shape of the rule at `position`, if a question about it alone has the same answer for all rules of its shape.
 
-    None where assumptions may distinguish them, and where every question is recorded.
+    None if assumptions may distinguish them, or if every question is recorded.
     """
     if index.assumptions or index.recorder is not None:
         return None
@@ -81,8 +82,8 @@ def _shapes(_: RulesetIndex) -> dict[int, Shape | None]:
 
 
 def shape_of_rule(rule: Rule, measures: Mapping[str, Measure]) -> Shape | None:
-    """The shape of a rule: of its conditions, and of which clauses oblige the same. None where `shape_of` has none, and
-    for a rule with chains inside its chain, or with times."""
+    """The shape of a rule: of its conditions, and of which clauses oblige the same. None if `shape_of` is None, or for
+    a rule with nested chains or times."""
     clauses = (rule.default, *rule.hedges)
     due: dict[Obligation, int] = {}
     same = []
@@ -99,8 +100,7 @@ class _Unshaped(Exception):
 
 
 class _Nodes:
-    """The nodes of formulas in postorder, with each name by its first use. A part that is the same object in several
-    places is one node."""
+    """The nodes of formulas in postorder, with each name at its first use. A shared object is one node."""
 
     def __init__(self, measures: Mapping[str, Measure]) -> None:
         self._measures = measures

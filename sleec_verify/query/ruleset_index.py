@@ -1,4 +1,4 @@
-"""The indices of a ruleset that queries over all contexts need, each made once, in time linear in the ruleset."""
+"""The indices of a ruleset for queries over all contexts, each created once, in time linear in the ruleset."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ class RulesetIndex(Memo):
     def __init__(
         self, ruleset: Ruleset, recorder: Recorder | None = None, untimed: Untimed = "at", chains: bool = True
     ) -> None:
-        """`recorder` is told of every question about the ruleset. `untimed` is what a response without a window means
-        in rules with time; with `chains`, doing an obligation triggers the rules of that name."""
+        """`recorder` gets every question about the ruleset. `untimed` is the meaning of a response without a window in
+        rules with time. With `chains`, an obligation triggers the rules of that name."""
         super().__init__()
         self.ruleset = ruleset
         self.rules = ruleset.rules
@@ -91,8 +91,7 @@ class RulesetIndex(Memo):
         return index
 
     def constraints_about(self, obligations: Iterable[str]) -> list[Exclusive | Never]:
-        """The constraints that share obligations with these names, directly or through one another, in the order of
-        the text."""
+        """The constraints that share obligations with these names, directly or indirectly, in the order of the text."""
         found: set[int] = set()
         seen = set(obligations)
         open_names = list(seen)
@@ -114,7 +113,7 @@ class RulesetIndex(Memo):
         return index
 
     def assumptions_about(self, names: Iterable[Name]) -> list[Assume]:
-        """The assumptions that share names with `names`, directly or through one another, in the order of the text."""
+        """The assumptions that share names with `names`, directly or indirectly, in the order of the text."""
         if not self.assumptions:
             return []
         found: set[int] = set()
@@ -136,8 +135,8 @@ class RulesetIndex(Memo):
         return [a for a in self.assumptions if not is_true_in_empty_context(a.formula)]
 
     def assumptions_that_may_break(self, context: Context) -> list[Assume]:
-        """All assumptions that `context` can break: one that speaks of none of its names has the value that it has of
-        nothing."""
+        """All assumptions that `context` can violate. Any other assumption has the same value as in the empty context,
+        because it names nothing in `context`."""
         names = [
             *(("trigger", name) for name in context.triggers),
             *(("condition", name) for name in context.conditions),
@@ -147,7 +146,7 @@ class RulesetIndex(Memo):
 
     @cached_property
     def names_triggers(self) -> bool:
-        """Whether an assumption, a guard or a hedge speaks of a trigger."""
+        """Whether an assumption, a guard or a hedge names a trigger."""
         conditions = (formula for rule in self.rules for formula in formulas_of(rule))
         return any(kind == "trigger" for kind, _ in self._assumptions_by_name) or any(
             isinstance(leaf, Atom) and leaf.kind == "trigger" for formula in conditions for leaf in leaves(formula)

@@ -1,4 +1,4 @@
-"""Unit propagation over a formula: the literals that every situation in which it is true must name."""
+"""Unit propagation over a formula: the literals that every situation must name in which it is true."""
 
 from __future__ import annotations
 
@@ -17,14 +17,15 @@ class Impossible(Exception):
 
 
 class Propagation(NamedTuple):
-    """The literals that each situation must name in which a formula is known to be true, and the parts of the formula
-    that they leave open: disjunctions, and comparisons of measures."""
+    """The literals that each situation must name in which a formula is known to be true, and the parts that they leave
+    open: disjunctions, and comparisons of measures."""
 
     literals: Literals
     open_parts: list[Formula]
 
     def least(self) -> int:
-        """How many names such a situation has at least: one for each open part that shares none with another."""
+        """A lower bound on the number of names of such a situation: one for each open part that shares none with
+        another."""
         seen: set[Name] = set()
         parts = 0
         for part in self.open_parts:
@@ -35,8 +36,8 @@ class Propagation(NamedTuple):
 
 
 def propagate_units(formula: Formula) -> Propagation:
-    """What the formula forces. Raises Impossible for one that is never true. O(size of the formula) for each round of
-    propagation."""
+    """The consequences of the formula. Raises `Impossible` if it is never true. O(size of the formula) for each round
+    of propagation."""
     known: Literals = {}
     open_: list[_Part] = [(formula, True)]
     waiting: list[_Part] = []
@@ -55,7 +56,7 @@ def propagate_units(formula: Formula) -> Propagation:
 
 
 def _split(open_: list[_Part], known: Literals) -> list[_Part]:
-    """Takes in the literals of these parts; returns the disjunctions among them, and comparisons."""
+    """Adds the literals of these parts. Returns their disjunctions and comparisons."""
     waiting: list[_Part] = []
     while open_:
         part, value = open_.pop()
@@ -75,7 +76,7 @@ def _split(open_: list[_Part], known: Literals) -> list[_Part]:
 
 
 def _left(part: Formula, value: bool, known: Literals) -> list[Formula]:
-    """The operands on which it depends whether a part has this value; none if it has it."""
+    """The operands that decide whether a part has this value; none if it has it."""
     assert isinstance(part, (And, Or))
     left = []
     for operand in part.operands:

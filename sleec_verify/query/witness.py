@@ -1,9 +1,9 @@
-"""The smallest situation that makes a formula true whatever else is the case.
+"""The smallest situation that makes a formula true, whatever else holds.
 
-A situation names some triggers and some conditions; the rest must not matter. So every name has two rails, "known
-true" and "known false", and the formula must follow from what is known (Kleene's three values: sound for every
-completion). The solver finds some such situation, and a counter then presses the number of names down until no
-smaller one exists.
+A situation names some triggers and conditions, and all others must not matter. So every name has two variables, "known
+true" and "known false" (dual-rail encoding). The formula must follow from what is known (Kleene's three values: sound
+for every completion). The solver finds such a situation. A counter then reduces the number of names until no smaller
+situation exists.
 """
 
 from __future__ import annotations
@@ -21,12 +21,13 @@ from sleec_verify.results.finding import Witness
 
 
 def smallest_situation(index: RulesetIndex, formula: Formula, valued: Iterable[str] = ()) -> Witness | None:
-    """A situation of fewest names that makes `formula` (over triggers, conditions and measures) true, or None.
+    """A situation with a minimal number of names that makes `formula` (over triggers, conditions and measures) true, or
+    None.
 
-    The measures of `valued` get a value whether the formula needs it or not. Taking all that the situation does not
-    name as false (Definition 1) gives one that the assumptions allow.
+    The measures of `valued` always get a value. If all names that the situation does not mention are false (Definition
+    1), the assumptions allow it.
 
-    Raises `Undecided` where the solver did not decide.
+    Raises `Undecided` if the solver gave up.
     """
     valued, assumed = set(valued), _assumed(index, formula, valued)
     least = 0
@@ -49,11 +50,11 @@ def smallest_situation(index: RulesetIndex, formula: Formula, valued: Iterable[s
 
 
 def _assumed(index: RulesetIndex, formula: Formula, valued: Iterable[str]) -> list[Formula]:
-    """The assumptions that a situation of the formula may break, cut to what may have to occur there."""
+    """The assumptions that a situation of the formula may violate, sliced to what may have to occur there."""
     if not index.assumptions:
         return []
     named = set(names_in(formula))
-    # A trigger that need not occur makes no situation smaller.
+    # Unnecessary triggers do not make a situation smaller.
     occurring = slicing_of(index).occurring_with(name for kind, name in named if kind == "trigger")
     named.update(("condition", measure) for measure in valued)
     return slicing_of(index).kept_by(named, occurring)
@@ -69,7 +70,7 @@ def _of_literals(literals: Literals) -> Witness:
 
 
 class _Rails:
-    """The formula over what is known, and the search for the fewest names."""
+    """The formula over what is known, and the search for the smallest number of names."""
 
     def __init__(self, index: RulesetIndex) -> None:
         self.encoder = Encoder(index.ruleset.measures)
@@ -102,7 +103,7 @@ class _Rails:
 
     def known(self, formula: Formula, value: bool) -> int:
         """A literal that is true only if what is known gives `formula` this value."""
-        # Equation 1 written out repeats the conditions, as the same objects.
+        # Equation 1 repeats the conditions, as the same objects.
         seen = self._known.get((id(formula), value))
         if seen is None:
             seen = self._known[id(formula), value] = self._build(formula, value)
@@ -122,7 +123,7 @@ class _Rails:
         return yes if value else no
 
     def in_completion(self, formula: Formula) -> int:
-        """The literal of `formula` where all that is not known is false."""
+        """The literal of `formula` if everything unknown is false."""
         if isinstance(formula, Not):
             return -self.in_completion(formula.operand)
         if isinstance(formula, And):
@@ -136,7 +137,7 @@ class _Rails:
         return self._rails_of((formula.kind, formula.name))[0]
 
     def smallest(self, least: int) -> Witness | None:
-        """The situation; `least` names are in any."""
+        """The smallest situation. `least` is a lower bound on its number of names."""
         names = sorted(self._mentioned)
         with MiniSat(self.encoder.clauses) as solver:
             values = self._solve(solver)
@@ -156,7 +157,7 @@ class _Rails:
         return situation
 
     def _solve(self, solver: Solver) -> Mapping[str, Value] | None:
-        """The values of the measures in a situation, or None where there is no situation."""
+        """The values of the measures in a situation, or None if there is no situation."""
         while True:
             answer = solver.solve()
             if answer is None:
@@ -169,7 +170,7 @@ class _Rails:
             solver.add([values])
 
     def _situation(self, solver: Solver, values: Mapping[str, Value]) -> tuple[Witness, int]:
-        """The situation that the solver's model stands for, and how many names it mentions."""
+        """The situation in the solver's model, and the number of its names."""
         mentioned = [name for name, variable in sorted(self._mentioned.items()) if solver.holds(variable)]
         triggers, absent = [], []
         conditions: dict[str, Value] = {}
@@ -187,8 +188,7 @@ class _Rails:
 
 
 class _Counter:
-    """Clauses by which ``at_least[k]`` is true wherever k of the literals are, for k up to `most` (sequential
-    counter)."""
+    """Clauses that make ``at_least[k]`` true if k of the literals are true, for k up to `most` (sequential counter)."""
 
     def __init__(self, encoder: Encoder, literals: list[int], most: int) -> None:
         self.clauses: list[list[int]] = []
