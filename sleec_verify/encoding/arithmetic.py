@@ -1,6 +1,6 @@
-"""Values for measures of which calculations are compared with numbers: integer arithmetic, which z3 is asked about.
+"""Integer arithmetic: values for measures whose calculations are compared with numbers, by z3.
 
-z3 is an extra. It is loaded when values are first needed that are not found without it.
+z3 is optional. It is imported at the first question that needs it.
 """
 
 from __future__ import annotations
@@ -14,23 +14,23 @@ from sleec_verify.encoding.budget import Budget, Undecided, current
 from sleec_verify.encoding.calculations import named
 
 RESOURCES = 1_000_000
-"""What z3 may spend on one question, in its own measure: about a second, and the same on every machine."""
+"""The resource limit of z3 for one question: about a second, and the same on every machine."""
 
 _PER_RESOURCE, _SETUP = 0.5, 5_000
-"""Steps of a budget for one of these, and to set up z3 for a question."""
+"""Budget steps for one unit of z3's resources, and for the setup of a question."""
 
 _STOPPED = ("canceled", "timeout", "max. resource limit exceeded")
-"""What z3 calls it if it was stopped, and did not give up by itself."""
+"""z3's reason for `unknown` if it was stopped by the limit."""
 
 INSTALL = "pip install z3-solver"
 
 Compared = tuple[Calculation, Rational, bool, int]
-"""A calculation that is at most a number, or below it if not inclusive, and the literal that says so; or, if that is
-negative, is not."""
+"""A calculation, a number, and whether the bound is inclusive. The literal says "calculation <= number" (or "<"),
+and its negation the opposite."""
 
 
 class NotCalculated(Undecided):
-    """What a calculation can be is not known. `lines` are where it stands."""
+    """It is unknown which values a calculation can have. `lines` are its places."""
 
     def __init__(self, message: str, lines: Sequence[int]) -> None:
         super().__init__(message)
@@ -38,7 +38,7 @@ class NotCalculated(Undecided):
 
 
 def unproved(calculations: Iterable[Calculation]) -> NotCalculated:
-    """What to raise where an answer is to be proved, and rests on what z3 says of these calculations."""
+    """The error for an answer that must be proved and rests on what z3 says about these calculations."""
     calculations = list(calculations)
     return NotCalculated(
         f"the answer rests on what z3 says of {named(calculations)}, which a certificate does not prove",
@@ -52,10 +52,10 @@ def values_for(
     orders: Sequence[tuple[str, str, int]],
     compared: Sequence[Compared],
 ) -> dict[str, Rational] | list[int]:
-    """Values for the measures `integral` that make all the literals true, or some of the literals that no values make
-    true together. All but `compared` is as `sleec_verify.encoding.order.place` has it.
+    """Values for the measures `integral` that make all the literals true, or literals that no values make true
+    together. Parameters other than `compared` are those of `sleec_verify.encoding.order.place`.
 
-    Raises NotCalculated where z3 does not decide it, or is not there.
+    Raises `NotCalculated` if z3 does not decide it, or is not installed.
     """
     names = {name: f"m{number}" for number, name in enumerate(integral)}
     formulas = [_limited(names[name], value, inclusive, literal) for name, value, inclusive, literal in cuts]
@@ -85,13 +85,14 @@ def _unknown(compared: Iterable[Compared], message: str) -> NotCalculated:
 
 @lru_cache(maxsize=10_000)
 def answer(question: str, assumed: int, asked_for: Budget | None) -> dict[str, Rational] | list[int] | None:
-    """Values of ``m0``, ``m1``, … in a model of a text in SMT-LIB in which so many of ``a0``, ``a1``, … are true; or
-    the numbers of some of these that contradict one another; None if z3 does not decide it.
+    """Values of ``m0``, ``m1``, … in a model of an SMT-LIB text in which the given number of ``a0``, ``a1``, … are
+    true; or the numbers of some of these that contradict each other; None if z3 does not decide it.
 
-    It is asked by a text, as to build formulas by its API takes longer than z3 takes to answer. Answers are kept, as
-    the checks ask the same again and again, but for one budget only, so that no file profits from another.
+    The question is a text, because building formulas through the API takes longer than z3 takes to answer. Answers are
+    cached, because checks ask the same question repeatedly, but only for one budget, so that no file profits from
+    another one.
 
-    Raises ImportError without z3, OutOfBudget where the budget at hand was spent before `RESOURCES` were.
+    Raises `ImportError` without z3, and `OutOfBudget` if the current budget is spent before `RESOURCES`.
     """
     import z3
 

@@ -1,8 +1,8 @@
-"""How much work may be spent on a file, a check or a question.
+"""Budgets: how much work a file, a check or a question may take.
 
-Work is counted in steps: literals that the solver propagates, clauses, attempts of a loop. One step takes about a
-microsecond, and the same text always takes the same steps, so a budget of steps ends at the same place on every
-machine. A timeout is a time instead. The budget is a context variable, and whatever works calls `spend`:
+Work is counted in steps: literals that the solver propagates, clauses, iterations of a loop. A step takes about a
+microsecond. The same text always takes the same steps, so a budget of steps ends at the same place on every machine. A
+timeout is a time instead. The budget is a context variable, and code that works calls `spend`:
 
     with limited(seconds=60):
         results = run_checks(ruleset)
@@ -19,17 +19,17 @@ from typing import NoReturn
 from sleec_runtime.errors import SleecError
 
 FILE = 3_500_000
-"""Steps for one text of rules. Rules that people write take a thousandth of it."""
+"""Steps for one ruleset. Rulesets that people write need a thousandth of it."""
 
 PER_CHARACTER = 150
-"""Further steps for each character of the text: large rulesets may take long."""
+"""Additional steps for each character of the text, because large rulesets may take long."""
 
 LEAST = 1_000
-"""Steps, and microseconds, below which nothing new is begun."""
+"""The steps, or microseconds, that must be left to start something new."""
 
 
 class Undecided(SleecError):
-    """A question that was given up. A check turns this into the verdict `Unknown`; it never counts as fine."""
+    """A question that was given up. A check turns it into the verdict `Unknown`, which is never a pass."""
 
 
 class OutOfBudget(Undecided):
@@ -37,22 +37,22 @@ class OutOfBudget(Undecided):
 
 
 class Budget:
-    """Work that may be done: a number of steps, or all that is possible until a deadline."""
+    """A number of steps, or the time until a deadline."""
 
     def __init__(self, reason: str, steps: float = float("inf"), deadline: float = float("inf")) -> None:
-        """`reason` says what was not enough, where it is spent. `deadline` is a value of `time.monotonic`."""
+        """`reason` is the message if the budget is not sufficient. `deadline` is a value of `time.monotonic`."""
         self.reason = reason
         self.steps = steps
-        """Steps that are left."""
+        """The steps that are left."""
         self._deadline = deadline
         self.is_timed = deadline != float("inf")
         self.ran_out = False
-        """Whether it, or a part of it, was not enough for something."""
+        """Whether it, or a part of it, was not sufficient for something."""
         self.whole = self
-        """The budget that this is a part of."""
+        """The budget of which this is a part."""
 
     def spend(self, steps: float) -> None:
-        """Count steps. Raises OutOfBudget if there were fewer left, or the deadline has passed."""
+        """Count steps. Raises `OutOfBudget` if fewer are left, or the deadline has passed."""
         self.steps -= steps
         if self.steps < 0 or (self.is_timed and monotonic() > self._deadline):
             self.give_up()
@@ -63,19 +63,19 @@ class Budget:
         raise OutOfBudget(self.reason)
 
     def seconds(self) -> float:
-        """The time that is left."""
+        """The time that is left, in seconds."""
         return max(self._deadline - monotonic(), 0)
 
     def left(self) -> float:
-        """What is left: seconds if there is a deadline, else steps."""
+        """What is left: seconds if there is a deadline, otherwise steps."""
         return self.seconds() if self.is_timed else self.steps
 
     def is_spent(self) -> bool:
-        """Whether too little is left to begin anything."""
+        """Whether too little is left to start anything."""
         return self.steps < LEAST or (self.is_timed and self.seconds() < LEAST / 1e6)
 
     def part(self, part: float) -> Budget:
-        """A budget of this part of what is left."""
+        """A budget with this fraction of what is left."""
         deadline = monotonic() + self.seconds() * part if self.is_timed else self._deadline
         found = Budget(self.reason, max(self.steps, 0) * part, deadline)
         found.whole = self.whole
@@ -86,12 +86,12 @@ _current: ContextVar[Budget | None] = ContextVar("budget", default=None)
 
 
 def current() -> Budget | None:
-    """The budget of the work at hand; None if it has none."""
+    """The current budget, or None."""
     return _current.get()
 
 
 def spend(steps: float) -> None:
-    """Count steps of the work at hand. Raises OutOfBudget if its budget is spent."""
+    """Count steps of the current budget. Raises `OutOfBudget` if it is spent."""
     budget = _current.get()
     if budget is not None:
         budget.spend(steps)
@@ -99,9 +99,9 @@ def spend(steps: float) -> None:
 
 @contextmanager
 def limited(seconds: float) -> Iterator[None]:
-    """Give the work inside so much time, in place of the budget of each file. What is not decided by then is unknown.
+    """Limit the time of the block, in place of the budget of each file. Anything undecided by then is unknown.
 
-    A file that is read is read to its end.
+    A file is always read completely.
     """
     with _using(Budget(f"the timeout of {seconds:g} seconds has passed", deadline=monotonic() + seconds)):
         yield
@@ -109,7 +109,7 @@ def limited(seconds: float) -> Iterator[None]:
 
 @contextmanager
 def for_file(characters: int) -> Iterator[None]:
-    """Give the work inside the budget for a text of so many characters, unless it has a budget already."""
+    """Use the budget for a text with this number of characters, unless there is a budget already."""
     if _current.get() is not None:
         yield
         return
@@ -121,14 +121,14 @@ _FILE_SPENT = "the budget for one file is spent; use --timeout SECONDS to give i
 
 
 def begin() -> None:
-    """Raises OutOfBudget if so little is left of the budget at hand that nothing more should be begun."""
+    """Raises `OutOfBudget` if too little is left of the current budget to start anything."""
     budget = _current.get()
     if budget is not None and budget.is_spent():
         budget.give_up()
 
 
 class share:  # noqa: N801
-    """Lets the work inside spend at most this part of what is left of the budget at hand. What it leaves is kept."""
+    """Limit the block to this fraction of what is left of the current budget. Unused steps return to it."""
 
     __slots__ = ("_given", "_inner", "_outer", "_part", "_token")
 
@@ -162,7 +162,7 @@ def _using(budget: Budget) -> Iterator[None]:
 
 @contextmanager
 def as_far_as_decided() -> Iterator[None]:
-    """Go on after the block where a question in it is not decided, unless the budget is spent."""
+    """Continue after the block if a question in it is undecided, unless the budget is spent."""
     try:
         yield
     except OutOfBudget:

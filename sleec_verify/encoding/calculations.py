@@ -1,4 +1,4 @@
-"""What a ruleset calculates from several measures, for what cannot analyse that."""
+"""The calculations with several measures in a ruleset, for components that do not support them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ def calculations_in(formula: Formula) -> Iterator[Calculation]:
 
 
 def calculations(ruleset: Ruleset) -> list[Calculation]:
-    """The calculations that a ruleset compares with numbers, each once, those of rules first. Linear in its size."""
+    """The calculations that a ruleset compares with numbers, each once, those of rules first. Linear in the size of
+    the ruleset."""
     formulas: list[Formula] = [formula for rule in ruleset.rules for formula in formulas_of(rule)]
     formulas += [c.formula for c in ruleset.constraints if isinstance(c, (Never, Assume))]
     if ruleset.is_timed:
@@ -27,7 +28,7 @@ def calculations(ruleset: Ruleset) -> list[Calculation]:
 
 
 def calculated_lengths(ruleset: Ruleset) -> list[Calculation]:
-    """What a ruleset calculates how long something takes by, in the order of the text."""
+    """The calculations that give the length of a window, in the order of the text."""
     if not ruleset.is_timed:
         return []
     from sleec_verify.encoding.mentioned_names import names_beside_rules
@@ -36,12 +37,12 @@ def calculated_lengths(ruleset: Ruleset) -> list[Calculation]:
 
 
 def named(found: Iterable[Calculation]) -> str:
-    """Calculations as messages name them, each with its line."""
+    """Calculations for messages, each with its line."""
     return ", ".join(f"`{one}`" + (f" in line {one.line}" if one.line else "") for one in found)
 
 
 def unsupported(found: Iterable[Calculation], who: str) -> UnsupportedCalculations:
-    """What to raise where `who` does not analyse these calculations."""
+    """The error for calculations that `who` does not support."""
     found = list(found)
     more = f" and {len(found) - 5:,} more" if len(found) > 5 else ""
     return UnsupportedCalculations(
@@ -51,15 +52,15 @@ def unsupported(found: Iterable[Calculation], who: str) -> UnsupportedCalculatio
 
 
 def refuse_calculations(ruleset: Ruleset, who: str) -> None:
-    """Raises UnsupportedCalculations if anything in `ruleset` is calculated from several measures; `who` is what cannot
-    analyse it."""
+    """Raises `UnsupportedCalculations` if `ruleset` has calculations with several measures. `who` does not support
+    them."""
     found = calculations(ruleset)
     if found:
         raise unsupported(found, who)
 
 
 def refuse_unsayable_calculations(ruleset: Ruleset, language: str, hint: str) -> None:
-    """Raises Unsayable for the first calculation of a ruleset, which `language` has no words for."""
+    """Raises `Unsayable` for the first calculation of a ruleset, because `language` has none."""
     found = calculations(ruleset) + calculated_lengths(ruleset)
     if found:
         place = f"{ruleset.source.path}:{found[0].line}: " if found[0].line else ""

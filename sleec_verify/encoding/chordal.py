@@ -1,5 +1,5 @@
-"""Triangles of a chordal completion, which are enough for transitivity (R. Bryant and M. Velev, "Boolean satisfiability
-with transitivity constraints", CAV 2000)."""
+"""Triangles of a chordal completion, which are sufficient for transitivity (R. Bryant and M. Velev, "Boolean
+satisfiability with transitivity constraints", CAV 2000)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _Node = TypeVar("_Node", bound=Hashable)
 
 
 def triangles(graph: Mapping[_Node, set[_Node]]) -> Iterator[tuple[_Node, _Node, _Node]]:
-    """The triangles of a chordal completion, by taking out a node of least degree each time."""
+    """The triangles of a chordal completion, by repeated removal of a node of minimal degree."""
     left = {node: set(near) for node, near in graph.items()}
     while left:
         node = min(left, key=lambda n: (len(left[n]), str(n)))

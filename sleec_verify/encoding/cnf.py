@@ -1,9 +1,9 @@
 """Equation 1 as clauses, linear in the size of the rules.
 
-Written out, Equation 1 (paper, Section 3.2) repeats every prefix C0 ∧ … ∧ Ci. Here each prefix is one variable, equal
-to the one before it and one more condition, so a rule of n hedges gives O(n) clauses. Every auxiliary variable is
-*equal* to what it stands for, so once the triggers and conditions have values, unit propagation alone gives a value
-to everything (Definition 1 over a total context needs no search).
+Equation 1 (paper, Section 3.2) repeats every prefix C0 ∧ … ∧ Ci. Here each prefix is one variable, equivalent to the
+previous prefix and one more condition. So a rule with n hedges gives O(n) clauses. Every auxiliary variable is
+*equivalent* to what it stands for. So if triggers and conditions have values, unit propagation gives values to all
+variables (Definition 1 in a total context needs no search).
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ from sleec_runtime.model import (
 from sleec_verify.encoding.measures import Measures
 
 Key = tuple[str, ...]
-"""What a variable stands for: ``("trigger", name)``, ``("condition", name)``, ``("obligation", name)``,
-``("below", measure, cut)`` or ``("at-most", measure, measure)``."""
+"""The meaning of a variable: ``("trigger", name)``, ``("condition", name)``, ``("obligation", name)``, ``("below",
+measure, cut)`` or ``("at-most", measure, measure)``."""
 
 
 class Encoder:
-    """Clauses grown from rules and formulas, with variables numbered from 1 in the order of their first use.
+    """Clauses for rules and formulas, with variables numbered from 1 in the order of their first use.
 
-    Call `close` when all is in: it adds what orders the regions of the measures.
+    Call `close` at the end: it adds the order of the measures' regions.
     """
 
     def __init__(
@@ -45,12 +45,12 @@ class Encoder:
         missing: frozenset[str] = frozenset(),
         clauses: list[list[int]] | None = None,
     ) -> None:
-        """`missing` are measures without a value: a comparison with one of them is false. `clauses` is where the
-        clauses go, where several encoders grow one formula."""
+        """`missing` are measures without a value: comparisons with them are false. `clauses` receives the clauses,
+        so that several encoders can build one formula."""
         self._missing = missing
         self.described: dict[int, tuple[str, str]] = {}
-        """Literals to what part of a rule they stand for: ``("prefix", "label.i")`` is C0 ∧ … ∧ Ci, ``("guard",
-        "label.i")`` the guard of clause i (``label.i.j`` in a chain nested in clause i)."""
+        """The meaning of auxiliary literals: ``("prefix", "label.i")`` is C0 ∧ … ∧ Ci, ``("guard", "label.i")`` the
+        guard of clause i (``label.i.j`` in a chain nested in clause i)."""
         self.clauses: list[list[int]] = [] if clauses is None else clauses
         self.variables: dict[Key, int] = {}
         self.top = 0
@@ -60,7 +60,7 @@ class Encoder:
     # Variables ---------------------------------------------------------------------------------------------
 
     def fresh(self) -> int:
-        """A new variable that stands for nothing with a name."""
+        """A new auxiliary variable."""
         self.top += 1
         return self.top
 
@@ -85,7 +85,7 @@ class Encoder:
     # Formulas ----------------------------------------------------------------------------------------------
 
     def both(self, a: int, b: int) -> int:
-        """A literal equal to ``a ∧ b``."""
+        """A literal that is equivalent to ``a ∧ b``."""
         true = self._true
         if a == b or b == true:
             return a
@@ -100,7 +100,7 @@ class Encoder:
         return both
 
     def all_of(self, literals: Sequence[int]) -> int:
-        """A literal equal to the conjunction of any number of literals."""
+        """A literal that is equivalent to the conjunction of any number of literals."""
         if not literals:
             return self.true()
         if len(literals) <= 2:
@@ -111,11 +111,12 @@ class Encoder:
         return every
 
     def any_of(self, literals: Sequence[int]) -> int:
-        """A literal equal to the disjunction of any number of literals."""
+        """A literal that is equivalent to the disjunction of any number of literals."""
         return -self.all_of([-literal for literal in literals])
 
     def at_least_two(self, literals: Sequence[int]) -> int:
-        """A literal equal to "two of these are true", by a variable for "one of those so far": linear."""
+        """A literal that is equivalent to "two of these are true", with a variable for "one of those so far".
+        Linear."""
         repeated = []
         so_far = -self.true()
         for literal in literals:
@@ -124,8 +125,8 @@ class Encoder:
         return self.any_of(repeated)
 
     def literal(self, formula: Formula, atom: Callable[[Atom], int] | None = None) -> int:
-        """A literal equal to the formula. `atom` gives the literals of atoms: their variables, if it is None. O(size of
-        the formula)."""
+        """A literal that is equivalent to the formula. `atom` gives the literals of atoms, by default their
+        variables. O(size of the formula)."""
         if isinstance(formula, Atom):
             return self.variable((formula.kind, formula.name)) if atom is None else atom(formula)
         if isinstance(formula, Not):
@@ -144,13 +145,13 @@ class Encoder:
     # Rules -------------------------------------------------------------------------------------------------
 
     def triggered(self, rule: Rule) -> int:
-        """A literal equal to "the rule's trigger occurs and its guard, if it has one, holds"."""
+        """A literal that is equivalent to "the rule's trigger occurs and its guard, if any, holds"."""
         trigger = self.variable(("trigger", rule.trigger))
         return trigger if rule.guard is None else self.both(trigger, self.literal(rule.guard))
 
     def guards(self, rule: Rule, reading: Reading, triggered: int | None = None) -> list[int]:
-        """For each clause of the rule, in the order of `Rule.clauses`, a literal equal to its guard. `triggered` stands
-        in for the rule's trigger, if given."""
+        """For each clause of the rule, in the order of `Rule.clauses`, a literal that is equivalent to its guard.
+        `triggered` replaces the rule's trigger, if given."""
         if triggered is None:
             triggered = self.triggered(rule)
         elif rule.guard is not None:
@@ -162,14 +163,14 @@ class Encoder:
         return guards
 
     def chain(self, clause: Clause, reading: Reading) -> list[int]:
-        """For each clause of a chain that stands by itself (what is due in place of a response), in the order of
-        `in_text_order`, a literal equal to "this one decides"."""
+        """For each clause of a separate chain (of an alternative response), in the order of `in_text_order`, a
+        literal that is equivalent to "this clause decides"."""
         guards: list[int] = []
         self._descend(self.true(), clause, reading, guards, "")
         return guards
 
     def _descend(self, decides: int, clause: Clause, reading: Reading, guards: list[int], path: str) -> None:
-        """Append the guards of a clause that decides in its own chain when `decides`, and of the chain inside it."""
+        """Append the guards of a clause that decides in its own chain if `decides`, and of its nested chain."""
         if not clause.hedges:
             guards.append(decides)
             return
@@ -179,7 +180,7 @@ class Encoder:
             self._descend(literal, nested, reading, guards, f"{path}.{number}")
 
     def _split(self, active: int, hedges: Sequence[Clause], reading: Reading, path: str) -> list[int]:
-        """Which member of a chain decides while `active`: a literal for the default, then one for each hedge."""
+        """Which member of a chain decides if `active`: a literal for the default, then one for each hedge."""
         conditions = [self.literal(hedge.condition) for hedge in hedges if hedge.condition is not None]
         if reading == "priority":
             # The cascade of Ci ∨ C(i+1) ∨ … ∨ Cn is the priority chain of the Ci.
@@ -196,7 +197,7 @@ class Encoder:
         return decides
 
     def due(self, clauses: Iterable[tuple[Clause, int]]) -> dict[Obligation, int]:
-        """For each literal that some of these clauses oblige, a literal equal to "one of them is active".
+        """For each literal that some of these clauses oblige, a literal that is equivalent to "one of them is active".
 
         `clauses` are pairs of a clause and the literal of its guard.
         """
@@ -207,7 +208,7 @@ class Encoder:
         return {obligation: self.any_of(guards) for obligation, guards in by_literal.items()}
 
     def equation(self, rule: Rule, reading: Reading) -> list[int]:
-        """Add Equation 1 of the rule: each guard implies what its clause obliges. Returns the guards."""
+        """Add Equation 1 of the rule: each guard implies the response of its clause. Returns the guards."""
         guards = self.guards(rule, reading)
         for clause, guard in zip(rule.clauses(), guards):
             for obligation in clause.obligations:
@@ -221,8 +222,8 @@ class Encoder:
     # Contexts ----------------------------------------------------------------------------------------------
 
     def assumptions(self, context: Context) -> list[int]:
-        """The context as literals, total over the triggers and conditions in the formula (what the context does not
-        hold is false) and over the measures that the context values."""
+        """The context as literals, total over the triggers and conditions in the formula (those that the context
+        does not contain are false) and over the measures with a value in the context."""
         literals = []
         for (kind, *names), variable in self.variables.items():
             if kind == "trigger":

@@ -1,7 +1,7 @@
-"""Guards and Equation 1 written out, as formulas that people can read.
+"""Guards and Equation 1 as formulas that people can read.
 
-The guard of clause i is C0 ∧ C1 ∧ … ∧ Ci ∧ ¬C(i+1), without the last part for i = n; Equation 1 (paper, Section 3.2)
-says that each guard implies what its clause obliges. This is the quadratic form; `encoding.cnf` has the linear one.
+The guard of clause i is C0 ∧ C1 ∧ … ∧ Ci ∧ ¬C(i+1), without the last conjunct for i = n. Equation 1 (paper, Section
+3.2) says that each guard implies the response of its clause. This form is quadratic; `encoding.cnf` has a linear one.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from sleec_runtime.model import And, Atom, Clause, Formula, Not, Or, Reading, Ru
 
 
 class Implication(NamedTuple):
-    """One conjunct of Equation 1: clause `number` obliges what `clause` says where `guard` is true."""
+    """One conjunct of Equation 1: if `guard` is true, clause `number` obliges the response of `clause`."""
 
     number: int
     guard: Formula
@@ -39,7 +39,7 @@ def guard(rule: Rule, reading: Reading, number: int) -> Formula:
 
 
 def chain(clause: Clause, reading: Reading) -> Iterator[tuple[Formula, Clause]]:
-    """Where each clause of a chain that stands by itself decides, in the order of `in_text_order`."""
+    """The condition under which each clause of a separate chain decides, in the order of `in_text_order`."""
     return _descend([], clause, reading)
 
 
@@ -61,7 +61,7 @@ def _split(active: list[Formula], hedges: Sequence[Clause], reading: Reading) ->
 
 
 def conjunction(operands: Sequence[Formula]) -> Formula:
-    """The conjunction of any number of formulas, nested conjunctions flattened."""
+    """The conjunction of any number of formulas, with nested conjunctions flattened."""
     flat: list[Formula] = []
     for operand in operands:
         if isinstance(operand, And):

@@ -1,4 +1,4 @@
-"""The truth of formulas in one context, by the solver."""
+"""The truth of formulas in one context, computed by the solver."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from sleec_verify.encoding.solver import MiniSat
 
 
 def truth_in(context: Context, formulas: Sequence[Formula], measures: Mapping[str, Measure]) -> list[bool]:
-    """The truth of formulas in one context. Conditions that it does not give are false, and so are comparisons of
-    measures that it does not give."""
+    """The truth of formulas in one context. Conditions without a value are false, and so are comparisons of
+    measures without a value."""
     encoder = Encoder(measures, frozenset(measures) - set(context.conditions))
     literals = [encoder.literal(formula) for formula in formulas]
     encoder.close()

@@ -1,5 +1,5 @@
-"""Values for measures that are calculated with, found by changing one after the other: where that is enough, nothing
-else need be asked, and the values are small."""
+"""Local search: values for measures in calculations, found by changing one measure after the other. If it succeeds,
+z3 is not needed, and the values are small."""
 
 from __future__ import annotations
 
@@ -10,18 +10,19 @@ from sleec_runtime.model import Calculation, Rational
 from sleec_verify.encoding.arithmetic import Compared
 
 _STEPS = 8
-"""Changes for each calculation, after which it is given up."""
+"""The maximal number of changes for each calculation."""
 
 
 class _Range:
-    """Whole numbers from `low` to `high`; None is no bound."""
+    """Whole numbers from `low` to `high`. None means unbounded."""
 
     def __init__(self) -> None:
         self.low: int | None = None
         self.high: int | None = None
 
     def cut(self, value: Rational, inclusive: bool, literal: int) -> None:
-        """Keep what is at most (or below, if not `inclusive`) the value; what is not, if the literal is negative."""
+        """Keep the values that are at most `value` (below it if not `inclusive`), or the others if the literal is
+        negative."""
         if literal > 0:
             high = floor(value) if inclusive else ceil(value) - 1
             self.high = high if self.high is None else min(self.high, high)
@@ -41,8 +42,8 @@ def search_nearby(
     orders: Sequence[tuple[str, str, int]],
     compared: Iterable[Compared],
 ) -> dict[str, Rational] | None:
-    """Whole numbers near `values`, which are whole, that make all the literals true, which are as
-    `arithmetic.values_for` has them; None where such are not found, which says nothing. O(calculations²)."""
+    """Whole numbers near the whole numbers `values` that make all the literals of `arithmetic.values_for` true.
+    None if the search finds none, which proves nothing. O(calculations²)."""
     found = {name: int(value) for name, value in values.items()}
     allowed = {name: _Range() for name in found}
     for name, value, inclusive, literal in cuts:
@@ -62,21 +63,21 @@ def search_nearby(
 
 
 def _missing(one: Calculation, wanted: _Range, found: Mapping[str, int]) -> int:
-    """By how much what is calculated must change."""
+    """By how much the result of a calculation must change."""
     result = int(one.value(found))
     return wanted.nearest(result) - result
 
 
 def _moved(one: Calculation, wanted: _Range, allowed: Mapping[str, _Range], found: dict[str, int]) -> bool:
-    """Change a measure so that the calculation comes to what is wanted; else the first one that brings it nearer,
-    or any. Whether there is one."""
+    """Change a measure so that the calculation has the wanted result; otherwise the first measure that brings it
+    closer, or any. Returns whether there is one."""
     missing = _missing(one, wanted, found)
     nearer: tuple[str, int] | None = None
     for name in one.measures:
         slope = int(one.value({**found, name: found[name] + 1})) - int(one.value(found))
         if slope == 0:
             continue
-        # Away from 0, so that it is not missed by a part of a step.
+        # Round away from 0, so that the step is large enough.
         steps = -(-abs(missing) // abs(slope)) * (1 if (missing > 0) == (slope > 0) else -1)
         moved = allowed[name].nearest(found[name] + steps)
         after = abs(_missing(one, wanted, {**found, name: moved}))
@@ -86,7 +87,7 @@ def _moved(one: Calculation, wanted: _Range, allowed: Mapping[str, _Range], foun
         if nearer is None and after < abs(missing):
             nearer = name, moved
     if nearer is None:
-        # A product that is 0 whichever of the two is changed.
+        # The product stays 0 for both factors.
         moves = ((name, allowed[name].nearest(found[name] + step)) for name in one.measures for step in (1, -1))
         nearer = next(((name, moved) for name, moved in moves if moved != found[name]), None)
     if nearer is not None:

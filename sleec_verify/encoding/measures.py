@@ -1,16 +1,15 @@
-"""Measures as propositional variables: the regions that a set of comparisons can tell apart, no more.
+"""Measures as propositional variables: the regions that a set of comparisons distinguishes.
 
-A number compared with constants is cut at these constants, a scale between its values (order encoding: one variable
-for "below this cut", each implying the next). Numbers compared with one another get a variable for each ordered
-pair, and transitivity over a chordal completion of the comparisons, which is enough for every assignment that
-satisfies the clauses to be the order of some rationals, and far less than all triples.
+A number that is compared with constants is divided at these constants, and a scale between its values (order encoding:
+one variable for "below this cut", each implying the next). Numbers that are compared with each other have a variable
+for each ordered pair, with transitivity over a chordal completion of the comparisons. This is sufficient for every
+model to be the order of some rationals, with far fewer clauses than all triples.
 
-Only whole-number measures that are compared with one another need more: an order that rationals have may leave too
-little room for integers. `Measures.decode` then returns the refusal as a clause, and the caller asks again.
+Only whole numbers that are compared with each other need more, because an order of rationals may leave no room for
+integers. `Measures.decode` then returns a clause that excludes the model, and the caller asks again.
 
-What is calculated from several measures is one more measure, and a free one. Whether it can be as a model has it is
-asked only of that model, and only where the values at hand do not fit: of `encoding.arithmetic`, whose refusal is
-a clause, too.
+A calculation with several measures is a further, unconstrained measure. `encoding.arithmetic` is asked whether it can
+have the result that a model chose, if the current values do not give this result. It also excludes a model by a clause.
 """
 
 from __future__ import annotations
@@ -40,15 +39,15 @@ class _Constant(NamedTuple):
 
 
 _Node = Union[str, _Constant]
-"""What is ordered in a cluster: a measure by its name, or a constant."""
+"""A node of an order: a measure by its name, or a constant."""
 
 MIRRORED: Mapping[Operator, Operator] = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
 
 class Measures:
-    """The comparisons of one formula as literals over variables that `fresh` makes.
+    """The comparisons of one formula as literals over variables of `fresh`.
 
-    `true` is a literal that is always true; `add` takes a clause. Call `close` once every comparison is in.
+    `true` is a literal that is always true. `add` receives clauses. Call `close` after the last comparison.
     """
 
     def __init__(
@@ -66,11 +65,11 @@ class Measures:
         self._both = both
         self.cuts: dict[str, dict[Cut, int]] = {}
         self.orders: dict[tuple[str, str], int] = {}
-        """(x, y) to the variable of ``x <= y``."""
+        """The variable of ``x <= y`` for each pair (x, y)."""
         self.calculations: dict[str, Calculation] = {}
-        """What is calculated from several measures, by what `cuts` calls it, which is no name of a measure."""
+        """The calculations, by their names in `cuts`, which are not names of measures."""
         self.refused_by_arithmetic = False
-        """Whether `decode` has returned a clause that no order gives, but arithmetic."""
+        """Whether `decode` has returned a clause that follows from arithmetic, not from an order."""
         self._decoded: dict[tuple[int, ...], dict[str, Rational] | list[int]] = {}
         self._seen: dict[str, None] = {}
 
@@ -79,7 +78,7 @@ class Measures:
         self._seen[measure] = None
 
     def literal(self, comparison: Comparison) -> int:
-        """The literal that is true exactly when the comparison holds."""
+        """The literal that is equivalent to the comparison."""
         self._seen.update(dict.fromkeys(measures_of(comparison)))
         left, operator, right = comparison.left, comparison.operator, comparison.right
         if isinstance(left, Calculation):
@@ -103,7 +102,7 @@ class Measures:
         return equal if operator == "=" else -equal
 
     def _name(self, calculated: Calculation) -> str:
-        """What `cuts` calls a calculation, however its summands are ordered in the text."""
+        """The name of a calculation in `cuts`, independent of the order of its summands."""
         name = " + ".join(sorted(" * ".join((*names, str(factor))) for factor, names in calculated.terms))
         self.calculations.setdefault(name, calculated)
         return name
@@ -165,7 +164,7 @@ class Measures:
         return variable
 
     def close(self) -> None:
-        """Add what orders the variables among themselves."""
+        """Add the clauses about the order of the variables."""
         if self.orders:
             for a, b, c in triangles(self._graph()):
                 for x, y, z in permutations((a, b, c)):
@@ -206,11 +205,11 @@ class Measures:
         return self._at_most(x, y)
 
     def measures(self) -> Iterator[str]:
-        """Every measure that a comparison speaks of."""
+        """Every measure in a comparison."""
         yield from self._seen
 
     def assumptions(self, values: Mapping[str, Rational | str]) -> Iterator[int]:
-        """The literals that measures of these values make true. A measure without a value gives none."""
+        """The literals that are true for measures with these values. A measure without a value gives none."""
         known = {**values, **self._results(values)}
         for name, cuts in self.cuts.items():
             if name in known:
@@ -223,7 +222,7 @@ class Measures:
                 yield variable if values[x] <= values[y] else -variable  # type: ignore[operator]
 
     def _results(self, values: Mapping[str, Rational | str]) -> dict[str, Rational]:
-        """What the calculations come to whose measures all have values."""
+        """The results of the calculations whose measures all have values."""
         numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
         return {
             name: calculated.value(numbers)
@@ -232,10 +231,10 @@ class Measures:
         }
 
     def decode(self, model: Callable[[int], bool]) -> dict[str, Rational | str] | list[int]:
-        """Values that lie in the regions that `model` chose; numbers are whole where they can be.
+        """Values in the regions that `model` chose, whole numbers where possible.
 
-        Returns instead a clause that the model breaks and that holds of all whole numbers, where the order it chose
-        leaves integers no room, or calculations cannot come to what it chose. Raises Undecided where that is not known.
+        If the order leaves no room for integers, or calculations cannot have the chosen results, it returns a clause
+        that excludes the model and holds for all whole numbers. Raises `Undecided` if this is unknown.
         """
         values = self._placed(model)
         if not self.calculations or isinstance(values, list):
@@ -255,10 +254,10 @@ class Measures:
         return values
 
     def refused(self, model: Callable[[int], bool], proving: bool = False) -> list[int] | None:
-        """The clause that `decode` returns, if it returns one.
+        """The clause that `decode` returns, if any.
 
-        Raises Undecided as it does, and, if `proving`, where only arithmetic gives the clause, as of that there is no
-        proof.
+        Raises `Undecided` as `decode` does, and, with `proving`, if the clause follows only from arithmetic, because
+        there is no proof of it.
         """
         if not (self.orders or self.calculations):
             return None
@@ -274,8 +273,8 @@ class Measures:
     def _calculated(
         self, model: Callable[[int], bool], values: Mapping[str, Rational | str]
     ) -> dict[str, Rational] | list[int]:
-        """Values, near `values` if such are found, for the measures that calculations are made of and those that are
-        tied to them; or literals of the model that none go with."""
+        """Values, near `values` if possible, for the measures in calculations and those connected with them; or
+        literals of the model that are inconsistent."""
         from sleec_verify.encoding.arithmetic import values_for
         from sleec_verify.encoding.local_search import search_nearby
 
@@ -296,7 +295,7 @@ class Measures:
         return self._decoded[asked]
 
     def _chosen(self, names: Iterable[str], model: Callable[[int], bool]) -> list[tuple[str, Rational, bool, int]]:
-        """The cuts of measures and calculations, each with the literal that the model makes true."""
+        """The cuts of measures and calculations, each with its literal in the model."""
         return [
             (name, cut.value, cut.inclusive, variable if model(variable) else -variable)
             for name in names
@@ -304,7 +303,7 @@ class Measures:
         ]
 
     def _placed(self, model: Callable[[int], bool]) -> dict[str, Rational | str] | list[int]:
-        """Values by the regions and orders of the measures, with no eye to what is calculated from them."""
+        """Values by the regions and orders of the measures, regardless of calculations."""
         from sleec_verify.encoding.order import place
 
         clustered = {name for pair in self.orders for name in pair}

@@ -1,4 +1,4 @@
-"""The names that stand outside conditions and responses: in windows, concerns, purposes and relations."""
+"""The names outside conditions and responses: in windows, concerns, purposes and relations."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from sleec_verify.encoding.relations import events_of, formulas_of_relation
 
 
 def names_beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Length]]:
-    """The events and formulas of concerns, purposes and relations, and all lengths of time."""
+    """The events and formulas of concerns, purposes and relations, and all lengths of windows."""
     events: set[str] = set()
     formulas: list[Formula] = []
     lengths: list[Length] = []
@@ -40,7 +40,7 @@ def names_beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[
 
 
 def add_claim(claim: Claim, events: set[str], formulas: list[Formula], lengths: list[Length]) -> None:
-    """Add the events, formulas and lengths of time of a concern or purpose."""
+    """Add the events, formulas and lengths of windows of a concern or purpose."""
     events.add(claim.event)
     if claim.condition is not None:
         formulas.append(claim.condition)

@@ -1,4 +1,4 @@
-"""Where names are used: what the checks on the text need to know."""
+"""The uses of names, for checks of the text."""
 
 from __future__ import annotations
 
@@ -45,13 +45,13 @@ def formulas_beside_rules(ruleset: Ruleset) -> list[Formula]:
 
 
 def events_of_rules(ruleset: Ruleset) -> set[str]:
-    """The events that trigger rules, or that rules call for or forbid."""
+    """The events that trigger rules, or that rules require or forbid."""
     triggers = {rule.trigger for rule in ruleset.rules}
     return triggers | {o.name for rule in ruleset.rules for clause in rule.clauses() for o in literals(clause)}
 
 
 def _beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Length]]:
-    """The events and formulas of concerns, purposes and relations, and what the lengths of all windows are."""
+    """The events and formulas of concerns, purposes and relations, and the lengths of all windows."""
     if not ruleset.is_timed:
         return set(), [], []
     from sleec_verify.encoding.mentioned_names import names_beside_rules
@@ -60,8 +60,8 @@ def _beside_rules(ruleset: Ruleset) -> tuple[set[str], list[Formula], list[Lengt
 
 
 def names_used(ruleset: Ruleset) -> dict[DeclaredKind, set[str]]:
-    """The names that rules and constraints use, by kind; measures count as conditions, and an event is used wherever
-    it stands."""
+    """The names that rules and constraints use, by kind. Measures count as conditions. An event counts wherever it
+    is used."""
     used: dict[DeclaredKind, set[str]] = {"trigger": set(), "condition": set(), "obligation": set()}
     events, _, lengths = _beside_rules(ruleset)
     used["condition"].update(name for length in lengths for name in length.measures)
@@ -94,7 +94,7 @@ def constants_used(ruleset: Ruleset) -> set[str]:
                     if isinstance(side, Number) and side.constant is not None:
                         used.add(side.constant)
                     elif isinstance(side, ScaleValue):
-                        # A constant that a scale is compared with is a defect, and used.
+                        # Comparing a scale with a constant is an error, but a use.
                         used.add(side.value)
     return used
 

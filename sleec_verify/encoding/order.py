@@ -1,4 +1,4 @@
-"""Numbers for an order: values of measures that are compared with constants and with one another."""
+"""Values of measures that are compared with constants and with each other, for a given order."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from sleec_runtime.model import Rational
 from sleec_verify.encoding.budget import spend
 
 _ZERO = ""
-"""The node that stands for the number 0; no measure has an empty name."""
+"""The node of the number 0. No measure has an empty name."""
 
 _PER_EDGE = 0.4
-"""Steps of a budget to look at one constraint once."""
+"""Budget steps for one visit of one constraint."""
 
 
 class _Edge(NamedTuple):
-    """``target - source <= length``, as `literal` says."""
+    """``target - source <= length``, if `literal` is true."""
 
     source: str
     target: str
@@ -30,17 +30,17 @@ def place(
     cuts: Sequence[tuple[str, Rational, bool, int]],
     orders: Sequence[tuple[str, str, int]],
 ) -> dict[str, Rational] | list[int]:
-    """Values for the measures `integral` (name to whether it must be whole) that satisfy every literal given.
+    """Values for the measures `integral` (name to whether it must be whole) that satisfy every given literal.
 
-    A cut ``(x, c, inclusive, literal)`` says ``x < c`` (``x <= c`` if inclusive) where the literal is positive and the
-    opposite where it is negative; an order ``(x, y, literal)`` says ``x <= y`` or ``x > y`` likewise. Returns the
-    literals of a minimal contradiction if there are no such values. Difference constraints: a strict bound between two
-    whole numbers is one of at least 1, any other is strict by a step small enough for all chains. O(n·m), and O(n·c²)
-    for a contradiction, with c constraints on a cycle; c is m in the worst case.
+    A cut ``(x, c, inclusive, literal)`` says ``x < c`` (``x <= c`` if inclusive) if the literal is positive, and the
+    opposite if it is negative. An order ``(x, y, literal)`` says ``x <= y`` or ``x > y`` likewise. Returns the literals
+    of a minimal contradiction if there are no such values. Uses difference constraints: a strict bound between two
+    whole numbers is a bound of 1, and any other is strict by a step that is small enough for all chains. O(n·m), and
+    O(n·c²) for a contradiction with c constraints on a cycle; c is m in the worst case.
     """
-    # Lengths are counted in units so fine that each is a whole number of them.
+    # Lengths are integer multiples of a small unit.
     unit = 2 * (len(integral) + 1) * lcm(*(value.denominator for _, value, _, _ in cuts))
-    # Whole steps read better where they fit; the fine one decides.
+    # Prefer whole steps if they fit. The small step decides.
     for step in (unit, 1):
         edges = _edges(integral, cuts, orders, unit, step)
         found = _potentials(integral, edges, unit)
@@ -48,7 +48,7 @@ def place(
             return {name: _number(value, unit) for name, value in found.items()}
         needed = found
     if isinstance(_potentials(integral, needed, unit), dict):
-        # Where numbers are made whole on the way, a cycle may come to rest.
+        # With rounding, a cycle may converge.
         needed = edges
     for edge in tuple(needed):
         without = [kept for kept in needed if kept is not edge]
@@ -88,8 +88,8 @@ def _edges(
 
 
 def _potentials(integral: Mapping[str, bool], edges: Sequence[_Edge], unit: int) -> dict[str, int] | list[_Edge]:
-    """The greatest values that keep every edge (Bellman and Ford, made whole where they must be); if there are none, a
-    cycle on which they fell, which is most likely why."""
+    """The greatest values that satisfy every edge (Bellman and Ford, rounded where they must be whole). If there
+    are none, a cycle on which they decreased, which is probably the reason."""
     whole = {**integral, _ZERO: True}
     distance = dict.fromkeys(whole, 0)
     by: dict[str, _Edge] = {}

@@ -1,4 +1,4 @@
-"""Regions of a measure: the stretches of its values that comparisons with constants can distinguish."""
+"""Regions of a measure: the ranges of values that comparisons with constants distinguish."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ if TYPE_CHECKING:
 
 
 class Cut(NamedTuple):
-    """The variable of "below this": ``measure < value``, or ``measure <= value`` where `inclusive`. For a scale the
-    value is a rank."""
+    """The variable of ``measure < value``, or of ``measure <= value`` if `inclusive`. For a scale, the value is a
+    rank."""
 
     value: Rational
     inclusive: bool
 
 
 def pick_between(low: Cut | None, high: Cut | None) -> Rational:
-    """A number not below `low` and below `high`, whole and near a bound where there is one: 17 for "below 18"."""
+    """A number not below `low` and below `high`, whole and near a bound if possible: 17 for "below 18"."""
     from math import ceil, floor
 
     if low is None and high is None:
@@ -51,7 +51,7 @@ def _shortest_decimal(low: Fraction, high: Fraction) -> Fraction:
 
 
 def cut_at(measure: Measure, value: Rational, inclusive: bool) -> Cut:
-    """The cut of ``measure < value`` (``<=`` if inclusive); one that no whole number tells from another is the same."""
+    """The cut of ``measure < value`` (``<=`` if inclusive). Cuts that no whole number distinguishes are the same."""
     if measure.kind != "integer":
         return Cut(value, inclusive)
     from math import ceil, floor

@@ -1,6 +1,6 @@
 """Relations and constraints: the events and formulas that they mention, and their meaning at one instant.
 
-Here a relation is any statement of a ruleset that binds every trace besides the rules: `Relation`, `Exclusive`,
+Here a relation is any statement of a ruleset that binds every trace in addition to the rules: `Relation`, `Exclusive`,
 `Never` and `Assume`.
 """
 
@@ -104,8 +104,8 @@ def formula_at_one_instant(relation: Relation) -> Formula:
 
 
 def relations_on_situations(ruleset: Ruleset) -> Iterator[tuple[TimedRelation, Formula]]:
-    """The relations that exclude situations whatever else occurs, before and after; each with a formula that is false
-    in those."""
+    """The relations that exclude situations for all events before and after, each with a formula that is false in
+    them."""
     for relation in ruleset.statements:
         is_exclusion = isinstance(relation, EventRelation) and relation.relation == "mutualExclusive"
         is_effect = isinstance(relation, Effect) and relation.relation != "causation"

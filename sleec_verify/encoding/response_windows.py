@@ -1,4 +1,4 @@
-"""The responses of a clause with their windows as times, and what is due in place of what was not done."""
+"""The responses of a clause with their windows in seconds, and their alternatives."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from sleec_verify.encoding.trace_scope import Untimed
 
 @dataclass(frozen=True)
 class WindowedResponse:
-    """One response with its window, in seconds from the trigger. No `end`: at some time. `unknown` is a length that a
-    measure says which is not given; then there are no times.
+    """One response with its window, in seconds from the trigger. Without an `end`, it is due at some time. `unknown` is
+    a length that depends on a missing measure; then there are no times.
 
-    `instead` is the response that it is due in place of: once that was not kept in time (`overdue`), or at any time.
+    `instead` is the response that it replaces: if that was not met in time (`overdue`), or as a choice.
     """
 
     obligation: Obligation
@@ -30,7 +30,7 @@ class WindowedResponse:
 
 @dataclass(frozen=True)
 class _Since:
-    """Since when a response counts, and what it is due in place of."""
+    """The start of the window of a response, and the response that it replaces."""
 
     time: int = 0
     unknown: str | None = None
@@ -39,7 +39,7 @@ class _Since:
 
 
 class ResponseWindows:
-    """The windows of responses in one situation, which decides hedges of what is due in place of others."""
+    """The windows of responses in one situation, which decides the hedges of alternatives."""
 
     def __init__(self, ruleset: Ruleset, context: Context, untimed: Untimed) -> None:
         self._ruleset = ruleset
@@ -47,7 +47,7 @@ class ResponseWindows:
         self._untimed = untimed
 
     def of(self, clause: Clause) -> Iterator[WindowedResponse]:
-        """The responses of a clause that decides, each before those in its place."""
+        """The responses of a clause that decides, each before its alternatives."""
         for obligation in clause.obligations:
             yield from self._obligation(obligation, _Since())
 
@@ -87,7 +87,7 @@ class ResponseWindows:
             yield from self._obligation(obligation, since)
 
     def _deciding(self, clause: Clause) -> Clause:
-        """The clause of a chain of its own that decides in the situation."""
+        """The clause of a separate chain that decides in the situation."""
         if not clause.hedges:
             return clause
         encoder = Encoder(self._ruleset.measures, frozenset(self._ruleset.measures) - set(self._context.conditions))
@@ -99,7 +99,7 @@ class ResponseWindows:
             return next(c for c, literal in zip(in_text_order(clause), decides) if solver.holds(literal))
 
     def _seconds(self, length: Length) -> float | None:
-        """A length in seconds; where measures say it, by the situation, and None if one of them is not given there."""
+        """A length in seconds. If it depends on measures, the situation gives their values; None if one is missing."""
         values = {}
         for name in length.measures:
             given = self._context.conditions.get(name)

@@ -1,6 +1,6 @@
-"""A SAT solver behind four calls, so that another can take its place. The one in use is python-sat's.
+"""A SAT solver behind a small interface. The implementation is MiniSat of python-sat.
 
-A solver says yes, no, or None where it gave up: unknown is an answer, never an exception swallowed.
+An answer is yes, no, or None if the solver gave up.
 """
 
 from __future__ import annotations
@@ -17,39 +17,38 @@ from sleec_verify.encoding.budget import Budget, Undecided, current, spend
 __all__ = ["CONFLICT_BUDGET", "MiniSat", "Recorder", "Solver", "Undecided"]
 
 CONFLICT_BUDGET = 500_000
-"""Conflicts after which a question is given up. Questions about rules that people write need a few dozen."""
+"""The maximal number of conflicts of a question. Questions about rules that people write need a few dozen."""
 
 SLICE = 100_000
-"""Propagated literals after which a solver at work first looks at the clock, if there is a timeout. It is twice as many
-each time, as a solver loses its course at each look."""
+"""Propagated literals before the first check of the clock, if there is a timeout. The number doubles each time,
+because each check disturbs the search."""
 
 PER_SECOND = 1_000_000
-"""Propagated literals that no machine takes much longer for than a second."""
+"""Propagated literals that no machine needs much longer than a second for."""
 
 PER_CONFLICT, PER_LITERAL, PER_CLAUSE, PER_QUESTION = 8, 0.1, 1.5, 30
-"""Steps of a budget for a conflict, for a propagated literal, for a clause that is built and added, and for a
-question."""
+"""Budget steps for a conflict, for a propagated literal, for a clause that is built and added, and for a question."""
 
 
 class Solver(Protocol):
-    """What the verifier needs of a solver. Literals are non-zero integers, a negative one is a negation."""
+    """The interface of a solver. Literals are non-zero integers, and a negative one is a negation."""
 
     def add(self, clauses: Collection[Sequence[int]]) -> None: ...
 
     def solve(self, assumptions: Sequence[int] = ()) -> bool | None:
-        """Whether the clauses and assumptions have a model; None if that was not decided."""
+        """Whether the clauses and assumptions have a model; None if undecided."""
         ...
 
     def holds(self, literal: int) -> bool:
-        """Whether a literal is true in the model that the last `solve` found."""
+        """Whether a literal is true in the model of the last `solve`."""
         ...
 
     def core(self) -> list[int]:
-        """Assumptions that suffice for the last `solve` to have failed."""
+        """Assumptions that are sufficient for the last `solve` to be unsatisfiable."""
         ...
 
     def propagate(self, assumptions: Sequence[int]) -> tuple[bool, list[int]]:
-        """Unit propagation alone: whether it met no contradiction, and the literals that the assumptions make true."""
+        """Unit propagation: whether it found no contradiction, and the literals that the assumptions make true."""
         ...
 
     def __enter__(self) -> Solver: ...
@@ -60,8 +59,7 @@ class Solver(Protocol):
 
 
 class Recorder(Protocol):
-    """What is told of every question that a check asks, once it is answered. A list of clauses stands for itself: it
-    is the same question's as long as it is the same list."""
+    """Receives every question of a check after its answer. The identity of a list of clauses identifies the formula."""
 
     def refuted(self, clauses: Sequence[Sequence[int]], literals: Sequence[int]) -> None:
         """No model of the clauses makes all these literals true."""
@@ -75,10 +73,10 @@ class Recorder(Protocol):
 
 
 class MiniSat:
-    """MiniSat 2.2 by python-sat: the quickest to set up and to take down, and most questions are small.
+    """MiniSat 2.2 of python-sat, which is the fastest to create and to close, and most questions are small.
 
-    python-sat's module of C functions is called directly: its class for each of its twenty solvers takes longer to
-    import than eight rules take to check, and as long to call as a small question takes to answer.
+    The module of C functions of python-sat is called directly. Its class for its twenty solvers takes longer to import
+    than a check of eight rules, and as long to call as a small question.
     """
 
     def __init__(self, clauses: Collection[Sequence[int]] = (), budget: int | None = None) -> None:
@@ -86,7 +84,7 @@ class MiniSat:
         self._most_conflicts = CONFLICT_BUDGET if budget is None else budget
         pysolvers.minisat22_cbudget(self._solver, self._most_conflicts)
         self._conflicts = self._literals = 0
-        # Signals reach the main thread only, and only there may the solver set its handler.
+        # Signals reach only the main thread, and only there the solver may set its handler.
         self._interruptible = int(current_thread() is main_thread())
         self._model: list[int] = []
         self.add(clauses)
@@ -113,7 +111,7 @@ class MiniSat:
         return answer
 
     def _solve_within(self, budget: Budget, assumptions: Sequence[int]) -> bool | None:
-        """Solve, or raise OutOfBudget when the budget is spent."""
+        """Solve, or raise `OutOfBudget` if the budget is spent."""
         solver, slice_ = self._solver, SLICE
         budget.spend(PER_QUESTION)
         while True:
@@ -123,7 +121,7 @@ class MiniSat:
             else:
                 conflicts = min(conflicts, int(budget.steps / PER_CONFLICT))
                 literals = int(budget.steps / PER_LITERAL)
-            # One at least, as 0 is no limit.
+            # At least 1, because 0 means no limit.
             pysolvers.minisat22_cbudget(solver, conflicts + 1)
             pysolvers.minisat22_pbudget(solver, literals + 1)
             answer = self._solve(assumptions)
@@ -138,7 +136,7 @@ class MiniSat:
 
     def holds(self, literal: int) -> bool:
         variable = abs(literal)
-        # A variable that stands in no clause has no value; false serves.
+        # A variable without clauses has no value; use false.
         true = variable <= len(self._model) and self._model[variable - 1] > 0
         return true == (literal > 0)
 
@@ -159,7 +157,7 @@ class MiniSat:
         self.close()
 
     def close(self) -> None:
-        """Give back the memory. Nothing can be asked afterwards."""
+        """Free the memory. The solver cannot be used afterwards."""
         if self._solver is not None:
             pysolvers.minisat22_del(self._solver)
             self._solver = None

@@ -1,4 +1,4 @@
-"""A statement with each of its formulas, or chains of hedges, changed: those of alternatives and claims too."""
+"""A statement with each of its formulas or chains of hedges changed, including those of alternatives and claims."""
 
 from __future__ import annotations
 

@@ -37,8 +37,8 @@ class AssumptionSlicing:
             for name in set(names_in(formula)):
                 self._naming.setdefault(name, []).append(at)
         self.anywhere = self._grown(set(kept), list(range(len(self.formulas))))
-        """The triggers that may have to occur in every question: those `kept`, and those that may have to occur without
-        any other trigger."""
+        """The triggers that may have to occur in every question: those `kept`, and those that may have to occur
+        without any other trigger."""
 
     def occurring_with(self, triggers: Iterable[str]) -> set[str]:
         """The triggers that may have to occur with these, including themselves and `anywhere`."""

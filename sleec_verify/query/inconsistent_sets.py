@@ -33,7 +33,8 @@ class InconsistentSet:
 
     @property
     def situation(self) -> Formula:
-        """The situations in which the literals are inconsistent, as one formula over triggers, conditions and measures."""
+        """The situations in which the literals are inconsistent, as one formula over triggers, conditions and
+        measures."""
         return conjunction(sorted(self.labels, key=repr))
 
 
@@ -85,7 +86,8 @@ class InconsistentSets:
         return [frozenset(exclusion.literals) for exclusion in self.exclusions]
 
     def among(self, literals: Collection[Obligation]) -> InconsistentSets:
-        """The sets that consist of these literals. O(the literals, and the sets whose smallest literal is one of them)."""
+        """The sets that consist of these literals. O(the literals, and the sets whose smallest literal is one of
+        them)."""
         # Sorted, so that the same rules give the same clauses.
         ordered = sorted(set(literals), key=str)
         known = set(ordered)

@@ -1,5 +1,5 @@
-"""A question over all contexts: a formula that grows from the relevant clauses, asked of a solver, with a situation as
-its answer."""
+"""A question over all contexts: a formula that grows from the relevant clauses, asked of a solver, with a situation
+as its answer."""
 
 from __future__ import annotations
 

@@ -82,8 +82,8 @@ def _shapes(_: RulesetIndex) -> dict[int, Shape | None]:
 
 
 def shape_of_rule(rule: Rule, measures: Mapping[str, Measure]) -> Shape | None:
-    """The shape of a rule: of its conditions, and of which clauses oblige the same. None if `shape_of` is None, or for
-    a rule with nested chains or times."""
+    """The shape of a rule: of its conditions, and of which clauses oblige the same. None if `shape_of` is None, or
+    for a rule with nested chains or times."""
     clauses = (rule.default, *rule.hedges)
     due: dict[Obligation, int] = {}
     same = []

@@ -38,8 +38,8 @@ class RulesetIndex(Memo):
     def __init__(
         self, ruleset: Ruleset, recorder: Recorder | None = None, untimed: Untimed = "at", chains: bool = True
     ) -> None:
-        """`recorder` gets every question about the ruleset. `untimed` is the meaning of a response without a window in
-        rules with time. With `chains`, an obligation triggers the rules of that name."""
+        """`recorder` gets every question about the ruleset. `untimed` is the meaning of a response without a window
+        in rules with time. With `chains`, an obligation triggers the rules of that name."""
         super().__init__()
         self.ruleset = ruleset
         self.rules = ruleset.rules
@@ -135,8 +135,8 @@ class RulesetIndex(Memo):
         return [a for a in self.assumptions if not is_true_in_empty_context(a.formula)]
 
     def assumptions_that_may_break(self, context: Context) -> list[Assume]:
-        """All assumptions that `context` can violate. Any other assumption has the same value as in the empty context,
-        because it names nothing in `context`."""
+        """All assumptions that `context` can violate. Any other assumption has the same value as in the empty
+        context, because it names nothing in `context`."""
         names = [
             *(("trigger", name) for name in context.triggers),
             *(("condition", name) for name in context.conditions),

@@ -17,8 +17,8 @@ class Impossible(Exception):
 
 
 class Propagation(NamedTuple):
-    """The literals that each situation must name in which a formula is known to be true, and the parts that they leave
-    open: disjunctions, and comparisons of measures."""
+    """The literals that each situation must name in which a formula is known to be true, and the parts that they
+    leave open: disjunctions, and comparisons of measures."""
 
     literals: Literals
     open_parts: list[Formula]
@@ -36,8 +36,8 @@ class Propagation(NamedTuple):
 
 
 def propagate_units(formula: Formula) -> Propagation:
-    """The consequences of the formula. Raises `Impossible` if it is never true. O(size of the formula) for each round
-    of propagation."""
+    """The consequences of the formula. Raises `Impossible` if it is never true. O(size of the formula) for each
+    round of propagation."""
     known: Literals = {}
     open_: list[_Part] = [(formula, True)]
     waiting: list[_Part] = []
