@@ -1,10 +1,10 @@
-"""Dispatchers: how an instance answers triggers. `ImmediateDispatcher` is the one for rules without times."""
+"""The dispatcher of an instance, for rules without times."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from sleec_runtime.dispatch.decisions import due_in
 from sleec_runtime.dispatch.execution import plan, run, run_async
@@ -27,46 +27,12 @@ State = Callable[[], tuple[Snapshot, Instance]]
 _UNOBSERVED = nullcontext()
 
 
-class Dispatcher(Protocol):
-    """Answers the triggers of an instance. The methods are those of `Sleec`, with checked arguments."""
+class Dispatcher:
+    """Answers the triggers of an instance. The methods are those of `Sleec`, with checked arguments.
 
-    def trigger(
-        self,
-        snapshot: Snapshot,
-        names: tuple[str, ...],
-        args: tuple[Any, ...],
-        kwargs: dict[str, Any],
-        monitor: Monitor | None,
-    ) -> Done: ...
-
-    async def trigger_async(
-        self,
-        snapshot: Snapshot,
-        names: tuple[str, ...],
-        args: tuple[Any, ...],
-        kwargs: dict[str, Any],
-        monitor: Monitor | None,
-    ) -> Done: ...
-
-    def due(self, snapshot: Snapshot, names: tuple[str, ...]) -> Due: ...
-
-    def completed(self, obligation: str) -> tuple[Pending, ...]: ...
-
-    def pending(self) -> tuple[Pending, ...]: ...
-
-    def failures(self) -> tuple[Failure, ...]: ...
-
-    def pending_snapshot(self, saved_at: Time) -> dict[str, Any]: ...
-
-    def restore(self, data: Mapping[str, Any], world: Time) -> tuple[Pending, ...]: ...
-
-    def tick(self) -> None: ...
-
-    def close(self) -> None: ...
-
-
-class ImmediateDispatcher:
-    """Dispatches rules without times: all obligations are executed at once, so that nothing is ever pending."""
+    This one is for rules without times: it executes all obligations at once, so that nothing is pending.
+    `TimedDispatcher` extends it.
+    """
 
     def __init__(self, state: State) -> None:
         self._state = state

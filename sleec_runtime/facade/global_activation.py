@@ -7,42 +7,22 @@ all active layers (about 0.5 µs each).
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 from types import TracebackType
-from typing import Protocol
 
 import contextpy3
 
 from sleec_runtime.concurrency.critical_section import CriticalSection
 from sleec_runtime.dispatch.decisions import due_in
-from sleec_runtime.dispatch.layers import Layers, RuleLayer
+from sleec_runtime.dispatch.layers import RuleLayer
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import SleecError
 from sleec_runtime.evaluation.hedge_chain import Decision
+from sleec_runtime.facade.host import Host
 from sleec_runtime.model import Rule, require_untimed
-
-Listener = Callable[[Snapshot, Snapshot, "tuple[Rule, ...]"], None]
-"""Gets each change: the context before, the context after, and the rules whose outcomes were computed again."""
 
 # ContextPy3 has one tuple of global layers for the process, and reads and writes it without a lock.
 _GLOBAL_LAYERS = CriticalSection()
-
-
-class Host(Protocol):
-    """What global activation needs of an instance: a `Sleec`."""
-
-    @property
-    def layers(self) -> Layers: ...
-
-    @property
-    def activated_globally(self) -> bool: ...
-
-    def allow_calls(self) -> None: ...
-
-    def hold(self, act: Callable[[Snapshot], None]) -> None: ...
-
-    def listen(self, listener: Listener, objection: Listener | None = None) -> Callable[[], None]: ...
 
 
 class GlobalActivation:

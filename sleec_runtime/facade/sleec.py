@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from sleec_runtime.concurrency.critical_section import CriticalSection, exclusive
+from sleec_runtime.concurrency.critical_section import exclusive
 from sleec_runtime.dispatch.decisions import trigger_outcomes
 from sleec_runtime.dispatch.instance import Instance
-from sleec_runtime.dispatch.layers import Layers
 from sleec_runtime.dispatch.required_code import missing
 from sleec_runtime.dispatch.rule_index import RuleIndex
 from sleec_runtime.dispatch.snapshot import Conditions, Snapshot
-from sleec_runtime.errors import NotBound, SleecError, UnknownObligation
+from sleec_runtime.errors import NotBound, UnknownObligation
 from sleec_runtime.evaluation.due import Due, broken_assumptions
 from sleec_runtime.facade import arguments
-from sleec_runtime.facade.dispatcher import Dispatcher, ImmediateDispatcher
+from sleec_runtime.facade.dispatcher import Dispatcher
 from sleec_runtime.facade.done import Done
-from sleec_runtime.facade.global_activation import GlobalActivation, Listener
-from sleec_runtime.model import Assume, Measure, Reading, Rule, Ruleset
+from sleec_runtime.facade.global_activation import GlobalActivation
+from sleec_runtime.facade.host import Host
+from sleec_runtime.model import Assume, Measure, Reading, Ruleset
 from sleec_runtime.support.messages import listed
 
 if TYPE_CHECKING:
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from types import TracebackType
 
     from sleec_runtime.certificate.coverage import Demand
-    from sleec_runtime.monitor.monitor import Monitor
     from sleec_runtime.timed.clock import Clock, Time
     from sleec_runtime.timed.failures import Failure
     from sleec_runtime.timed.pending import Pending
@@ -34,7 +33,7 @@ if TYPE_CHECKING:
 F = TypeVar("F")
 
 
-class Sleec:
+class Sleec(Host):
     """A CO-SLEEC instance (paper, Section 3.2) with its current context.
 
     All methods are thread-safe. A dispatch reads one reference and never waits; changes hold a lock. `domain` leaves
@@ -83,13 +82,8 @@ class Sleec:
         arguments.check_clock(clock)
         self._clock = clock
         self._on_error = on_error
-        self._section = CriticalSection()
-        self._listeners: list[Listener] = []
-        self._objections: list[Listener] = []
-        self._monitor: Monitor | None = None
-        self._snapshot = Snapshot.first(index, {})
-        self._instance = Instance(whole)
-        self._dispatcher = self._dispatcher_for(index, ImmediateDispatcher(self._state))
+        super().__init__(Snapshot.first(index, {}), Instance(whole))
+        self._dispatcher = self._dispatcher_for(index, Dispatcher(self._state))
 
     # State --------------------------------------------------------------------------------------
 
@@ -102,11 +96,6 @@ class Sleec:
     def domain(self) -> str | None:
         """The domain of the rules in force; None for all domains."""
         return self._snapshot.index.domain
-
-    @property
-    def layers(self) -> Layers:
-        """L: the layers by name, for ``@cop.around(sleec.layers["dress_assist.hc1"])``. Raises UnknownLayer."""
-        return self._instance.layers
 
     @property
     def conditions(self) -> Conditions:
@@ -339,53 +328,6 @@ class Sleec:
         UnsupportedTimes for rules with times, and as `GlobalActivation.start`."""
         return GlobalActivation(self).start()
 
-    # For other rooms of the runtime ---------------------------------------------------------------------
-
-    def listen(self, listener: Listener, objection: Listener | None = None) -> Callable[[], None]:
-        """Calls `listener` after each change of context, before the next one. Returns a function that ends this.
-
-        `objection` is called before each change. If it raises, nothing changes.
-        """
-        self._listeners.append(listener)
-        if objection is not None:
-            self._objections.append(objection)
-
-        def end() -> None:
-            self._listeners.remove(listener)
-            if objection is not None:
-                self._objections.remove(objection)
-
-        return end
-
-    @exclusive
-    def hold(self, act: Callable[[Snapshot], None]) -> None:
-        """Calls `act` with the current context, which does not change meanwhile: changes wait, dispatches do not."""
-        act(self._snapshot)
-
-    def attach(self, monitor: Monitor) -> None:
-        """Lets `monitor` observe each dispatch; call it within `hold`. Raises SleecError if another monitor does."""
-        if self._monitor is not None:
-            raise SleecError("a monitor is already on", "stop() it first")
-        self._monitor = monitor
-
-    def detach(self, monitor: Monitor) -> None:
-        """Undoes `attach`."""
-        if self._monitor is monitor:
-            self._monitor = None
-
-    @property
-    def activated_globally(self) -> bool:
-        """Whether global activation is on. Nothing else objects to changes."""
-        return bool(self._objections)
-
-    def allow_calls(self) -> None:
-        """Makes plain calls of bound methods do what a dispatch does. Raises Unbindable for a method that cannot."""
-        self._instance.allow_calls(self.ruleset.rules)
-
-    def bound_objects(self) -> list[object]:
-        """The objects whose methods are bound to rules."""
-        return self._instance.objects()
-
     def _dispatcher_for(self, index: RuleIndex, current: Dispatcher) -> Dispatcher:
         """The dispatcher for `index`: the `current` one, or a timed one from the first rules with times on. Raises
         UnsupportedTimes."""
@@ -394,14 +336,11 @@ class Sleec:
         from sleec_runtime.timed.unenforced_constructs import has_times, name_limits
 
         name_limits(index.ruleset, self._chains, self._strict_times)
-        if not isinstance(current, ImmediateDispatcher) or not (self._chains or has_times(index.ruleset)):
+        if type(current) is not Dispatcher or not (self._chains or has_times(index.ruleset)):
             return current
         from sleec_runtime.facade.timed_dispatcher import TimedDispatcher
 
         return TimedDispatcher(self._state, self._clock, self._chains, self._on_error)
-
-    def _state(self) -> tuple[Snapshot, Instance]:
-        return self._snapshot, self._instance
 
     def _plan_anew(self, labels: Iterable[str]) -> None:
         by_label = self.ruleset.by_label
@@ -432,18 +371,6 @@ class Sleec:
         self._watch_bound(instance, index)
         dispatcher = self._dispatcher_for(index, self._dispatcher)
         # In one step, so that a signal handler sees all of it or nothing. A dispatch reads `_snapshot` before
-        # `_dispatcher`, so that an immediate dispatcher never gets rules with times.
+        # `_dispatcher`, so that a dispatcher without a clock never gets rules with times.
         vars(self).update(_snapshot=after, _instance=instance, _demand=demand, _dispatcher=dispatcher)
         self._tell(before, after, index.ruleset.rules)
-
-    def _watch_bound(self, instance: Instance, index: RuleIndex) -> None:
-        if self._monitor is not None:
-            self._monitor.watch(instance.objects(), index.whole.obligations)
-
-    def _object(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
-        for objection in self._objections:
-            objection(before, after, rules)
-
-    def _tell(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
-        for listener in tuple(self._listeners):
-            listener(before, after, rules)

@@ -10,7 +10,7 @@ from typing import Any
 from sleec_runtime.dispatch.execution import one_of
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.evaluation.due import Due
-from sleec_runtime.facade.dispatcher import State
+from sleec_runtime.facade.dispatcher import Dispatcher, State
 from sleec_runtime.facade.done import Done
 from sleec_runtime.monitor.monitor import Monitor
 from sleec_runtime.timed.clock import Clock, Time
@@ -21,7 +21,7 @@ from sleec_runtime.timed.run import Run
 from sleec_runtime.timed.scheduler import Scheduler
 
 
-class TimedDispatcher:
+class TimedDispatcher(Dispatcher):
     """Dispatches rules with times. Without a `clock` it has its own `MonotonicClock`, which `close` stops.
 
     With `chains`, a response is an event that triggers rules. `on_error` gets each failure of what the clock starts.
@@ -30,6 +30,7 @@ class TimedDispatcher:
     def __init__(
         self, state: State, clock: Clock | None, chains: bool, on_error: Callable[[Failure], object] | None
     ) -> None:
+        super().__init__(state)
         self._own_clock: MonotonicClock | None = None
         if clock is None:
             clock = self._own_clock = MonotonicClock()

@@ -14,7 +14,7 @@ from functools import partial
 from sleec_runtime.dispatch.plan import Plan
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.evaluation.formula_truth import holds
-from sleec_runtime.facade.dispatcher import ImmediateDispatcher
+from sleec_runtime.facade.dispatcher import Dispatcher
 from sleec_runtime.model import Atom, Comparison, Rule, Ruleset
 from sleec_verify.conformance.cases.goals import conditions_of
 from sleec_verify.results.finding import ClauseRef
@@ -73,9 +73,9 @@ class ClauseCoverage:
         self._undo: list[Callable[[], None]] = []
 
     def start(self) -> None:
-        original = ImmediateDispatcher.plan
+        original = Dispatcher.plan
 
-        def noted(dispatcher: ImmediateDispatcher, snapshot: Snapshot, names: tuple[str, ...]) -> Plan:
+        def noted(dispatcher: Dispatcher, snapshot: Snapshot, names: tuple[str, ...]) -> Plan:
             plan = original(dispatcher, snapshot, names)
             self.note(plan, snapshot)
             return plan
@@ -85,7 +85,7 @@ class ClauseCoverage:
 
     @staticmethod
     def _replace(plan: Callable[..., Plan]) -> None:
-        ImmediateDispatcher.plan = plan  # type: ignore[method-assign]
+        Dispatcher.plan = plan  # type: ignore[method-assign]
 
     def stop(self) -> None:
         for undo in self._undo:
