@@ -1,10 +1,11 @@
-"""Which situations a template does not fit, as a formula: the refinement loop asks for one that no template fits.
+"""The situations that a template does not fit, as a formula. The refinement loop asks for a situation that no template
+fits.
 
 (Counterexample-guided inductive synthesis; A. Solar-Lezama, "Program synthesis by sketching", 2008; for exists-forall
 SMT: B. Dutertre, "Solving exists/forall problems with Yices", 2015.)
 
-A template does not fit because a demand fails or instants are in each other's way. The instants of policies count as
-far as they break something. They meet demands of their own slot only, so that each failure has few slots as its reason.
+A template does not fit because a demand fails or because instants collide. Instants of policies count only as far as
+they violate something. They meet only demands of their own slot, so each failure depends on few slots.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ class _Plan(NamedTuple):
 
 
 class _Timeline(NamedTuple):
-    """The points that can meet a demand, and the others, which can only break one."""
+    """The points that can meet a demand, and the others, which can only violate one."""
 
     fixed: Sequence[Point]
     others: Sequence[Point]
@@ -65,7 +66,8 @@ class Defeat:
         return Point(node, later.seconds, exists, dict.fromkeys(later.events, exists), later)
 
     def _plan(self, slot: Slot, plan: Sequence[Later], fixed: Sequence[Point]) -> _Plan:
-        """The instants of a policy for a slot: they exist if its demand is not met otherwise and all are to come."""
+        """The instants of a policy for a slot. They exist if its demand is not met otherwise and all of them are
+        after now."""
         trigger = Point(slot.node, 0, slot.active, {})
         first = trigger._replace(seconds=min(later.seconds for later in plan))
         (to_come,) = within(self._s, fixed[0], first, 1, None)
@@ -77,7 +79,7 @@ class Defeat:
         )
 
     def _events_now(self, acts: frozenset[str]) -> dict[str, int]:
-        """The least set of events with the inputs, `acts`, and what the selected rules require at once."""
+        """The smallest set of events with the inputs, `acts`, and what the selected rules require at once."""
         index = self._s.index
         found = dict(self._s.inputs)
         found.update(dict.fromkeys(sorted(acts), self._true))
@@ -111,7 +113,8 @@ class Defeat:
     # Times ----------------------------------------------------------------------------------------------------
 
     def _in_the_way(self, fixed: Sequence[Point], plans: Sequence[_Plan]) -> Iterator[int]:
-        """Literals that imply that fixed points are out of order, or that points coincide that cannot be one."""
+        """Literals that imply that fixed points are out of order, or that points coincide that cannot be the same
+        instant."""
         every = self._formula.every
         for earlier, later in combinations(fixed, 2):
             yield every([earlier.exists, later.exists, *within(self._s, later, earlier, 0, None)])
@@ -122,7 +125,7 @@ class Defeat:
                 yield every([point.exists, other.exists, *within(self._s, point, other, 0, 0)])
 
     def _can_be_one(self, one: Later | None, other: Later | None) -> bool:
-        """Whether two instants can be at the same time, with the events of both."""
+        """Whether two instants can coincide, with the events of both."""
         assert one is not None
         assert other is not None
         if one.events == other.events and one.state == other.state:
@@ -162,7 +165,7 @@ class Defeat:
         yield from self._relations.failures(fixed, others)
 
     def _demands(self, points: Sequence[Point], timeline: _Timeline) -> Iterator[int]:
-        """Literals that imply that what the rules triggered at some points demand fails."""
+        """Literals that imply that a demand fails of the rules that are triggered at some points."""
         for point in points:
             assert point.later is not None
             for label, demand in point.later.demands:
@@ -191,8 +194,8 @@ class Defeat:
         return self._formula.any_of(parts) if isinstance(demand, Every) else self._formula.every(parts)
 
     def _occurs(self, timeline: _Timeline, at: Point, what: Occurs) -> int:
-        """A literal that implies an atom, which breaks a demand: an occurrence breaks a prohibition at any point, but
-        meets an obligation only at a fixed one."""
+        """A literal that implies an atom, which violates a demand. An occurrence violates a prohibition at any
+        point, but meets an obligation only at a fixed one."""
         there = []
         for point in [*timeline.fixed, *(() if what.negated else timeline.others)]:
             event = point.events.get(what.event, -self._true)

@@ -1,8 +1,8 @@
-"""Components: the parts of a ruleset that no conflict joins.
+"""Components: the parts of a ruleset that no conflict connects.
 
-Two rules are joined if one requires an event that the other forbids or is triggered by, if one has an event that a
-condition of the other names, or if a relation mentions events of both. A minimal set of rules in conflict lies in one
-component: what other components require can be done at the same time.
+Two rules are joined if one requires an event that the other forbids or is triggered by, if a condition of one names an
+event of the other, or if a relation mentions events of both. A minimal set of rules in conflict is in one component,
+because the requirements of other components can be met at the same time.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def _roots(union: UnionFind, root: object, rules: list[Rule]) -> list[object]:
 
 
 def _contested(index: TraceIndex, rule: Rule) -> Iterator[Obligation]:
-    """The responses at any depth that a conflict can be about."""
+    """The responses at any depth that can be part of a conflict."""
     for clause in rule.clauses():
         try:
             obligations = contested_obligations(index, clause)
@@ -80,7 +80,7 @@ def _contested(index: TraceIndex, rule: Rule) -> Iterator[Obligation]:
 
 
 def _has_sides(rules: list[tuple[Rule, list[Obligation]]]) -> bool:
-    """Whether something can stand in the way of a response: a prohibition, or its own consequences."""
+    """Whether something can prevent a response: a prohibition, or its own consequences."""
     required = {response.name for _, responses in rules for response in responses if not response.negated}
     triggers = {rule.trigger for rule, _ in rules}
     forbidden = {response.name for _, responses in rules for response in responses if response.negated}

@@ -1,8 +1,8 @@
-"""The cone of influence of a question about traces: the rules and relations that can matter to it.
+"""The cone of influence of a question about traces: the rules and relations that can affect it.
 
-An event that the question does not lead to need not occur, so that its rules demand nothing. Relations matter if they
-share an event, condition or measure with the question, directly or through other relations, if they can require an
-event that nothing leads to, or if they do not hold where all that a trace does not mention is false.
+An event that the question does not lead to need not occur, so its rules demand nothing. Relations matter in three
+cases: they share an event, condition or measure with the question, directly or through other relations; they can
+require an event without a cause; or they are false if everything that a trace does not mention is false.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from sleec_verify.traces.relations import Name, holds_in_empty_context, may_requ
 
 
 def cone(index: TraceIndex, events: Iterable[str], formulas: Iterable[Formula]) -> TraceIndex:
-    """The part of a ruleset that can matter to a question about these events and formulas. Linear in the size of that
+    """The part of a ruleset that can affect a question about these events and formulas. Linear in the size of that
     part, and of the relations."""
     ahead: list[Name] = [("event", event) for event in events]
     ahead += [name for formula in formulas for name in names_in(formula)]
@@ -49,7 +49,7 @@ def cone(index: TraceIndex, events: Iterable[str], formulas: Iterable[Formula]) 
 
 
 def surroundings(index: TraceIndex) -> TraceIndex:
-    """The part of the whole ruleset that the events of this part can lead to: a history has to satisfy it, too."""
+    """The part of the whole ruleset to which the events of this part can lead. A history must satisfy it, too."""
     return index.once(_surroundings)
 
 

@@ -1,9 +1,9 @@
 """Conflicts: minimal sets of rules with a situation in which no response complies with them (docs/times.md).
 
-Counterexample-guided refinement of "there is a situation that no continuation suits". The search proposes an abstract
-situation. If a continuation complies with the selected rules, its template excludes all situations that it suits. If
-none does, the rules are reduced to a minimal set, and a lawful history is looked for that leads to the situation; if
-there is none, the facts that no history gives are excluded.
+Counterexample-guided refinement of "there is a situation that no continuation fits". The search proposes an abstract
+situation. If a continuation complies with the selected rules, its template excludes all situations that it fits. If
+none does, the rules are reduced to a minimal set, and the search looks for a lawful history that leads to the
+situation. If there is none, the facts that no history produces are excluded.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from sleec_verify.traces.trace import TraceInstant
 from sleec_verify.traces.witness import needed_relations, needed_values
 
 MOST_UNDECIDED = 4
-"""Situations that may stay undecided while the search for other conflicts goes on."""
+"""The number of undecided situations after which the search stops."""
 
 LATER = -1
-"""The clause of a rule that the response triggers at an instant to come."""
+"""In place of a clause, for a rule that the response triggers at a later instant."""
 
 
 def _without_states(moment: TraceInstant) -> TraceInstant:
-    """A moment without the states that stand for events."""
+    """An instant without the states that stand for events."""
     return moment._replace(conditions={n: v for n, v in moment.conditions.items() if event_of(n) is None})
 
 
@@ -44,8 +44,8 @@ class Pair(NamedTuple):
 
 
 class Conflict(NamedTuple):
-    """The rules, each with the clauses that decide; a lawful history up to now; the inputs of now, with the conditions
-    and measures that matter; and the keys of the relations that matter."""
+    """The rules, each with the clauses that decide; a lawful history up to now; the inputs of now, with the
+    relevant conditions and measures; and the keys of the relevant relations."""
 
     pairs: tuple[Pair, ...]
     history: tuple[TraceInstant, ...]
@@ -74,9 +74,9 @@ class ConflictSearch:
         return Refinement(self._situations)
 
     def find(self) -> Iterator[Conflict]:
-        """Every minimal conflict, by its pairs; none whose pairs contain those of another one.
+        """Every minimal conflict, by its pairs, and none whose pairs contain those of another one.
 
-        Raises Undecided where that is all that could be decided.
+        Raises `Undecided` after the last conflict that could be decided.
         """
         named = sorted({event for rule in self._index.ruleset.rules for event in named_atoms(rule)})
         if named:
@@ -92,7 +92,7 @@ class ConflictSearch:
             raise self._undecided[0]
 
     def _examine(self) -> None:
-        """Note the conflict in the situation proposed, unless that is none."""
+        """Record the conflict in the proposed situation, if there is one."""
         try:
             conflict = self._look()
         except Undecided as error:
@@ -105,7 +105,7 @@ class ConflictSearch:
             )
 
     def _leave_open(self, error: Undecided) -> None:
-        """Go on without the situations of the same rules, inputs and slots as the one that was not decided."""
+        """Continue without the situations that have the rules, inputs and slots of the undecided one."""
         if isinstance(error, OutOfBudget) or len(self._undecided) >= MOST_UNDECIDED:
             raise error
         self._undecided.append(error)
@@ -114,7 +114,7 @@ class ConflictSearch:
     # One situation --------------------------------------------------------------------------------------------
 
     def _look(self) -> Conflict | None:
-        """The conflict in the situation proposed, if it is one; else it is excluded with others like it."""
+        """The conflict in the proposed situation, if there is one. Otherwise it is excluded, with others like it."""
         s = self._situations
         facts = s.facts()
         rules = [str(fact[1]) for fact in facts if fact[0] == "rule"]
@@ -125,7 +125,8 @@ class ConflictSearch:
         return self._stuck(continuations, rules, facts)
 
     def _stuck(self, continuations: Continuations, rules: list[str], facts: list[Fact]) -> Conflict | None:
-        """The conflict in a situation in which no response complies with `rules`, if it is one; else it is excluded."""
+        """The conflict in a situation in which no response complies with `rules`, if there is one. Otherwise the
+        situation is excluded."""
         s = self._situations
         rules = minimal_rules(continuations, rules)
         if not rules:
@@ -137,7 +138,7 @@ class ConflictSearch:
         concerned = {e: [*index.by_trigger.get(e, ()), *index.naming.get(e, ())] for e in given}
         foreign = {e for e in given if not any(rule.label in rules for rule in concerned[e])}
         if foreign:
-            # With an input of other rules this is no situation of these rules, and of no more rules it is minimal.
+            # With an input of other rules, it is not a situation of these rules, and not minimal for more rules.
             fewer: list[Fact] = [("input", f[1], False) if f[0] == "input" and f[1] in foreign else f for f in facts]
             without = Continuations(s, fewer)
             if without.complies([]) and not without.complies(rules):
@@ -157,7 +158,7 @@ class ConflictSearch:
         return self._confirmed(rules, core, given, pairs, continuations)
 
     def _doomed(self, core: list[Fact], rules: list[str]) -> Conflict | None:
-        """The conflict of rules that what is pending has put an end to, although none of them decides now."""
+        """The conflict of rules with pending demands that nothing can meet, although none of the rules decides now."""
         s = self._situations
         slots = [s.slots[int(str(f[1]))] for f in core if f[0] == "slot"]
         again = [
@@ -210,7 +211,7 @@ class ConflictSearch:
         slots = {int(str(f[1])) for f in core if f[0] == "slot"}
         histories = Histories(s, self._about_past(core, slots), rules)
         if not histories.exist():
-            # A history may leave more pending of these rules; then the situation has to say so.
+            # A history may leave more of these rules pending, and then the situation must contain it.
             own = {n for n, slot in enumerate(s.slots) if slot.rule.label in rules and s.holds(slot.active)}
             if not histories.exist(strict=False):
                 s.exclude(weakest_facts(histories, histories.refuted(), s))
@@ -241,7 +242,7 @@ class ConflictSearch:
         return Conflict(pairs, tuple(map(_without_states, moments)), _without_states(now), stated)
 
     def _about_past(self, core: list[Fact], slots: set[int]) -> list[Fact]:
-        """The facts of a core about the past, with all that is known of some slots."""
+        """The facts of a core about the past, with all facts about some slots."""
         s = self._situations
         nodes = {s.slots[number].node for number in slots}
         nodes |= {s.lasting[str(f[1])][2] for f in core if f[0] == "lasts" and f[-1]}
@@ -262,7 +263,7 @@ class ConflictSearch:
             own = {Pair(label, s.slots[n].pending.number) for n in slots if s.slots[n].rule.label == label}
             if rule.trigger in given or (not own and self._is_forced(continuations, rules, rule)):
                 own.update(Pair(label, n) for n, guard in enumerate(s.guards[label]) if s.holds(guard))
-            # A rule that only the response triggers, later, has no clause that decides yet.
+            # A rule that only a later instant triggers has no deciding clause yet.
             found |= own or {Pair(label, LATER)}
         order = {label: place for place, label in enumerate(self._index.ruleset.by_label)}
         return tuple(sorted(found, key=lambda pair: (order[pair.rule], pair.clause)))

@@ -15,16 +15,17 @@ from sleec_verify.traces.trivial_responses import contested_obligations
 
 
 class _Contested(InductiveModel):
-    """Traces in which what can always be met is left out."""
+    """Traces without the responses that can always be met."""
 
     def obligations(self, clause: Clause) -> tuple[Obligation, ...]:
         return contested_obligations(self.index, clause)
 
 
 class Continuations:
-    """What can follow one situation: `facts`, as `Situations.facts` gives them.
+    """The continuations of one situation: `facts`, as `Situations.facts` gives them.
 
-    `complies` answers for any set of rules; each fact is an assumption, so that a core names those that matter."""
+    `complies` answers for any set of rules. Each fact is an assumption, so that a core names the relevant ones.
+    """
 
     def __init__(self, situations: Situations, facts: Iterable[Fact]) -> None:
         self.situations = situations
@@ -89,7 +90,7 @@ class Continuations:
     def _literal(
         self, fact: Fact, active: dict[int, int], came: dict[tuple[int, Occurs], int], occurred: dict[str, int]
     ) -> int | None:
-        """The literal of a fact here; None for one that binds nobody: that an act does not occur yet."""
+        """The literal of a fact here; None for a fact without an effect, such as an act that does not occur yet."""
         kind, name, *rest = fact
         value = bool(rest[-1])
         instant = self.model.instants[self.now]
@@ -124,28 +125,29 @@ class Continuations:
     def complies(
         self, rules: Collection[str], but: Collection[Fact] = (), *more: int, relations: Collection[str] | None = None
     ) -> bool:
-        """Whether some response and continuation complies with `rules`. Facts of `but` are left open; `relations` are
-        those that count, by their keys: all, unless given.
+        """Whether some response complies with `rules`. Facts of `but` are left open. `relations` are the keys of those
+        that count, by default all.
 
-        Raises Undecided."""
+        Raises `Undecided`.
+        """
         open_facts = frozenset(but)
         literals = [literal for fact, literal in self.facts.items() if fact not in open_facts]
         counting = [*rules, *(self.relations if relations is None else relations)]
         return self.model.ask(*literals, *more, counting=counting)
 
     def relations_in_core(self) -> list[str]:
-        """The keys of the relations that the last answer, which was no, rests on."""
+        """The keys of the relations in the core of the last answer, which was no."""
         return [key for key in self.model.matter() if key not in self.situations.selected]
 
     def core(self) -> list[Fact]:
-        """The facts that the last answer, which was no, rests on."""
+        """The facts in the core of the last answer, which was no."""
         core = self.model.core
         found = [fact for fact, literal in self.facts.items() if literal in core]
         return [*found, *(("rule", key, True) for key in self.model.matter() if key in self.situations.selected)]
 
     def refutes(self, facts: Collection[Fact]) -> bool:
-        """Whether no response complies with the rules of some facts where the others hold. They may have other bounds
-        on times than the facts given. Raises Undecided."""
+        """Whether no response complies with the rules of some facts in all situations with these facts. Their
+        bounds on times may differ from the original ones. Raises `Undecided`."""
         literals = [self._gap(fact) if fact[0] == "gap" else self.facts.get(fact) for fact in facts]
         rules = [str(fact[1]) for fact in facts if fact[0] == "rule"]
         known = [literal for literal in literals if literal is not None]

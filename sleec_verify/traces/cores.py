@@ -1,6 +1,6 @@
-"""Cores: the least that a refutation rests on, so that one exclusion covers as many situations as can be.
+"""Cores: minimal reasons of a refutation, so that one exclusion covers as many situations as possible.
 
-Rules and facts are left out one by one (deletion-based extraction of a minimal unsatisfiable subset; J. Marques-Silva,
+Rules and facts are removed one by one (deletion-based extraction of a minimal unsatisfiable subset; J. Marques-Silva,
 "Minimal unsatisfiability: models, algorithms and applications", ISMVL 2010). Bounds on times are weakened by bisection.
 """
 
@@ -18,16 +18,16 @@ class SituationQuestion(Protocol):
     """A question about a situation."""
 
     def refutes(self, facts: Collection[Fact]) -> bool:
-        """Whether the answer is no wherever these facts hold. Raises Undecided."""
+        """Whether the answer to the question is "no" in all situations with these facts. Raises `Undecided`."""
         ...
 
     def gap(self, a: int, b: int) -> int:
-        """The time from node `a` to node `b`, in seconds, where the last answer was yes."""
+        """The time from node `a` to node `b`, in seconds, in the last answer, which was yes."""
         ...
 
 
 def minimal_rules(continuations: Continuations, rules: list[str]) -> list[str]:
-    """A minimal set of `rules` that no response complies with. The last answer is then that for this set."""
+    """A minimal set of `rules` that no response complies with. The last answer is then about that set."""
     first = set(continuations.core())
     kept = [label for label in rules if ("rule", label, True) in first]
     for label in list(kept):
@@ -41,7 +41,7 @@ def minimal_rules(continuations: Continuations, rules: list[str]) -> list[str]:
 
 
 def drop_slots(continuations: Continuations, rules: list[str], facts: list[Fact]) -> list[Fact]:
-    """A core with as few slots as can be."""
+    """A core with as few slots as possible."""
     core = continuations.core()
     left_out: list[Fact] = []
     for number in sorted({int(str(f[1])) for f in core if f[0] == "slot"}, reverse=True):
@@ -57,9 +57,9 @@ def drop_slots(continuations: Continuations, rules: list[str], facts: list[Fact]
 
 
 def weakest_facts(question: SituationQuestion, core: Collection[Fact], situations: Situations) -> list[Fact]:
-    """Facts that imply less than those of a core, and are still refuted: as few as can be besides the rules, and the
-    bounds on times as weak as can be. It stops where that is not decided."""
-    # A bound on the time of what is pending says nothing unless it is pending.
+    """Weaker facts than those of a core that are still refuted: as few as possible in addition to the rules, with
+    bounds on times as weak as possible. It stops if that is undecided."""
+    # A bound on the time of a slot has no effect unless the slot is pending.
     pending = {node: fact for fact in situations.facts_of_pending() for node in situations.nodes_of(fact)}
     facts = list(dict.fromkeys([*core, *(pending[n] for f in core if f[0] == "gap" for n in f[1:3] if n in pending)]))
     with as_far_as_decided():
@@ -72,7 +72,7 @@ def weakest_facts(question: SituationQuestion, core: Collection[Fact], situation
         for _, a, b, most, _ in [fact for fact in facts if fact[0] == "gap"]:
             ages.update({a: most} if b == situations.now else {b: -most})  # type: ignore[dict-item, operator]
         bounds: list[Fact] = [("gap", a, b, ages[a] - ages[b], True) for a in ages for b in ages if a != b]
-        # What the difference of two windows explains needs no bound on now.
+        # If the difference of two windows is the reason, no bound on now is needed.
         bounds.sort(key=lambda bound: situations.now not in bound[1:3])
         facts = [*(fact for fact in facts if fact[0] != "gap"), *bounds]
         for bound in bounds:
@@ -82,7 +82,7 @@ def weakest_facts(question: SituationQuestion, core: Collection[Fact], situation
 
 
 def _weakened(question: SituationQuestion, others: Collection[Fact], bound: Fact) -> Fact:
-    """The weakest_facts bound with which the facts are still refuted; without it, the last answer was yes."""
+    """The weakest bound with which the facts are still refuted. Without the bound, the last answer was yes."""
     _, a, b, least, _ = bound
     assert isinstance(a, int), "a node"
     assert isinstance(b, int), "a node"

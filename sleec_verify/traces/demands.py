@@ -1,7 +1,7 @@
-"""Demands: what a response asks of a trace, as a formula over occurrences in windows.
+"""Demands: what a response requires of a trace, as a formula over occurrences in windows.
 
 A demand is a formula of metric temporal logic over one instant, in negation normal form (R. Koymans, "Specifying
-real-time properties with metric temporal logic", 1990): its atoms say that an event occurs, or does not occur, in a
+real-time properties with metric temporal logic", 1990). Its atoms say that an event occurs, or does not occur, in a
 window of seconds after that instant.
 """
 
@@ -19,8 +19,8 @@ from sleec_verify.encoding.trace_scope import Untimed
 
 
 class Occurs(NamedTuple):
-    """The event occurs (`negated`: does not occur) at some time from `start` to `end`, in seconds after the trigger,
-    both included. None is no bound."""
+    """The event occurs (`negated`: does not occur) at some time from `start` to `end`, in seconds after the
+    trigger, both included. None means unbounded."""
 
     event: str
     start: int | None
@@ -45,26 +45,26 @@ Demand = Union[int, Occurs, Every, Some]
 """A formula in negation normal form. An integer is a literal about the instant of the trigger."""
 
 Chain = Callable[[Clause], Sequence[int]]
-"""For each clause of a chain that stands by itself, in the order of the text, the literal "this clause decides"."""
+"""For each clause of a separate chain, in the order of the text, the literal "this clause decides"."""
 
 
 class Responses:
-    """Reads responses under one meaning of those without a window."""
+    """The demands of responses, under one meaning of those without a window."""
 
     def __init__(self, untimed: Untimed) -> None:
         self._untimed = untimed
 
     def of(self, obligations: tuple[Obligation, ...], chain: Chain, kept: bool = True, after: int = 0) -> Demand:
-        """The demand that all of `obligations`, which are due after so many seconds, are met (not `kept`: that one is
-        not met).
+        """The demand that all of `obligations`, which are due after this number of seconds, are met (not `kept`: that
+        one is not met).
 
-        Raises Undecided for a window whose length a measure gives.
+        Raises `Undecided` if the length of a window is a measure.
         """
         parts = tuple(self._obligation(o, chain, kept, after) for o in obligations)
         return _joined(parts, every=kept)
 
     def of_clause(self, clause: Clause, chain: Chain, kept: bool = True, after: int = 0) -> Demand:
-        """As `of`, for a response with a chain of hedges of its own."""
+        """The same as `of`, for a response with its own chain of hedges."""
         members = []
         for member, decides in zip(in_text_order(clause), chain(clause)):
             due = self.of(member.obligations, chain, kept, after)
@@ -89,7 +89,7 @@ class Responses:
     def window(self, obligation: Obligation) -> tuple[int, int | None]:
         """The first and the last second of the window of a response, after its trigger.
 
-        Raises Undecided where a measure gives the length.
+        Raises `Undecided` if the length is a measure.
         """
         window: Window | None = None if obligation.timing is None else obligation.timing.window
         if window is None:
@@ -109,7 +109,7 @@ class Responses:
         return list(found.items())
 
     def deciding(self, obligation: Obligation, choice: tuple[int, ...], chain: Chain) -> list[int]:
-        """The literals by which the chains inside a response decide as in `choice`."""
+        """The literals for which the chains inside a response decide as in `choice`."""
         chosen = _Chosen(choice, chain)
         self.of((obligation,), chosen.flags)
         return chosen.literals
@@ -169,7 +169,7 @@ def simplified(demand: Demand, values: dict[int, bool]) -> Demand:
 
 
 def seconds(length: Length) -> Rational:
-    """A length of time in seconds. Raises Undecided where a measure gives it."""
+    """A length of time in seconds. Raises `Undecided` if it is a measure."""
     value = length.seconds
     if value is None:
         raise Undecided(f"the length of time {length} is that of a measure: not analysed")
@@ -177,13 +177,13 @@ def seconds(length: Length) -> Rational:
 
 
 def last_second(length: Length) -> int:
-    """The last second of what lasts so long, counted from 0. Raises Undecided where a measure gives the length."""
+    """The last second of this length of time, counted from 0. Raises `Undecided` if the length is a measure."""
     return int(-(-seconds(length) // 1) - 1)
 
 
 def _joined(parts: tuple[Demand, ...], every: bool) -> Demand:
-    """All of some demands, or one of them. Where an event shall occur in one of two windows, or in neither, and the
-    windows overlap, they are one."""
+    """The conjunction or disjunction of some demands. Two overlapping windows for one event become one, if it must
+    occur in one of them, or in neither."""
     joined: list[Demand] = []
     for part in parts:
         for place, other in enumerate(joined):
@@ -199,7 +199,7 @@ def _joined(parts: tuple[Demand, ...], every: bool) -> Demand:
 
 
 def _union(one: Occurs, other: Occurs) -> Occurs | None:
-    """The atom with the windows of two, if they are of one event and leave no gap."""
+    """The atom with both windows, if two atoms are about one event and leave no gap."""
     if (one.event, one.negated) != (other.event, other.negated) or one.start is None or other.start is None:
         return None
     first, second = (one, other) if one.start <= other.start else (other, one)
@@ -219,7 +219,7 @@ def occurrences(demand: Demand) -> Iterator[Occurs]:
 
 
 def conjuncts(demand: Demand) -> Iterator[Occurs]:
-    """The atoms that hold wherever the demand does, whatever its literals are."""
+    """The atoms that hold if the demand holds, for all values of its literals."""
     if isinstance(demand, Occurs):
         yield demand
     elif isinstance(demand, Every):

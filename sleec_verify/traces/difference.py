@@ -1,6 +1,6 @@
 """Difference logic: literals "the time of b minus the time of a is at most c seconds".
 
-The solver orders the literals of one pair of nodes by clauses. What several pairs imply is checked against a model: a
+The solver orders the literals of one pair of nodes by clauses. Consequences of several pairs are checked in a model: a
 negative cycle of differences becomes a clause (lazy SMT; S. Cotton and O. Maler, "Fast and flexible difference
 constraint propagation for DPLL(T)", SAT 2006).
 """
@@ -14,7 +14,7 @@ from typing import NamedTuple
 from sleec_verify.encoding.budget import spend
 
 PER_EDGE = 4
-"""Steps of a budget for each difference that is compared with the others."""
+"""Budget steps for each difference that is compared with the others."""
 
 
 class _Edge(NamedTuple):
@@ -71,12 +71,12 @@ class Differences:
         return -self.at_most(a, b, 0)
 
     def within(self, a: int, b: int, start: int | None, end: int | None) -> list[int]:
-        """Literals that together say ``start <= time[b] - time[a] <= end``; None is no bound."""
+        """Literals that together say ``start <= time[b] - time[a] <= end``. None means unbounded."""
         found = [] if end is None else [self.at_most(a, b, end)]
         return found if start is None else [*found, -self.at_most(a, b, start - 1)]
 
     def _edges(self, holds: Callable[[int], bool], used: Sequence[int]) -> Iterator[_Edge]:
-        """What a model says of each pair at its tightest. The literals of a pair are monotone in every model."""
+        """The tightest bound of a model for each pair. The literals of a pair are monotone in every model."""
         there = set(used)
         for (a, b), (lengths, literals) in self._pairs.items():
             if a in there and b in there:
@@ -87,8 +87,8 @@ class Differences:
                     yield _Edge(b, a, -lengths[first - 1] - 1, -literals[first - 1])
 
     def _weakened(self, cycle: Sequence[_Edge]) -> list[int]:
-        """The literals of a negative cycle, weakened as far as the cycle stays negative: the clause then excludes more
-        models."""
+        """The literals of a negative cycle, weakened while the cycle stays negative, so that the clause excludes
+        more models."""
         spare = -1 - sum(edge.length for edge in cycle)
         found = []
         for source, target, length, literal in cycle:
@@ -105,21 +105,21 @@ class Differences:
         return found
 
     def refused(self, holds: Callable[[int], bool], used: Sequence[int]) -> list[list[int]]:
-        """Valid clauses that a model breaks; none if the nodes `used` can have times. O(n³) for n nodes."""
+        """Valid clauses that a model violates; none if the nodes `used` can have times. O(n³) for n nodes."""
         tightest: dict[int, dict[int, _Edge]] = {node: {} for node in used}
         for edge in self._edges(holds, used):
             tightest[edge.source][edge.target] = edge
         spend(PER_EDGE * sum(map(len, tightest.values())))
-        # Nearly all contradictions are between three nodes: returning all of these at once saves models.
+        # Most contradictions have three nodes. Returning all of these at once saves models.
         cycles = list(_triangles(tightest)) or _negative_cycle(tightest)
         return [[-literal for literal in self._weakened(cycle)] for cycle in cycles]
 
     def schedule(
         self, holds: Callable[[int], bool], used: Sequence[int], fixed: int | None = None
     ) -> tuple[dict[int, int], dict[int, tuple[int, int]]]:
-        """The earliest times, from 0 on, that a model allows, and for each node that cannot be earlier because of
-        another one: ``(the other node, the seconds after it)``. With a node `fixed`, the latest times with that node at
-        the same time; what has none is late. The model is one that `refused` accepts."""
+        """The earliest times, from 0, that a model allows. For each node that cannot be earlier because of another
+        one: ``(the other node, the seconds after it)``. With a node `fixed`, the latest times with that node at the
+        same time; a node without a latest time is late. `refused` must accept the model."""
         times = dict.fromkeys(used, 0)
         waits: dict[int, tuple[int, int]] = {}
         edges = list(self._edges(holds, used))
@@ -182,7 +182,7 @@ def _negative_cycle(edges: _Edges) -> list[list[_Edge]]:
         if last is None:
             return []
     assert last is not None
-    # As many steps back as there are nodes end inside the cycle.
+    # After as many steps back as there are nodes, the node is on the cycle.
     for _ in edges:
         last = reached[last].source
     cycle, at = [], last

@@ -1,9 +1,9 @@
-"""Conditions that name events, as states that relations tie to these events.
+"""Conditions that name events, as states that relations connect to these events.
 
-`unless B` becomes `unless occurs(B)`, a condition of its own, with the relations `includes B occurs(B)` and
-`causation B occurs(B)`: at each instant, the state holds if and only if the event occurs. So guards and hedges depend
-on the state of an instant alone. That is exact for events that only the environment causes. An act of the response can
-change which clause decides at its instant: conflicts of rules that name an act are undecided.
+`unless B` becomes `unless occurs(B)`, a condition of its own, with the relations `includes B occurs(B)` and `causation
+B occurs(B)`. At each instant, the state holds if and only if the event occurs. So guards and hedges depend only on the
+state of an instant. This is exact for events that only the environment causes. An act of the response can change which
+clause decides at its instant, so conflicts of rules that name an act are undecided.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def with_states(ruleset: Ruleset, events: Collection[str]) -> Ruleset:
 
 
 def _relations(events: Collection[str]) -> Iterator[Effect]:
-    # No two relations are in one place, and these are in none of the text.
+    # Each relation needs its own place, and these are not in the text.
     for number, event in enumerate(events):
         state = Atom("condition", state_of(event))
         yield Effect("includes", event, state, Span(-2 * number - 1, -2 * number - 1))
@@ -71,5 +71,5 @@ def _relations(events: Collection[str]) -> Iterator[Effect]:
 
 
 def is_of_state(relation: object) -> bool:
-    """Whether a relation ties a state to its event."""
+    """Whether a relation connects a state to its event."""
     return isinstance(relation, Effect) and isinstance(relation.formula, Atom) and bool(event_of(relation.formula.name))

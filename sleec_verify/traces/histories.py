@@ -1,7 +1,7 @@
-"""Histories: whether a lawful history leads to an abstract situation, and one that does.
+"""Histories: whether a lawful history leads to an abstract situation, and an example.
 
-A history is lawful if no rule and no relation is violated so far, each triggering by itself (docs/times.md). It is a
-trace model in which all instants come before now, and a demand whose window is still open at now need not be met.
+A history is lawful if no rule and no relation is violated so far, for each triggering separately (docs/times.md). It is
+a trace model in which all instants are before now, and a demand whose window is still open at now need not be met.
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ from sleec_verify.traces.trivial_responses import contested_obligations
 class Histories(TraceModel):
     """The lawful histories that lead to the situations with some `facts`.
 
-    With `strict`, the slots of the facts are all that the history leaves pending of `rules`."""
+    With `strict`, the history leaves nothing of `rules` pending except the slots of the facts.
+    """
 
     def __init__(self, situations: Situations, facts: Iterable[Fact], rules: Collection[str]) -> None:
         super().__init__(surroundings(situations.index))
@@ -75,8 +76,8 @@ class Histories(TraceModel):
         return self._lasts(law, nodes[node]) if value else None
 
     def _triggers(self, slot: Slot, node: int) -> int:
-        """A literal that implies that a slot's demand is triggered at the time of a node and, as far as flags do not
-        say it, is neither met nor broken."""
+        """A literal that implies that a slot's demand is triggered at the time of a node and, as far as flags do
+        not say it, is neither met nor violated."""
         unmet = [self._never(node, leaf) for leaf, flag in slot.came.items() if flag == -self._situations.true]
 
         def triggered(at: int) -> int:
@@ -132,7 +133,7 @@ class Histories(TraceModel):
                 self.add([-self.strict, -guard, settled])
 
     def _settled(self, at: int, demand: Demand) -> int:
-        """A literal that implies that a demand is met before now, whatever follows."""
+        """A literal that implies that a demand is met before now, for every continuation."""
         if isinstance(demand, int):
             return demand
         if isinstance(demand, Occurs):
@@ -145,7 +146,7 @@ class Histories(TraceModel):
         return self.formula.every(parts) if isinstance(demand, Every) else self.formula.any_of(parts)
 
     def _dominated(self, at: int, rule: Rule, number: int, demand: Demand) -> list[int]:
-        """Literals each of which implies that a slot says all that a demand leaves."""
+        """Literals each of which implies that a slot implies what a demand leaves pending."""
         found = []
         for node, slot in self._slots.items():
             if (slot.rule.label, slot.pending.number) == (rule.label, number):
@@ -158,7 +159,7 @@ class Histories(TraceModel):
     # Questions ------------------------------------------------------------------------------------------------
 
     def exist(self, *, strict: bool = True) -> bool:
-        """Whether there is such a history. What is asked next has the same mode. Raises Undecided."""
+        """Whether there is such a history. Later questions have the same mode. Raises `Undecided`."""
         self._mode = [self.strict] if strict else []
         return self.ask(*self.facts.values(), *self._mode)
 
@@ -173,12 +174,12 @@ class Histories(TraceModel):
         return False
 
     def refuted(self) -> list[Fact]:
-        """The facts that the last answer, which was no, rests on."""
+        """The facts in the core of the last answer, which was no."""
         return [fact for fact, literal in self.facts.items() if literal in self.core]
 
     def refutes(self, facts: Collection[Fact]) -> bool:
-        """Whether no history leads to situations with these facts. They may have other bounds on times than the facts
-        given. Raises Undecided."""
+        """Whether no history leads to situations with these facts. Their bounds on times may differ from the
+        original ones. Raises `Undecided`."""
         literals = [self._literal(fact) if fact[0] == "gap" else self.facts.get(fact) for fact in facts]
         return not self.ask(*(literal for literal in literals if literal is not None), *self._mode)
 
@@ -188,8 +189,8 @@ class Histories(TraceModel):
         return times[self._nodes[b]] - times[self._nodes[a]]
 
     def history(self) -> tuple[list[TraceInstant], int]:
-        """A history without events that can be left out, after the answer yes: its instants and the time of now; the
-        first is at 0."""
+        """A history without unnecessary events, after the answer yes: its instants and the time of now. The first
+        instant is at 0."""
         absent: list[int] = []
         needed: set[int] = set()
         while left := [literal for literal in self._occurrences() if literal not in needed]:

@@ -34,7 +34,7 @@ _Indexed = TypeVar("_Indexed", Rule, Relation)
 
 
 class TraceIndex(Memo):
-    """A ruleset under one meaning of responses without a window. `recorder` is told of every question asked."""
+    """A ruleset under one meaning of responses without a window. `recorder` receives every question."""
 
     def __init__(
         self,
@@ -54,7 +54,7 @@ class TraceIndex(Memo):
         self.responses = Responses(untimed)
         self._windows: dict[str, list[Occurs]] = {}
         self.impossible: dict[frozenset[str], frozenset[str]] = {}
-        """The events that never occur, by the rules and relations that count (`sleec_verify.traces.induction`)."""
+        """The events that never occur under the counting rules and relations (`sleec_verify.traces.induction`)."""
 
     @cached_property
     def stated(self) -> TraceIndex:
@@ -63,7 +63,7 @@ class TraceIndex(Memo):
         return self if ruleset is self.ruleset else TraceIndex(ruleset, self.untimed, self.recorder)
 
     def part(self, rules: Iterable[Rule], relations: Iterable[Relation]) -> TraceIndex:
-        """Some of the rules and relations, in which events keep what they are in the whole."""
+        """Some of the rules and relations. Events keep their roles in the whole ruleset."""
         kept = sorted((*rules, *relations), key=lambda statement: statement.span)
         measures = tuple(self.ruleset.measures.values())
         ruleset = replace(self.ruleset, statements=tuple(kept), inferred=measures)
@@ -74,7 +74,7 @@ class TraceIndex(Memo):
         return self.ruleset.rules
 
     def windows(self, rule: Rule) -> list[Occurs]:
-        """Every atom that a rule can demand. Raises Undecided for a window whose length a measure gives."""
+        """Every atom that a rule can demand. Raises `Undecided` if the length of a window is a measure."""
         found = self._windows.get(rule.label)
         if found is None:
             found = self._windows[rule.label] = [
@@ -83,7 +83,7 @@ class TraceIndex(Memo):
         return found
 
     def atoms(self, obligations: tuple[Obligation, ...]) -> Iterator[Occurs]:
-        """Every atom that obligations can demand. Raises Undecided for a window whose length a measure gives."""
+        """Every atom that obligations can demand. Raises `Undecided` if the length of a window is a measure."""
         return occurrences(self.responses.of(obligations, lambda inner: [1] * _members(inner)))
 
     @cached_property
@@ -132,7 +132,7 @@ class TraceIndex(Memo):
 
     @cached_property
     def is_cyclic(self) -> bool:
-        """Whether a response can lead back to its own trigger, through other rules and relations too."""
+        """Whether a response can lead back to its own trigger, also through other rules and relations."""
         graph: TopologicalSorter[str] = TopologicalSorter()
         for rule in self.ruleset.rules:
             graph.add(rule.trigger, *(o.name for o in responses_of(rule) if not o.negated))
@@ -149,8 +149,8 @@ class TraceIndex(Memo):
 
     @cached_property
     def agents(self) -> dict[str, Agent]:
-        """Whose each event of a rule is: as it is declared; else the robot's if a response names it, and the
-        environment's if it is not."""
+        """The agent of each event of a rule: the declared one; otherwise the robot if a response names the event,
+        and the environment if not."""
         found: dict[str, Agent] = {}
         for statement in self.ruleset.statements:
             if isinstance(statement, Declaration) and statement.agent is not None:

@@ -1,8 +1,8 @@
 """Events that occur in no trace, because each occurrence requires a later one.
 
-A trace has finitely many instants. Where each occurrence of an event of some set requires a later occurrence of one of
-the set, or is impossible, the last one has none after it: no event of the set ever occurs. That is induction over the
-instants from the last one back, with one question for each event.
+A trace has finitely many instants. Suppose that each occurrence of an event of some set requires a later occurrence of
+one of the set, or is impossible. Then the last occurrence contradicts this, so no event of the set ever occurs. This is
+induction over the instants from the last one backwards, with one question for each event.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from sleec_verify.traces.model import TraceModel
 
 
 class InductiveModel(TraceModel):
-    """Whole traces, in which no events occur that the rules and relations that count never let occur."""
+    """Complete traces without the events that never occur under the counting rules and relations."""
 
     def __init__(self, index: TraceIndex) -> None:
         super().__init__(index)
@@ -30,7 +30,7 @@ class InductiveModel(TraceModel):
         return super().ask(*required, self._inductive(self._counting), counting=counting)
 
     def _inductive(self, counting: frozenset[str]) -> int:
-        """A literal that implies that no events occur that the rules and relations `counting` never let occur."""
+        """A literal that implies that no events occur that never occur under the rules and relations `counting`."""
         literal = self._induction.get(counting)
         if literal is None:
             literal = self._induction[counting] = self.formula.fresh()
@@ -41,20 +41,20 @@ class InductiveModel(TraceModel):
     def _impossible(self, counting: frozenset[str]) -> frozenset[str]:
         known = self.index.impossible
         if counting not in known:
-            # With fewer rules and relations, no more is impossible.
+            # With fewer rules and relations, no further events are impossible.
             more = [events for others, events in known.items() if counting < others]
             among = frozenset.intersection(*more) if more else {*self.index.by_trigger, *self.index.relations_of_event}
             known[counting] = impossible_events(self.index, counting, among)
         return known[counting]
 
     def matter(self) -> list[str]:
-        # That an event is impossible rests on all of them.
+        # The reason for an impossible event may be any of them.
         return super().matter() if self.core.isdisjoint(self._induction.values()) else sorted(self._counting)
 
 
 def impossible_events(index: TraceIndex, counting: Collection[str], among: Collection[str]) -> frozenset[str]:
-    """The largest set of events of which each occurrence requires a later one, by the rules and relations `counting`,
-    as far as that is decided. At most quadratic in the number of events."""
+    """The largest set of events of which each occurrence requires a later one, by the rules and relations
+    `counting`, as far as this is decided. At most quadratic in the number of events."""
     left = set(among)
     while left:
         possible = {event for event in sorted(left) if _can_be_last(index, counting, event, left)}

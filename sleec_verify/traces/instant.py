@@ -45,7 +45,7 @@ class SharedClauses:
 
 
 class Instant(Encoder):
-    """An encoder whose triggers and obligations are one kind of thing: the events of this instant.
+    """An encoder in which triggers and obligations are the same: the events of this instant.
 
     `used` says whether the trace has this instant.
     """

@@ -16,7 +16,7 @@ from sleec_verify.traces.unrolling import Unrolling
 
 
 class DecidedClause(NamedTuple):
-    """Where `guard` is true, clause `number` of a rule decides at an instant and demands `due`."""
+    """If `guard` is true, clause `number` of a rule decides at an instant and demands `due`."""
 
     at: int
     rule: Rule
@@ -27,7 +27,7 @@ class DecidedClause(NamedTuple):
 
 
 class TraceModel(Unrolling):
-    """The traces of a ruleset, or what follows or precedes the instant `now`."""
+    """The traces of a ruleset, or the part after or before the instant `now`."""
 
     def __init__(self, index: TraceIndex, rules: Mapping[str, Sequence[Rule]] | None = None) -> None:
         """`rules` replace those of the ruleset, by their triggers."""
@@ -42,7 +42,7 @@ class TraceModel(Unrolling):
     # Demands --------------------------------------------------------------------------------------------------
 
     def occurs(self, at: int, what: Occurs) -> int:
-        """A literal that implies that an atom holds of the node `at`. In a history, that it is not violated yet."""
+        """A literal that implies that an atom holds at the node `at`. In a history: that it is not violated yet."""
         if what.negated:
             never = self.formula.fresh()
 
@@ -81,7 +81,7 @@ class TraceModel(Unrolling):
     # Rules ----------------------------------------------------------------------------------------------------
 
     def chain(self, at: int) -> Callable[[Clause], list[int]]:
-        """The literals of the clauses of a chain that stands by itself, decided by the measures of an instant."""
+        """The literals of the clauses of a separate chain, decided by the measures of an instant."""
         return lambda clause: self.instants[at].chain(clause, self.reading)
 
     def due(self, at: int, obligations: tuple[Obligation, ...], kept: bool = True) -> Demand:
@@ -104,7 +104,7 @@ class TraceModel(Unrolling):
                 self.add([-self.in_force(rule.label), -guard, self.demand(at, due)])
 
     def _expand(self) -> bool:
-        """Encode the rules of the events that occur in the model; whether there are new ones."""
+        """Encode the rules of the events that occur in the model. Returns whether there are new ones."""
         found = False
         for node, instant in list(self.instants.items()):
             for name, literal in instant.events().items():

@@ -1,8 +1,8 @@
-"""The two parts of a ruleset: rules that questions about situations decide, and rules that need questions about traces.
+"""The two parts of a ruleset: rules for questions about situations, and rules for questions about traces.
 
 Rules that share an event belong together, and so do rules whose events a relation mentions. A group needs traces if a
 response of it has a window or triggers a rule, or if a relation between instants mentions it. The parts share no event,
-so that what one requires changes no answer about the other.
+so requirements of one part change no answer about the other.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Pending demands: what a history can leave to be done or not to be done.
+"""Pending demands: what a history can leave to be met.
 
-For a response with a single window that opens at its trigger, one pending demand is enough: the earliest deadline
+For a response with a single window that opens at its trigger, one pending demand is enough. The earliest deadline
 implies all later ones, and the latest end of a prohibition implies all earlier ones (dominance, proved in Coq:
 proofs/traces).
 """
@@ -19,7 +19,7 @@ from sleec_verify.traces.trivial_responses import contested_obligations
 
 @dataclass(frozen=True, eq=False)
 class Pending:
-    """What a history can leave pending: the `demand` of a response of clause `number` of a rule, where the chains of
+    """What a history can leave pending: the `demand` of a response of clause `number` of a rule, if the chains of
     hedges inside the response decide as in one of `choices`."""
 
     rule: Rule
@@ -39,7 +39,7 @@ class Pending:
 
     @property
     def last(self) -> int | None:
-        """The last second of its windows; None if one has no end."""
+        """The last second of its windows; None if one is unbounded."""
         ends = [atom.end for atom in self.atoms]
         return None if None in ends else max(end for end in ends if end is not None)
 
@@ -58,7 +58,8 @@ class Pending:
 class Slot:
     """A pending demand of a situation, triggered at the time `node`.
 
-    `came` says of atoms of the demand that the event came about in their windows before now."""
+    `came` says for atoms of the demand whether the event occurred in their windows before now.
+    """
 
     pending: Pending
     node: int
@@ -75,7 +76,7 @@ class Slot:
 
 
 def pending_of(index: TraceIndex) -> Iterator[Pending]:
-    """All that a history can leave pending. Raises Undecided for a window whose length a measure gives."""
+    """Everything that a history can leave pending. Raises `Undecided` if the length of a window is a measure."""
     return (one for one in _demands(index) if one.can_last)
 
 
@@ -97,5 +98,5 @@ def alternatives(demand: Demand) -> Iterator[Occurs]:
 
 
 def most_prohibitions(index: TraceIndex) -> int:
-    """How many prohibitions one response has at most."""
+    """The maximal number of prohibitions of one response."""
     return max((sum(atom.negated for atom in occurrences(one.demand)) for one in _demands(index)), default=0)

@@ -1,4 +1,4 @@
-"""The questions about traces that one trace answers: is there one that satisfies the rules and does this?"""
+"""The questions that one trace answers: is there a trace that satisfies the rules and has this property?"""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from sleec_verify.traces.model import TraceModel
 from sleec_verify.traces.trace import TraceInstant
 
 What = Callable[[TraceModel, int], Sequence[int]]
-"""From a model and an instant of it to literals that say what is asked of the instant."""
+"""A function from a model and an instant of it to literals that state the question about the instant."""
 
 
 class Answer(NamedTuple):
-    """`trace` is one that does it, or None if none does. Then `matter` is a minimal set of rules and relations that
+    """`trace` is an example, or None if there is none. Then `matter` is a minimal set of rules and relations that
     prevent it, by labels and keys."""
 
     trace: tuple[TraceInstant, ...] | None
@@ -30,13 +30,13 @@ class Answer(NamedTuple):
 
 
 def find_violation(index: TraceIndex, rule: Rule) -> Answer:
-    """A trace that satisfies all else and breaks `rule`. Without one, the rule is redundant."""
+    """A trace that violates `rule` and satisfies everything else. Without one, the rule is redundant."""
     return _ask(_about(index, [rule]), lambda model, at: [_broken(model, at, rule)], but=rule)
 
 
 def find_difference(index: TraceIndex, rule: Rule, other: Rule) -> Answer:
-    """A trace that satisfies all with `other`, of the same trigger and label, in the place of `rule`, and breaks
-    `rule`."""
+    """A trace that violates `rule` and satisfies everything with `other` (of the same trigger and label) in its
+    place."""
     part = _about(index, [rule, other])
     exchanged = [r for r in part.by_trigger[rule.trigger] if r.label != rule.label]
     rules = {**part.by_trigger, rule.trigger: [*exchanged, other]}
@@ -52,12 +52,13 @@ def find_trigger(index: TraceIndex, rule: Rule) -> Answer:
 
 
 def find_decision(index: TraceIndex, rule: Rule, clause: int) -> Answer:
-    """An instant at which a clause of `rule` decides, that the relations allow, whether or not rules are satisfied."""
+    """An instant at which a clause of `rule` decides, in a trace that satisfies the relations but not necessarily
+    the rules."""
     return _ask(_about(index, [rule]), lambda model, at: [model.guards(at, rule)[clause][1]], rules={})
 
 
 def find_claim(index: TraceIndex, claim: Claim) -> Answer:
-    """A trace in which a concern or purpose comes about. Its `meanwhile` may come about at any other instant."""
+    """A trace in which a concern or purpose occurs. Its `meanwhile` may occur at any other instant."""
 
     def at_instant(model: TraceModel, at: int, part: Claim) -> list[int]:
         return [
@@ -107,10 +108,11 @@ def _broken(model: TraceModel, at: int, rule: Rule) -> int:
 def _ask(
     index: TraceIndex, what: What, but: Rule | None = None, rules: Mapping[str, Sequence[Rule]] | None = None
 ) -> Answer:
-    """Whether some trace has an instant of which `what` holds. The rule `but` does not count; `rules` replace those of
-    the ruleset.
+    """Whether some trace has an instant with the property `what`. The rule `but` does not count; `rules` replace those
+    of the ruleset.
 
-    Raises Undecided."""
+    Raises `Undecided`.
+    """
     begin()
     model = InductiveModel(index) if rules is None else TraceModel(index, rules)
     required = list(what(model, model.instant(model.formula.true)))

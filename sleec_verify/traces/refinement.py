@@ -14,17 +14,18 @@ from sleec_verify.traces.situations import Situations
 from sleec_verify.traces.templates import Template, templates_of
 
 MOST_COPIES = 8
-"""Further slots for each response that needs several, besides those of templates. Published rulesets need none."""
+"""The maximal number of further slots for each response that needs several, in addition to those of templates.
+Published rulesets need none."""
 
 MOST_TEMPLATES = 2_000
-"""Templates after which the search gives up. The budget of a file ends it before."""
+"""The maximal number of templates. The budget of a file usually ends the search earlier."""
 
 
 class Refinement:
     """Proposes situations until a template fits each one.
 
-    At first, each response has one slot. A template fails because of few pending demands. So once no situation is left,
-    the templates that this rests on get slots of their own: that is as good as any number of slots.
+    At first, each response has one slot. A template fails because of few pending demands. So if no situation is left,
+    the templates in this refutation get their own slots, which is as good as any number of slots.
     """
 
     def __init__(self, situations: Situations) -> None:
@@ -47,7 +48,7 @@ class Refinement:
         Raises Undecided if it could need too many pending demands of one response."""
         s = self._situations
         if not self._lifted:
-            # Situations without a history make the plainest witnesses.
+            # Situations without a history are the simplest witnesses.
             for assumed in (self._without_history, []):
                 if s.find(*assumed, -s.more, *self._shared.values()):
                     return True
@@ -65,7 +66,7 @@ class Refinement:
         return True
 
     def learn(self, continuations: Continuations) -> None:
-        """Exclude the situations that the continuation just found suits. Raises Undecided after too many."""
+        """Exclude the situations that the last continuation fits. Raises `Undecided` after too many."""
         known = self._lifted or self._shared
         for template in templates_of(continuations):
             if template not in known and len(known) < MOST_TEMPLATES:

@@ -1,4 +1,4 @@
-"""The relations of a trace model: what each demands of every instant and of the instants around it."""
+"""The relations of a trace model: their requirements for every instant and the instants around it."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ class Past:
     occurred: Callable[[str], int]
     """For an event, the literal that it occurred."""
     began: dict[str, Callable[[int], list[int]]] = field(default_factory=dict)
-    """For the key of a `when ... until` or `when ... for`, literals that say together that it binds at an instant
+    """For the key of a `when ... until` or `when ... for`, literals that together say that it binds at an instant
     because it began."""
 
 
 def relation_at(model: Unrolling, past: Past, relation: Relation) -> Callable[[int], None]:
-    """A function that encodes the relation for an instant, where it is in force."""
+    """A function that encodes the relation for an instant, if it is in force."""
     in_force = model.in_force(relation_key(relation))
 
     if isinstance(relation, EventRelation) and relation.relation == "happenBefore":
-        # The first occurrence comes before all events that have to follow it.
+        # The first occurrence precedes all events that must follow it.
         first, occurs = model.node(), model.formula.fresh()
         left = relation.left
         model.add(

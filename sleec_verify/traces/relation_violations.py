@@ -1,4 +1,4 @@
-"""Which situations break a relation if the robot follows a template, as a formula."""
+"""The situations that violate a relation if the robot follows a template, as a formula."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def within(situations: Situations, a: Point, b: Point, start: int | None, end: i
 
 
 class RelationViolations:
-    """The literals that imply that a template breaks a relation."""
+    """The literals that imply that a template violates a relation."""
 
     def __init__(self, situations: Situations) -> None:
         self._s = situations
@@ -50,8 +50,8 @@ class RelationViolations:
                 yield self._invariant_broken(relation, points[0])
 
     def _invariant_broken(self, relation: Relation, now: Point) -> int:
-        """A literal that implies that a relation about single instants is broken now; later it is kept by what the
-        template fixes."""
+        """A literal that implies that a relation about single instants is violated now. The fixed later instants of
+        the template satisfy it."""
         instant = self._s.instant
 
         def atom(one: Atom) -> int:
@@ -96,7 +96,7 @@ class RelationViolations:
                 bounds = [] if last is None else within(self._s, since, point, None, last)
                 running = [-stop for stop in stops[first : number + 1]]
                 yield every([began, point.exists, *bounds, *running, -holds[number]])
-        # What a policy begins, or what binds its instants, is taken to last.
+        # Assume that relations that a policy begins, or that bind its instants, last.
         for point in others:
             assert point.later is not None
             if key not in point.later.holds:

@@ -1,10 +1,10 @@
 """Situations as an abstract state: what a history leaves pending, and the inputs and measures of now.
 
 The state has *slots*. A slot is one pending demand: a response of a clause that decided before now and that the events
-so far have neither met nor broken. Responses of which one pending demand does not imply the others get more slots when
+so far have neither met nor violated. Responses for which one pending demand does not imply the others get more slots if
 a refutation needs them (`add_copies`).
 
-Nothing here says that a lawful history leads to the state: `sleec_verify.traces.histories` decides that.
+This file does not decide whether a lawful history leads to the state: see `sleec_verify.traces.histories`.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from sleec_verify.traces.relations import relation_key
 
 Fact = tuple[object, ...]
 """A literal of a situation by its meaning, and True or False: ``("rule", label)``, ``("input", event)``,
-``("state", key)``, ``("slot", n)``, ``("came", n, leaf)``, ``("gap", a, b, seconds)`` (node b is at most so many
-seconds after node a), ``("occurred", event)`` or ``("lasts", key)``."""
+``("state", key)``, ``("slot", n)``, ``("came", n, leaf)``, ``("gap", a, b, seconds)`` (node b is at most this
+number of seconds after node a), ``("occurred", event)`` or ``("lasts", key)``."""
 
 
 class Situations:
@@ -42,7 +42,7 @@ class Situations:
         self.now = 0
         self.instant = Instant(self.formula, index.ruleset.measures, self.true)
         self.core: set[int] = set()
-        """The literals that the last `find`, which found none, rests on."""
+        """The literals in the core of the last `find`, if it found none."""
         self._solver = MiniSat()
         self._sent = 0
         for formula in state_formulas(index):
@@ -69,7 +69,7 @@ class Situations:
         self.several: list[Pending] = []
         """Responses of which a history can leave several demands, none of which implies the others."""
         self.more = self.formula.fresh()
-        """The literal "a slot that is not there yet is active"."""
+        """The literal "a slot that does not exist yet is active"."""
         for pending in pending_of(index):
             self._add_slot(pending)
             if not pending.is_single:
@@ -83,7 +83,7 @@ class Situations:
     # Slots ----------------------------------------------------------------------------------------------------
 
     def add_copies(self, number: int) -> list[Slot]:
-        """So many further slots for each response of which a history can leave several demands."""
+        """Add this number of slots for each response of which a history can leave several demands."""
         more, self.more = self.more, self.formula.fresh()
         added = [self._add_slot(pending) for pending in self.several for _ in range(number)]
         self.add([-more, *(slot.active for slot in added), self.more])
@@ -110,20 +110,20 @@ class Situations:
             self.add([-active, self.times.at_most(node, self.now, last)])
 
     def _add_flags(self, slot: Slot) -> None:
-        """Which atoms came about before now is open, except where the demand would be decided by it."""
+        """Variables for the atoms that occurred before now, except those that would decide the demand."""
         decisive = set(alternatives(slot.demand))
         for leaf in slot.pending.atoms:
             if (leaf in decisive and not leaf.negated) or (leaf == slot.demand):
                 slot.came[leaf] = -self.true
                 continue
             came = slot.came[leaf] = self.formula.fresh()
-            # There was time for it: after the trigger's instant at the earliest, and before now.
+            # There must be time for it, from the instant after the trigger to now.
             self.add([-came, slot.active])
             self.add([-came, -self.times.at_most(slot.node, self.now, max(leaf.start or 0, 0))])
         self.add([-slot.active, self._can_be_met(slot, slot.demand)])
 
     def _can_be_met(self, slot: Slot, demand: Demand) -> int:
-        """A literal that implies that the past alone does not break a demand."""
+        """A literal that implies that the past alone does not violate a demand."""
         assert not isinstance(demand, int), "slots have no literals"
         if isinstance(demand, Occurs):
             if demand.negated:
@@ -136,8 +136,8 @@ class Situations:
     # What a situation is --------------------------------------------------------------------------------------
 
     def _require_inputs(self) -> None:
-        """Some input occurs; each triggers a selected rule, or is named by one; a clause of one that is triggered
-        decides."""
+        """Some input occurs. Each triggers a selected rule, or a condition of one names it. A clause of a triggered
+        rule decides."""
         decides = []
         for event, given in self.inputs.items():
             rules = self.index.by_trigger.get(event, [])
@@ -149,7 +149,7 @@ class Situations:
         self.add(decides)
 
     def _allows_inputs(self, slot: Slot, demand: Demand) -> int:
-        """A literal that implies that no input breaks what a slot forbids now."""
+        """A literal that implies that no input is forbidden by a slot now."""
         assert not isinstance(demand, int), "slots have no literals"
         if isinstance(demand, Occurs):
             can_be_met = self._can_be_met(slot, demand)
@@ -186,12 +186,12 @@ class Situations:
         return literal if value else -literal
 
     def facts_of_pending(self) -> Iterator[Fact]:
-        """The facts that something is pending, one for each thing that can be."""
+        """The facts that something is pending, one for each possible pending demand."""
         yield from (("slot", number, True) for number in range(len(self.slots)))
         yield from (("lasts", key, True) for key in self.lasting)
 
     def nodes_of(self, fact: Fact) -> set[int]:
-        """The times that only a fact speaks about."""
+        """The times that only one fact mentions."""
         if fact[0] == "slot":
             return {self.slots[int(str(fact[1]))].node}
         return {self.lasting[str(fact[1])][2]} if fact[0] == "lasts" else set()
@@ -201,8 +201,8 @@ class Situations:
         self.add([-self.literal(fact) for fact in facts])
 
     def exclude_pairs(self, pairs: Iterable[tuple[str, int | None]]) -> None:
-        """No further situation has all these rules, with their clauses that decide now or decided what is pending; None
-        is any."""
+        """No further situation has all these rules with these clauses, which decide now or have a pending demand.
+        None stands for any clause."""
         present = []
         for label, number in pairs:
             selected = self.selected[label]
@@ -219,7 +219,7 @@ class Situations:
         self.add([-literal for literal in present])
 
     def facts(self) -> list[Fact]:
-        """The facts of the situation of the last `find`, without what no slot or rule depends on."""
+        """The facts of the situation of the last `find`, without those on which no slot or rule depends."""
         times, _ = self.times.schedule(self.holds, self._used())
         found: list[Fact] = [("rule", label, True) for label, s in self.selected.items() if self.holds(s)]
         found += [("input", event, self.holds(given)) for event, given in self.inputs.items()]
@@ -247,7 +247,7 @@ class Situations:
     # Solving --------------------------------------------------------------------------------------------------
 
     def find(self, *assumed: int) -> bool:
-        """Whether a situation is left, in which all these literals are true."""
+        """Whether a situation is left in which all these literals are true."""
         while True:
             self.instant.settle()
             self._solver.add(self.formula.clauses[self._sent :])
@@ -269,7 +269,7 @@ class Situations:
             self.formula.clauses += refused
 
     def find_least(self, *assumed: int) -> bool:
-        """As `find`; as few slots as can be are active."""
+        """The same as `find`, with as few active slots as possible."""
         if not self.find(*assumed):
             return False
         inactive = [-slot.active for slot in self.slots if not self.holds(slot.active)]

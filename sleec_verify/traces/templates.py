@@ -1,7 +1,7 @@
 """Templates: continuations that depend on the situation as little as possible.
 
-A template adds acts now, which bring about what the rules require at once. Later instants have fixed events and
-measures. They lie some seconds after now, or after the trigger of a pending demand: where a history can leave several
+A template has acts of now, which cause everything that the rules require at once. Later instants have fixed events and
+measures. They are at fixed times after now, or after the trigger of a pending demand. If a history can leave several
 demands of one response, each of them that is not met otherwise has these instants (a *policy*).
 """
 
@@ -18,8 +18,9 @@ from sleec_verify.traces.pending_demands import Pending
 
 @dataclass(frozen=True)
 class Later:
-    """An instant of a template, `seconds` after what it is reckoned from, with its events and state, what the rules
-    triggered there demand, and the `when … until` and `when … for` that begin, hold or end there, by their keys."""
+    """An instant of a template, `seconds` after its reference node, with its events and state, the demands of the
+    rules that are triggered there, and the `when … until` and `when … for` that begin, hold or end there, by their
+    keys."""
 
     seconds: int
     events: frozenset[str]
@@ -32,8 +33,8 @@ class Later:
 
 @dataclass(frozen=True)
 class Template:
-    """`acts` are done now, besides what the rules require at once; then come the instants of `later`, in this order,
-    each reckoned from a node, and those of the policies."""
+    """`acts` are done now, in addition to what the rules require at once. Then follow the instants of `later`, in
+    this order, each relative to a node, and those of the policies."""
 
     acts: frozenset[str] = frozenset()
     later: tuple[tuple[int, Later], ...] = ()
@@ -41,14 +42,14 @@ class Template:
 
 
 def templates_of(found: Continuations) -> Iterator[Template]:
-    """Templates of the continuation that `found.complies` has just found: with the earliest and the latest times, each
-    instant reckoned from what it waits for; and with times in between, all reckoned from now, which fits for sure."""
+    """Templates of the last continuation of `found.complies`: with the earliest and the latest times, each instant
+    relative to what it waits for; and with times in between, all relative to now, which always fits."""
     now = found.now
     found.model.reduce([one.guard for one in found.model.decided if one.at != now])
     earliest, waits = found.model.schedule()
     latest, limits = found.model.schedule(now)
     first, second = _template(found, earliest, waits), _template(found, latest, limits)
-    # The constraints are differences, so that the mean of two solutions is one.
+    # Constraints are differences, so the mean of two solutions is a solution.
     middle = _template(found, {node: (time + latest[node]) // 2 for node, time in earliest.items()}, {})
     yield from (first, second, replace(middle, policies=second.policies))
 
@@ -108,7 +109,7 @@ def _truths(found: Continuations, demand: Demand) -> dict[int, bool]:
 
 
 def _acts(found: Continuations) -> frozenset[str]:
-    """The events of now that are neither inputs nor required at once by these or one another."""
+    """The events of now that are neither inputs nor required at once by inputs or other events of now."""
     model, now = found.model, found.now
     brought = {str(fact[1]) for fact in found.facts if fact[0] == "input" and fact[-1]}
     required = [

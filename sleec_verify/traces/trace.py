@@ -9,7 +9,7 @@ from sleec_runtime.model import Value
 
 
 class TraceInstant(NamedTuple):
-    """One instant of a trace: its time in seconds, its events, and the conditions and measures that count."""
+    """One instant of a trace: its time in seconds, its events, and the relevant conditions and measures."""
 
     time: int
     events: frozenset[str]

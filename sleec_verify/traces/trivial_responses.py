@@ -1,9 +1,8 @@
-"""Responses that can always be met: the one static argument besides refinement.
+"""Responses that can always be met: the only static argument in addition to refinement.
 
 An event is *free* if no rule forbids it, no relation or condition mentions it, and everything that it triggers can
-always be met. A
-demand with a free event in a window that closes last can be met whatever else happens: the event occurs in that window.
-It can be in no minimal set of rules in conflict.
+always be met. A demand with a free event in a window that closes last can always be met: the event occurs in that
+window. Such a demand is in no minimal set of rules in conflict.
 """
 
 from __future__ import annotations
@@ -23,9 +22,9 @@ def free_events(index: TraceIndex) -> frozenset[str]:
 
 
 def contested_obligations(index: TraceIndex, clause: Clause) -> tuple[Obligation, ...]:
-    """The obligations of a clause that cannot always be met, whatever the hedges inside them decide.
+    """The obligations of a clause that cannot always be met, for all decisions of the hedges inside them.
 
-    Raises Undecided for a window whose length a measure gives.
+    Raises `Undecided` if the length of a window is a measure.
     """
     known = index.once(_contested)
     entry = known.get(id(clause))
@@ -70,7 +69,7 @@ def _leads_to_free(index: TraceIndex, event: str, free: frozenset[str]) -> bool:
 
 
 def is_always_met(demand: Demand, free: frozenset[str]) -> bool:
-    """Whether a demand without literals can be met whatever else happens."""
+    """Whether a demand without literals can be met in every situation."""
     if isinstance(demand, Occurs):
         return not demand.negated and demand.event in free
     if isinstance(demand, Every):

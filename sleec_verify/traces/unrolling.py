@@ -1,13 +1,13 @@
 """Lazy unrolling: a formula over the instants of a trace, which grows as far as its rules require (bounded model
 checking; A. Biere and others, "Symbolic model checking without BDDs", TACAS 1999).
 
-That something holds at an instant that does not exist yet is an assumption (a *need*). So
+A statement about an instant that does not exist yet is an assumption (a *need*). So
 
-- if no model exists even with these assumptions, there is no trace, however long;
-- a model that uses none of them is a trace, with exactly the instants that it has.
+- if no model exists even with these assumptions, there is no trace of any length;
+- a model that uses none of them is a trace, with exactly its instants.
 
-In between, an instant is added for each assumption that a model uses. Where no response leads back to its own trigger
-this terminates; elsewhere the search gives up after `MOST_CYCLIC` instants.
+Otherwise, an instant is added for each assumption that a model uses. This terminates if no response leads back to its
+own trigger. If one does, the search gives up after `MOST_CYCLIC` instants.
 """
 
 from __future__ import annotations
@@ -25,25 +25,25 @@ from sleec_verify.traces.instant import Instant, SharedClauses
 from sleec_verify.traces.trace import TraceInstant
 
 MOST = 30
-"""Instants that are added before the search gives up. Published rulesets need three."""
+"""The maximal number of instants that are added. Published rulesets need three."""
 
 MOST_CYCLIC = 8
-"""The same where a response can lead back to its trigger."""
+"""The same, if a response can lead back to its trigger."""
 
 MOST_CONFLICTS_CYCLIC = 20_000
-"""Conflicts of the solver after which a question is given up where a response can lead back to its trigger."""
+"""The maximal number of conflicts of the solver, if a response can lead back to its trigger."""
 
 MOST_CLAUSES = 20_000
-"""Clauses beyond which no instant is added."""
+"""The number of clauses above which no instant is added."""
 
 MOST_COMPARED = 300_000
-"""Pairs of instants whose times may be compared in all, summed over models: a few seconds."""
+"""The maximal number of pairs of instants whose times are compared, summed over models: a few seconds."""
 
 
 @dataclass
 class Need:
-    """`witness` holds at some instant: one of the model, or (`rest`) one that is not there yet. `event` is what occurs
-    there, if only that and the time matter."""
+    """`witness` holds at some instant: one of the model, or (`rest`) one that does not exist yet. `event` is the
+    event there, if only this event and the time matter."""
 
     witness: Callable[[int], int]
     rest: int
@@ -51,9 +51,9 @@ class Need:
 
 
 class Unrolling(ABC):
-    """Instants and times with what holds there.
+    """Instants and times, with what holds there.
 
-    A node is a time; the nodes in `instants` have events and measures too.
+    A node is a time. The nodes in `instants` also have events and measures.
     """
 
     def __init__(self, index: TraceIndex) -> None:
@@ -66,7 +66,8 @@ class Unrolling(ABC):
         self.after: int | None = None
         """The node that all instants added from now on come after."""
         self.before: int | None = None
-        """The node that all instants come before: the trace is a history, and what can still be met after it is."""
+        """The node that all instants come before. Then the trace is a history, and demands that can still be met
+        after it hold."""
         self._most = MOST_CYCLIC if index.is_cyclic else MOST
         self._grown = 0
         self._refused = 0
@@ -107,7 +108,7 @@ class Unrolling(ABC):
         return node
 
     def everywhere(self, make: Callable[[int], None]) -> None:
-        """Call `make` for every instant, those to come included."""
+        """Call `make` for every instant, including later ones."""
         self._everywhere.append(make)
         for node in list(self.instants):
             make(node)
@@ -138,7 +139,7 @@ class Unrolling(ABC):
             need.rest = rest
 
     def condition(self, at: int, condition: Condition | None) -> int:
-        """The literal of a condition at an instant; the same literal whenever it is asked for."""
+        """The literal of a condition at an instant; always the same literal."""
         if condition is None:
             return self.formula.true
         literal = self._conditions.get((at, condition))
@@ -147,7 +148,7 @@ class Unrolling(ABC):
         return literal
 
     def in_force(self, key: str) -> int:
-        """The literal "this rule or relation counts"; cores name what matters by it."""
+        """The literal "this rule or relation counts". Cores name the relevant ones by it."""
         literal = self._in_force.get(key)
         if literal is None:
             literal = self._in_force[key] = self.formula.fresh()
@@ -157,9 +158,9 @@ class Unrolling(ABC):
 
     def ask(self, *required: int, counting: Collection[str] | None = None) -> bool:
         """Whether there is a trace in which all these literals are true. `counting` are the labels of the rules and the
-        keys of the relations that count: all, unless given.
+        keys of the relations that count, by default all.
 
-        Raises Undecided where the solver gives up, or the trace needs more instants than are tried.
+        Raises `Undecided` if the solver gives up, or the trace needs too many instants.
         """
         self._asked = required, counting
         while True:
@@ -172,8 +173,8 @@ class Unrolling(ABC):
             self._grow()
 
     def reduce(self, spared: Iterable[int]) -> None:
-        """Leave instants and events out of the trace of the last `ask`, and make literals false that are `spared`, as
-        far as it does not need them."""
+        """Remove unnecessary instants and events from the trace of the last `ask`, and make the literals `spared`
+        false, as far as possible."""
         required, counting = self._asked
         spare: list[int] = []
         instants = [instant.used for instant in self.instants.values()]
@@ -185,7 +186,7 @@ class Unrolling(ABC):
         assert found, "the trace is left"
 
     def _grow(self) -> None:
-        """Add an instant for each event that the model leaves to instants to come: one may serve several needs."""
+        """Add an instant for each event that the model assumes at new instants; one instant may serve several needs."""
         trusted = {need.event or number: need for number, need in enumerate(self._needs) if self.true(need.rest)}
         for need in trusted.values():
             if self._grown >= self._most or len(self.formula.clauses) - self._refused > MOST_CLAUSES:
@@ -193,15 +194,15 @@ class Unrolling(ABC):
             self._grown += 1
             self._needs.remove(need)
             rest = need.rest
-            # What the new instant is for is met there, or was met at one of the others.
+            # The needs of the new instant are met there, or at one of the others.
             self.add([-rest, need.witness(self.instant())])
 
     def _given_up(self) -> Undecided:
         return Undecided(f"no answer with {len(self.instants)} instants")
 
     def _solve(self, required: Sequence[int], counting: Collection[str] | None, closed: bool) -> bool:
-        """Solve with the rules of all events that occur in the model, and with times that can be; `closed`: without
-        instants to come."""
+        """Solve with the rules of all events that occur in the model, and with consistent times. `closed`: without
+        new instants."""
         recorder = self.index.recorder
         while True:
             self._send()
@@ -229,10 +230,10 @@ class Unrolling(ABC):
 
     @abstractmethod
     def _expand(self) -> bool:
-        """Encode what the events of the model bring about; whether there is anything new."""
+        """Encode the consequences of the events of the model. Returns whether there is anything new."""
 
     def _refine(self) -> bool:
-        """Exclude what a model says of measures and times and cannot be; False if all of it can."""
+        """Exclude inconsistent measures and times of a model. False if all are consistent."""
         refused = []
         for instant in self.instants.values():
             if self.true(instant.used):
@@ -251,11 +252,11 @@ class Unrolling(ABC):
 
     @property
     def core(self) -> set[int]:
-        """The assumptions that the last answer, which was no, rests on."""
+        """The assumptions in the core of the last answer, which was no."""
         return self._core
 
     def matter(self) -> list[str]:
-        """The rules and relations that the last answer, which was no, rests on."""
+        """The rules and relations in the core of the last answer, which was no."""
         return [key for key, literal in self._in_force.items() if literal in self._core]
 
     def true(self, literal: int) -> bool:

@@ -1,4 +1,4 @@
-"""What a conflict needs of its situation: relations, conditions and measures without which it is none."""
+"""The necessary parts of a conflict's situation: a minimal set of relations, conditions and measures."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ def needed_values(
     deciding: Iterable[tuple[str, int]],
     values: Mapping[str, Value],
 ) -> Mapping[str, Value]:
-    """The `values` of a minimal set of conditions and measures with which no response complies with `rules`, and the
-    clauses `deciding` decide. All that is not given may as well be false."""
+    """The `values` of a minimal set of conditions and measures with which no response complies with `rules`, and
+    the clauses `deciding` decide. All other conditions may be false."""
     index = situations.index
     facts = [fact for fact in continuations.facts if fact[0] == "state"]
     formula = SharedClauses()
@@ -88,7 +88,7 @@ def names_of_key(instant: Instant, key: Key) -> frozenset[str]:
 
 
 def _closed(situations: Situations, names: set[str], values: Mapping[str, Value]) -> set[str]:
-    """These names, with those that relations tie to them: all that is not given may as well be false."""
+    """These names, with those that relations connect to them."""
     found = set(names)
     formulas = list(_required(situations))
     measures = situations.index.ruleset.measures
@@ -104,7 +104,7 @@ def _closed(situations: Situations, names: set[str], values: Mapping[str, Value]
 
 
 def _required(situations: Situations) -> Iterator[model.Formula]:
-    """The formulas that relations require of the conditions and measures of now, whatever occurs."""
+    """The formulas that relations require of the conditions and measures of now, for all events."""
     for relation in situations.index.relations:
         if isinstance(relation, MeasureRelation):
             yield formula_at_one_instant(relation)
