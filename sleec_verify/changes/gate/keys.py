@@ -69,7 +69,7 @@ class Policy(NamedTuple):
 def settings(table: object, called: str, where: str, folder: str) -> dict[str, Any]:
     """The fields of a `Config` that a table sets, for paths from `folder`. Messages call the file `called`, and the
     table in it `where`. Raises `ConfigError`."""
-    return _Reader(called, where, folder).read(table, _SETTINGS, "")
+    return _Reader(called, where, folder).read(table, SETTINGS, "")
 
 
 def is_assertion(entry: str) -> bool:
@@ -171,10 +171,10 @@ def _targets(reader: _Reader, name: str, value: object) -> tuple[Target, ...]:
 
 
 def _policy(reader: _Reader, name: str, value: object) -> Policy:
-    return Policy(**reader.read(value, _POLICIES, name))
+    return Policy(**reader.read(value, POLICIES, name))
 
 
-_POLICIES: Mapping[str, _Read] = {
+POLICIES: Mapping[str, _Read] = {
     "findings": _severity,
     "new-conflicts": _truth,
     "lost-obligations": _texts,
@@ -190,7 +190,7 @@ _POLICIES: Mapping[str, _Read] = {
     "new-suppressions": _truth,
 }
 
-_SETTINGS: Mapping[str, _Read] = {
+SETTINGS: Mapping[str, _Read] = {
     "rulesets": _paths,
     "base": _text,
     "baseline": _path,

@@ -17,11 +17,11 @@ from typing import Any
 import pytest
 
 from sleec_verify.report import FORMATS
-from tests.fast.report.test_formats import VALIDATOR, commands_in
 from tests.support.cli import Cli
+from tests.support.formats import VALIDATOR, commands_in
+from tests.support.gates import BOTH, CLASH, DEAD, LOST, OLD, TIMED, TIMED_ELSE, config
 from tests.support.paths import ROOT
 from tests.support.repository import Repository
-from tests.thorough.changes.gate.test_gate import BOTH, CLASH, DEAD, LOST, OLD, TIMED, TIMED_ELSE, config
 
 pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
 PROGRAMS = ("sarif", "junit", "github", "gitlab")

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.cli import Cli
+from tests.support.gates import GATE
 from tests.support.repository import Repository
-from tests.thorough.changes.gate.test_gate import GATE
 
 pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
 

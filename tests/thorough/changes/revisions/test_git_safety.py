@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.cli import Cli
+from tests.support.gates import CLASH, LOST, OLD
 from tests.support.repository import Repository
-from tests.thorough.changes.gate.test_gate import CLASH, LOST, OLD
 
 pytestmark = [
     pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine"),
