@@ -1,8 +1,8 @@
 """Definition 1: what a ruleset entails in one context, and why.
 
 With the context total and every response a conjunction of literals, unit propagation alone decides it: one
-propagation over Equation 1 gives every entailed obligation. An inconsistent context, in which Definition 1 to the
-letter entails everything, is reported as a conflict with its rules.
+propagation over Equation 1 gives every entailed obligation. In an inconsistent context, Definition 1
+entails everything; this is reported as a conflict with its rules.
 """
 
 from __future__ import annotations

@@ -24,10 +24,10 @@ class SituationLaw(NamedTuple):
 
 
 class Feasibility(NamedTuple):
-    """`broken` are the laws that exclude the situation for all values of the measures that are not given. If there are
-    none, `unsettled` are the laws that are false if all comparisons with these measures are false. `possible` are
-    values with which all laws hold, if there are any: of the measures in these laws, and, if some laws are broken, a
-    minimal set of conditions that must be true."""
+    """`broken` are the assumptions and relations that exclude the situation for all values of missing measures. If
+    there are none, `unsettled` are those that are false if all comparisons with missing measures are false.
+    `possible` are values with which all of them hold, if there are any: of the measures in them, and, if some are
+    broken, a minimal set of conditions that must be true."""
 
     broken: tuple[Assume | Relation, ...] = ()
     unsettled: tuple[Assume | Relation, ...] = ()
@@ -53,7 +53,7 @@ def _missing(laws: Iterable[SituationLaw], context: Context, measures: Mapping[s
 
 
 class _Asked:
-    """The laws as clauses over the situation, each with a literal that activates it."""
+    """The assumptions and relations as clauses over the situation, each with a literal that activates it."""
 
     def __init__(self, laws: Sequence[SituationLaw], context: Context, measures: Mapping[str, Measure]) -> None:
         encoder = self._encoder = Encoder(measures)
@@ -70,7 +70,7 @@ class _Asked:
         self._given = [literal for literal in encoder.assumptions(context) if -literal not in self._names]
 
     def check(self, context: Context, measures: Mapping[str, Measure]) -> Feasibility:
-        """The broken or unsettled laws, and values with which all laws hold."""
+        """The broken or unsettled ones, and values with which all of them hold."""
         all_laws = [literal for literal, _ in self._laws]
         failing = [law for _, law in self._laws if not law.holds]
         open_ones = {-variable for variable in self._names}
@@ -89,7 +89,7 @@ class _Asked:
         return Feasibility(said, () if broken else tuple(law.said for law in failing), possible)
 
     def _made_true(self, laws: Sequence[int], open_ones: Collection[int]) -> list[str]:
-        """A minimal set of conditions that must be true for the laws to hold. The solver keeps the model."""
+        """A minimal set of conditions that must be true for all of them to hold. The solver keeps the model."""
         false: list[int] = []
         for literal in sorted(open_ones, reverse=True):
             if self._ask(*laws, *false, literal):
@@ -98,7 +98,7 @@ class _Asked:
         return [name for variable, name in self._names.items() if -variable not in false]
 
     def _at_odds(self, assumed: Collection[int]) -> list[SituationLaw]:
-        """A minimal set of laws that cannot hold together."""
+        """A minimal set of assumptions and relations that cannot hold together."""
         needed = list(self._laws)
         for one in self._laws:
             without = [other for other in needed if other is not one]

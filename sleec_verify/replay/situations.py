@@ -1,5 +1,5 @@
-"""Every witness is replayed before anyone sees it: the runtime's evaluator, which shares nothing with the compiler
-and the solver, must find in the situation what the finding says of it."""
+"""Replay of situations: the runtime's evaluator, which shares no code with the encoding and the solver, must
+confirm each witness before it is shown."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def replay_finding(index: RulesetIndex, finding: Finding) -> bool:
 
 
 def _decisions(index: RulesetIndex, finding: Finding, context: Context) -> dict[str, Decision]:
-    """The clauses that decide the rules of the finding. What other rules oblige as well takes no conflict away."""
+    """The clauses that decide the rules of the finding. Obligations of other rules do not remove a conflict."""
     ruleset = index.ruleset
     found = (decide(ruleset.by_label[label], context, ruleset.reading, ruleset.measures) for label in finding.rules)
     return {decision.rule.label: decision for decision in found if decision is not None}
@@ -54,9 +54,9 @@ def _vacuous(index: RulesetIndex, finding: Finding, context: Context) -> bool:
 
 
 def _has_conflict(index: RulesetIndex, finding: Finding, context: Context, decisions: Mapping[str, Decision]) -> bool:
-    """Whether what these decisions oblige conflicts, with the constraints that can concern it."""
+    """Whether the obligations of these decisions conflict, under the constraints that can affect them."""
     literals = tuple(dict.fromkeys(literal for one in decisions.values() for literal in one.obligations))
-    # Constraints can break by themselves where a NEVER and another leave nothing to do.
+    # Constraints can be violated without obligations, if a NEVER and another one allow nothing.
     names = {literal.name for literal in literals}.union(finding.obligations)
     constraints = index.constraints_about(names) if finding.clauses else index.constraints
     return has_conflict(literals, constraints, Situation(context, index.ruleset.measures))

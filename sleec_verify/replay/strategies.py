@@ -1,6 +1,8 @@
-"""Strategies are replayed before anyone sees them, by the runtime's evaluator of traces, which shares nothing with the
-circuits: each act is lawful, and what the robot does and plans before it loses keeps all. That it has no way left in
-the end is a claim about all that it may do, which no replay can show."""
+"""Replay of strategies by the runtime's evaluator of traces, which shares no code with the circuits.
+
+It confirms that each act is lawful, and that the robot's actions and plans satisfy everything until it loses. That the
+robot has no other way is a claim about all its actions, which a replay cannot confirm.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,7 @@ def _plays(
     for branch in strategy.branches:
         after = branch.then.act.time
         if branch.done is None:
-            # What the robot has done is not looked at, so nothing of it can be replayed.
+            # The strategy does not depend on the robot's actions, so there is nothing to replay.
             if not after > act.time:
                 return False
             continue

@@ -1,6 +1,6 @@
-"""Timelines of traces: what occurs when, and what the rules require until when.
+"""Timelines of traces: which events occur when, and the windows of the rules' requirements.
 
-Which clause decides is computed by the evaluator of the runtime, which shares nothing with the encoding.
+The evaluator of the runtime, which shares no code with the encoding, computes which clause decides.
 """
 
 from __future__ import annotations
@@ -19,9 +19,10 @@ from sleec_verify.traces.trace import TraceInstant
 def timeline_of(
     index: TraceIndex, moments: Sequence[TraceInstant], now: int | None = None, labels: Collection[str] | None = None
 ) -> Timeline:
-    """The timeline of a trace, or of a history up to the moment `now`. With `labels`, of these rules only.
+    """The timeline of a trace, or of a history up to the instant `now`. With `labels`, only of these rules.
 
-    Raises Undecided for a window whose length a measure gives."""
+    Raises `Undecided` if the length of a window is a measure.
+    """
     shown = []
     for moment in moments:
         rules = [
@@ -40,7 +41,8 @@ def timeline_of(
 def _due(
     index: TraceIndex, rules: Sequence[Rule], moment: TraceInstant, course: Sequence[TraceInstant], over: bool
 ) -> Iterator[Due]:
-    """What the rules that speak at a moment require. If all is `over`, nothing happens after the last moment."""
+    """The requirements of the rules that are triggered at an instant. With `over`, nothing happens after the last
+    instant."""
     context = Context(moment.events, moment.conditions)
     windows = ResponseWindows(index.ruleset, context, index.untimed)
     for rule in rules:
@@ -66,14 +68,14 @@ def _due(
 
 
 def _replaced(one: WindowedResponse) -> Iterator[WindowedResponse]:
-    """What a response is due in place of, and what that is."""
+    """The response that a response replaces, and whether it was missed."""
     while one.instead is not None:
         one = one.instead
         yield one
 
 
 def _is_met(one: WindowedResponse, triggered: int, course: Sequence[TraceInstant], over: bool) -> bool:
-    """Whether a response is met for certain, so that nothing is due in its place any more."""
+    """Whether a response is certainly met, so that its alternative is not due any more."""
     assert one.start is not None, "the engine refuses windows whose length a measure gives"
     start, end = triggered + one.start, None if one.end is None else triggered + one.end
     open_still = not over and (end is None or end >= course[-1].time)

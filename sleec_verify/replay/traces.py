@@ -1,6 +1,5 @@
-"""Findings about traces are replayed before anyone sees them, by the runtime's evaluator of traces.
-
-It shares nothing with the encoding and the solver."""
+"""Replay of findings about traces by the runtime's evaluator of traces, which shares no code with the encoding and
+the solver."""
 
 from __future__ import annotations
 
@@ -20,18 +19,18 @@ from sleec_verify.traces.relations import names_of_relation
 
 
 def replay_trace(index: RulesetIndex, finding: Finding) -> bool:
-    """Whether the evaluator finds what a finding claims: a trace in which a concern comes about, or a conflict after a
-    lawful history in which the named clauses decide. That no response complies with them is a claim about all
-    responses, which no replay can show."""
+    """Whether the evaluator confirms a finding: a trace in which a concern occurs, or a conflict after a lawful
+    history in which the named clauses decide. That no response complies with them is a claim about all responses,
+    which a replay cannot confirm."""
     if finding.check == "concern":
-        return _comes_about(index, finding)
+        return _claim_occurs(index, finding)
     assert finding.witness is not None, "only findings with a witness are replayed"
     moments = () if finding.timeline is None else as_trace(finding.timeline).instants
     now = moments[-1] if moments else Instant(0, frozenset(finding.witness.triggers), finding.witness.conditions)
     history = moments[:-1]
     for label, number in finding.clauses:
         rule = index.ruleset.by_label[label]
-        # What the response itself triggers has no instant in the situation.
+        # Rules that only the response triggers have no instant in the situation.
         speaking = [instant for instant in moments or (now,) if rule.trigger in instant.events]
         if speaking and not _decides(index, rule, number, speaking):
             return False
@@ -46,14 +45,14 @@ def replay_trace(index: RulesetIndex, finding: Finding) -> bool:
 
 
 def _is_violated_by(now: Instant, relation: Requirement) -> bool:
-    """Whether a relation that seems to be violated now is. Which events occur now is open, and so are conditions and
-    measures that do not matter."""
+    """Whether a relation that appears to be violated now is violated. The events of now are open, and so are
+    irrelevant conditions and measures."""
     assert not isinstance(relation, Rule), "no event triggers a rule"
     return not any(events_of(relation)) and any(name in now.conditions for _, name in names_of_relation(relation))
 
 
-def _comes_about(index: RulesetIndex, finding: Finding) -> bool:
-    assert finding.timeline is not None, "a concern comes about in a trace"
+def _claim_occurs(index: RulesetIndex, finding: Finding) -> bool:
+    assert finding.timeline is not None, "a concern occurs in a trace"
     trace = as_trace(finding.timeline)
     (claim,) = (c for c in claims(index.ruleset, "concern") if c.label == finding.obligations[0])
     ruleset = _about(index, trace)
@@ -68,9 +67,10 @@ def _decides(index: RulesetIndex, rule: Rule, number: int, instants: Iterable[In
 
 
 def _about(index: RulesetIndex, trace: Trace) -> Ruleset:
-    """The ruleset with only the rules and relations that what a trace shows can violate.
+    """The ruleset with only the rules and relations that the shown part of a trace can violate.
 
-    The others hold anyway, or by conditions and measures that do not matter and are not shown."""
+    The others hold in any case, or depend on conditions and measures that are irrelevant and not shown.
+    """
     events = {event for instant in trace.instants for event in instant.events}
     shown = {("event", event) for event in events}
     shown |= {("measure", name) for instant in trace.instants for name in instant.conditions}
@@ -81,5 +81,5 @@ def _about(index: RulesetIndex, trace: Trace) -> Ruleset:
 
 
 def as_trace(timeline: Timeline) -> Trace:
-    """The moments as the runtime takes them."""
+    """The instants as values of the runtime."""
     return Trace(tuple(Instant(m.time, frozenset(m.events), m.conditions) for m in timeline.moments))

@@ -1,7 +1,7 @@
-"""What is told to people once, though two checks find it.
+"""Findings of two checks that people see once.
 
-A rule that is active nowhere can always be removed, so that it is redundant says nothing more. Of a hedge that decides
-nowhere it says that removing it is safe. It need not be: in the reading `cascade`, its condition counts for the others.
+A dead rule can always be removed, so it is redundant as well, which adds nothing. For a dead hedge, redundancy adds
+that its removal is safe. This is not always so: in the reading `cascade`, its condition counts for later hedges.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _ALSO = {"redundant-rule": "dead-rule", "redundant-hedge": "dead-hedge"}
 
 
 def deduplicate(findings: Iterable[Finding]) -> list[Finding]:
-    """The findings without those on a rule or hedge that can be removed, where another says that it is dead."""
+    """The findings without those about a redundant rule or hedge that is also reported as dead."""
     found = list(findings)
     dead = {_of(finding, finding.check) for finding in found if finding.check in _ALSO.values()}
     removable = {
@@ -35,5 +35,5 @@ def deduplicate(findings: Iterable[Finding]) -> list[Finding]:
 
 
 def _of(finding: Finding, check: str) -> tuple[object, ...]:
-    """The rule or hedge that a finding is about, as one of `check`."""
+    """The rule or hedge of a finding."""
     return check, finding.rules[:1], finding.clauses, finding.span, finding.domains

@@ -1,4 +1,4 @@
-"""What a check says: verdicts and findings. Checks make them, renderers show them; neither does the other's work."""
+"""Verdicts and findings: checks create them, and renderers show them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 Severity = Literal["error", "warning", "note"]
 SEVERITIES: tuple[Severity, ...] = ("error", "warning", "note")
-"""From the gravest down."""
+"""From the most severe to the least."""
 
 
 class ClauseRef(NamedTuple):
@@ -25,11 +25,11 @@ class ClauseRef(NamedTuple):
 
 @dataclass(frozen=True)
 class Witness:
-    """A smallest situation that shows a finding: the triggers that occur, the conditions that matter, and the triggers
+    """A smallest situation that shows a finding: the triggers that occur, the relevant conditions, and the triggers
     that must be `absent`.
 
-    A condition or measure that is not in `conditions` does not matter; taking it as false shows the finding too.
-    Values are truth values, exact numbers, or values of a scale.
+    A condition or measure that is not in `conditions` does not matter; the finding also holds if it is false. Values
+    are truth values, exact numbers, or values of a scale.
     """
 
     triggers: tuple[str, ...]
@@ -37,7 +37,7 @@ class Witness:
     absent: tuple[str, ...] = ()
 
     def context(self) -> Context:
-        """The situation in which all that does not matter is false."""
+        """The situation in which everything irrelevant is false."""
         from sleec_runtime.model import Context
 
         return Context(frozenset(self.triggers), dict(self.conditions))
@@ -45,12 +45,12 @@ class Witness:
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that a check found.
+    """One problem that a check found.
 
-    `span` is the place to look at first; `related` are further places with a word on each. They are places of `source`,
-    or of the text of the rules where that is None. `timeline` is the witness of what takes time, `strategy` that of an
-    environment that wins; `witness` is then one moment of it. `obligations` are those at odds or concerned. `domains`
-    are the domains in which it holds, if the ruleset has any.
+    `span` is the main place. `related` are further places with a short text for each. They are places in `source`, or
+    in the text of the rules if that is None. `timeline` is the witness of a finding about time, and `strategy` that of
+    an environment that wins; `witness` is then one of its instants. `obligations` are those that contradict each other
+    or are affected. `domains` are the domains in which the finding holds, if the ruleset has domains.
     """
 
     check: str
@@ -78,14 +78,14 @@ class Proved:
 
 @dataclass(frozen=True)
 class Refuted:
-    """The property fails; the findings, each with its witness where there is one, say how."""
+    """The property fails. The findings say how, with witnesses if there are any."""
 
     findings: tuple[Finding, ...]
 
 
 @dataclass(frozen=True)
 class Unknown:
-    """Not decided. `why` says what stood in the way; findings made before that stay true."""
+    """The check is inconclusive. `why` is the reason; earlier findings remain valid."""
 
     why: str
     findings: tuple[Finding, ...] = ()
@@ -96,8 +96,8 @@ Verdict = Union[Proved, Refuted, Unknown]
 
 @dataclass(frozen=True)
 class CheckResult:
-    """The verdict of one check on one ruleset and the seconds that it took. `reason` says, where there is something
-    to say, why not everything is listed."""
+    """The verdict of one check on one ruleset, and the seconds that it took. `reason` says why the list is
+    incomplete, if it is."""
 
     name: str
     verdict: Verdict

@@ -16,8 +16,8 @@ class InternalError(SleecError):
         place = f" in {path}" if path else ""
         super().__init__(
             f"internal error{place}: {type(cause).__name__}: {cause}",
-            "this is a mistake in sleec-verify, not in your rules. Please report it with the ruleset and the command; "
-            "`sleec-verify --traceback …` shows where it happened",
+            "this is a fault in sleec-verify, not in your rules; report it with the ruleset and the command. "
+            "`sleec-verify --traceback …` shows the place",
         )
         self.path = path
         self.__cause__ = cause

@@ -1,4 +1,4 @@
-"""A strategy of the environment, as a witness: what it does, and how it goes on."""
+"""A strategy of the environment as a witness: its acts, depending on the robot's answers."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from sleec_runtime.model import Value
 
 @dataclass(frozen=True)
 class Act:
-    """What happens at one instant: when, in seconds from the first act, the events, and the values of all that the
-    rules at odds look at."""
+    """What happens at one instant: the time in seconds from the first act, the events, and the relevant values."""
 
     time: int
     events: tuple[str, ...]
@@ -20,8 +19,7 @@ class Act:
 
 @dataclass(frozen=True)
 class Branch:
-    """What the robot does at once (None: whatever it does) and means to do later, and what the environment does
-    then."""
+    """The robot's immediate actions (None: any) and its plan, and the environment's next act."""
 
     done: tuple[str, ...] | None
     planned: tuple[Act, ...]
@@ -30,8 +28,8 @@ class Branch:
 
 @dataclass(frozen=True)
 class Strategy:
-    """What the environment does, and how it goes on. Without branches, the robot has no way left to keep all. `more`:
-    the robot may do other things at once, that are not shown."""
+    """An act of the environment, with a branch for each answer of the robot. Without branches, the robot has lost.
+    `more`: the robot has other answers that are not shown."""
 
     act: Act
     branches: tuple[Branch, ...] = ()

@@ -1,4 +1,4 @@
-"""A trace as a witness: what happens when, and what is due until when."""
+"""A trace as a witness: which events occur when, and the windows of what is due."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Due:
-    """What a rule calls for at some moment: in words, and the window of its event in seconds of the timeline. No `end`:
-    at some time.
+    """A requirement of a rule at some instant: in words, and the window of its event in seconds of the timeline. No
+    `end`: at some time.
 
-    `instead_of` is what it is due in place of, in words: from `start` on, as that was not kept in time (`overdue`), or
-    at any time.
+    `instead_of` is the response that it replaces, in words: from `start` on, because that was missed (`overdue`), or as
+    a choice.
     """
 
     rule: str
@@ -32,8 +32,8 @@ class Due:
 
 @dataclass(frozen=True)
 class Moment:
-    """One instant: its time in seconds, the events that occur, and the conditions and measures that were looked at, of
-    which those in `telling` bear on what is due."""
+    """One instant: its time in seconds, the events that occur, and the conditions and measures that were read.
+    Those in `telling` affect what is due."""
 
     time: int
     events: tuple[str, ...]
@@ -44,8 +44,8 @@ class Moment:
 
 @dataclass(frozen=True)
 class Timeline:
-    """Moments in the order of time. `now` is the place of the one after which no continuation complies with the
-    rules; what comes after it is open. Without it, the timeline is a whole trace."""
+    """Instants in the order of time. `now` is the position of the one after which no continuation complies with the
+    rules; everything after it is open. Without `now`, the timeline is a complete trace."""
 
     moments: tuple[Moment, ...]
     now: int | None = None

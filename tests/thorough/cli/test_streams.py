@@ -137,7 +137,7 @@ def test_unexpected_failure_asks_for_a_report(cli: Cli) -> None:
     ran = cli("check", "a.sleec", files={"a.sleec": RULES})
     assert ran.code == 2
     assert "ZeroDivisionError: the mistake" in ran.err
-    assert "Please report it" in ran.err
+    assert "report it with" in ran.err
     assert "Traceback" not in ran.err
 
 
