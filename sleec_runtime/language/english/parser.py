@@ -1,4 +1,4 @@
-"""A text in structured English as a whole, with its constraints and settings (docs/language.md).
+"""A text in structured English as a whole, with its settings (docs/language.md).
 
 A statement ends where the keyword of the next one is, so a line break is like a space. Declarations are read first,
 wherever they are, and NEVER and ASSUME last: the kind of a name in them depends on its use in the rules.
@@ -13,24 +13,21 @@ from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.common.gc_pause import uncollected
 from sleec_runtime.language.common.problems import first_problems, quoted
 from sleec_runtime.language.common.token_cursor import Abandon
+from sleec_runtime.language.english.constraints import ConstraintParser
 from sleec_runtime.language.english.keyword_correction import near_keyword
 from sleec_runtime.language.english.keywords import CLAIMS, DECLARATIONS, OPENINGS, RULE_STARTS, STATEMENTS
 from sleec_runtime.language.english.name_resolution import Names
-from sleec_runtime.language.english.relations import RelationParser
 from sleec_runtime.language.english.scanner import scan
 from sleec_runtime.model import (
     READINGS,
     Assume,
-    Atom,
     Constant,
-    Exclusive,
     Never,
     Reading,
     Ruleset,
     Source,
     Span,
     Statement,
-    leaves,
 )
 from sleec_runtime.support.suggestions import did_you_mean, nearest
 
@@ -64,7 +61,7 @@ def parse_english(source: Source) -> Ruleset:
     )
 
 
-class EnglishParser(RelationParser):
+class EnglishParser(ConstraintParser):
     """Reads a whole text, once."""
 
     def statements(self) -> list[Statement]:
@@ -85,7 +82,7 @@ class EnglishParser(RelationParser):
                 if self.kinds[token] == keyword:
                     self.at = token
                     self.domains = domains
-                    read: Callable[[], Assume | Never] = self._assume if keyword == "ASSUME" else self._never
+                    read: Callable[[], Assume | Never] = self.assume if keyword == "ASSUME" else self.never
                     self._found[index] = self._read(read)
         self.names.numbered(self.numbered)
         self.names.finish()
@@ -137,7 +134,7 @@ class EnglishParser(RelationParser):
                 self.at += 1
                 self.skip(STATEMENTS)
             elif kind == "EXCLUSIVE":
-                found.append(self._read(self._exclusive))
+                found.append(self._read(self.exclusive))
             elif kind == "DOMAIN":
                 self._read(self._domain)
             elif kind == "READING":
@@ -222,48 +219,3 @@ class EnglishParser(RelationParser):
             )
         self._reading_span = self.span(first)
         self.reading = "cascade" if name == "cascade" else "priority"
-
-    # Constraints ----------------------------------------------------------------------------------------------
-
-    def _exclusive(self) -> Exclusive:
-        first = self.at
-        self.at += 1
-        names, spans = self.names_in_list("the name of an obligation")
-        seen: set[str] = set()
-        for name, span in zip(names, spans):
-            if name in seen:
-                self.fail(
-                    f"{quoted(name)} is twice in this EXCLUSIVE",
-                    span,
-                    f"delete one of them; to forbid it, write NEVER {name}",
-                )
-            seen.add(name)
-            if not self.hurt:
-                self.names.use("obligation", name, span)
-        if len(names) < 2:
-            self.expected(
-                "a comma and another obligation",
-                f"EXCLUSIVE needs two or more obligations; to forbid one, write NEVER {names[0]}",
-            )
-        return Exclusive(names, self.domains, self.span(first), spans, self.comments_of(first))
-
-    def _never(self) -> Never:
-        first = self.at
-        self.at += 1
-        self.resolve = self.names.forbidden
-        formula = self.formula()
-        span = self.span(first)
-        if not any(isinstance(leaf, Atom) and leaf.kind == "obligation" for leaf in leaves(formula)):
-            self.problem(
-                "this NEVER contains no obligation, so the robot cannot avoid it",
-                span,
-                "if this situation cannot occur, write ASSUME NOT (...)",
-            )
-        return Never(formula, self.domains, span, self.comments_of(first))
-
-    def _assume(self) -> Assume:
-        first = self.at
-        self.at += 1
-        self.resolve = self.names.assumed
-        formula = self.formula()
-        return Assume(formula, self.domains, self.span(first), self.comments_of(first))

@@ -65,7 +65,7 @@ class ResponseParser(TimeParser):
         obligations, hedges = self.response(of_hedge=True)
         self.depth -= not in_parentheses
         if len(obligations) > 1 and not hedges:
-            self.leave_room(self.depth)
+            self.check_room(self.depth)
         return obligations, hedges
 
     def response(self, of_hedge: bool = False, may_be_empty: bool = False) -> _Response:
@@ -198,13 +198,13 @@ class ResponseParser(TimeParser):
 
     def _close(self, opened: int) -> None:
         if self.kinds[self.at] == "OR":
-            self.no_choice()
+            self.refuse_choice()
         self.close(")", opened)
         self.depth -= 1
 
     # Small things ---------------------------------------------------------------------------------------------
 
-    def leave_room(self, depth: int) -> None:
+    def check_room(self, depth: int) -> None:
         """Gives up if the printer's additional parentheses would nest too deeply to be parsed."""
         if depth >= MAX_DEPTH:
             self.too_deep()
@@ -214,7 +214,7 @@ class ResponseParser(TimeParser):
         if self.kinds[self.at] == "," and self.kinds[self.at + 1] in (keyword, keyword[:2]):
             self.at += 1
 
-    def no_choice(self) -> None:
+    def refuse_choice(self) -> None:
         self.expected(
             "the end of the response",
             "join obligations with AND; write UNLESS to say when another one applies, or ELSE if either is enough",

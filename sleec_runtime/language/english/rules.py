@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from typing import NoReturn
 
 from sleec_runtime.language.common.problems import quoted
@@ -89,7 +90,7 @@ class RuleParser(ResponseParser):
             self.skip(STATEMENTS)
             return "", NOWHERE
 
-    def label_word(self, keyword: str, example: str, following: tuple[str, ...]) -> tuple[str, Span]:
+    def label_word(self, keyword: str, example: str, following: Collection[str]) -> tuple[str, Span]:
         """Reads the label after `keyword`; one of the keywords `following` comes next."""
         at = self.at
         match = (
@@ -102,7 +103,7 @@ class RuleParser(ResponseParser):
             self.at += 1
         if self.kinds[self.at] in PHRASE:
             meant = self.keyword_meant(self.at, self.token_text(self.at), at)
-            if meant not in following:
+            if meant is None or meant not in following:
                 self._refuse_label(at, keyword)
             self.correct_keyword(self.at, meant)
         return match[0], span
@@ -133,7 +134,7 @@ class RuleParser(ResponseParser):
             self.resolve = self.names.condition
             guard = self.formula()
             if isinstance(guard, Or):
-                self.leave_room(self.deepest)
+                self.check_room(self.deepest)
         self.comma_before("THEN")
         if self.kinds[self.at] != "THEN":
             self._refuse_then(guard is not None)
@@ -153,7 +154,7 @@ class RuleParser(ResponseParser):
         if kind in RULE_STOPS or kind == "end":
             return
         if kind == "OR":
-            self.no_choice()
+            self.refuse_choice()
         if kind == "(":
             self.expected(what, "write AND or OR before the parenthesis")
         if kind == "THEN":
