@@ -198,5 +198,5 @@ def test_what_is_no_ruleset(cli: Cli, tmp_path: Path, name: str, side: int) -> N
     ran = cli("diff", *paths, "--format", "json", files={"a.sleec": OLD})
     assert ran.code == 2
     assert "error: " in ran.err
-    assert "mistake in sleec-verify" not in ran.err
+    assert "fault in sleec-verify" not in ran.err
     assert json.loads(ran.out)["rulesets"][0]["errors"]

@@ -55,7 +55,7 @@ def test_no_ruleset_is_exit_2_with_a_message(name: str, tmp_path: Path, capfd: p
         assert run([command[0], str(path), *command[1:]]) == 2, command
         out, err = capfd.readouterr()
         assert "error: " in err
-        assert "mistake in sleec-verify" not in err
+        assert "fault in sleec-verify" not in err
         assert len(err) < 100_000
         if "json" in command:
             assert json.loads(out)["rulesets"][0]["error"]["message"]
@@ -101,7 +101,7 @@ def test_conform_of_what_may_not_be_read(
     said = capfd.readouterr().err
     assert str(locked) in said
     assert "Usage" not in said
-    assert "mistake in sleec-verify" not in said
+    assert "fault in sleec-verify" not in said
 
 
 def test_file_that_may_not_be_read_among_others(
@@ -156,4 +156,4 @@ def test_deep_nesting_is_read_or_refused(depth: int, tmp_path: Path, capfd: pyte
     path.write_text(f"WHEN a THEN b UNLESS {'(' * depth}c{')' * depth} IN WHICH CASE d\n")
     for command in COMMANDS:
         assert run([command[0], str(path), *command[1:]]) in (0, 2), command
-        assert "mistake in sleec-verify" not in capfd.readouterr().err
+        assert "fault in sleec-verify" not in capfd.readouterr().err

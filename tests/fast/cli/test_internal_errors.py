@@ -63,7 +63,7 @@ def test_check_reports_the_other_files(form: str, target: str, cli: Cli, fail_in
     ran = cli("check", ".", "--format", form, files=FILES)
     assert ran.code == 2
     assert "internal error in ./bad.sleec: ZeroDivisionError: the mistake" in ran.err
-    assert "mistake in sleec-verify" in ran.err
+    assert "fault in sleec-verify" in ran.err
     if form == "json":
         bad, good = validate("check", ran.out)["rulesets"]
         assert bad["path"] == "./bad.sleec"

@@ -260,7 +260,7 @@ def test_closed_streams_are_told(line: str, said: str, clash: str) -> None:
     told = done.stderr if "2>&-" not in line else done.stdout
     assert done.returncode == 2
     assert said in told
-    assert "mistake in sleec-verify" not in done.stderr + done.stdout
+    assert "fault in sleec-verify" not in done.stderr + done.stdout
     if not said:
         assert told == ""
 
