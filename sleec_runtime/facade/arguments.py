@@ -12,7 +12,7 @@ from sleec_runtime.support.messages import represent
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from sleec_runtime.certificate.coverage import Demand
+    from sleec_runtime.certificate.requirement import CertificateRequirement
     from sleec_runtime.timed.clock import Clock, Time
 
 
@@ -37,10 +37,10 @@ def demand(
     key: str | Path | None = None,
     require_proved: bool = False,
     require_tied: bool = False,
-) -> Demand | None:
+) -> CertificateRequirement | None:
     """The requirements on the certificate, if there is one.
 
-    Raises SleecError for requirements without a certificate, and as `Demand`.
+    Raises SleecError for requirements without a certificate, and as `CertificateRequirement`.
     """
     if certificate is None:
         asked = {"key": key is not None, "require_proved": require_proved, "require_tied": require_tied}
@@ -48,10 +48,10 @@ def demand(
             name = next(name for name, given in asked.items() if given)
             raise SleecError(f"{name} without a certificate checks nothing", "give certificate= as well")
         return None
-    from sleec_runtime.certificate.coverage import Demand
     from sleec_runtime.certificate.manifest import Required
+    from sleec_runtime.certificate.requirement import CertificateRequirement
 
-    return Demand(certificate, key, chains, Required(require_proved, require_tied))
+    return CertificateRequirement(certificate, key, chains, Required(require_proved, require_tied))
 
 
 def check_clock(clock: Clock | None) -> None:

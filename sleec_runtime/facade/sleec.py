@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from pathlib import Path
     from types import TracebackType
 
-    from sleec_runtime.certificate.coverage import Demand
+    from sleec_runtime.certificate.requirement import CertificateRequirement
     from sleec_runtime.timed.clock import Clock, Time
     from sleec_runtime.timed.failures import Failure
     from sleec_runtime.timed.pending import Pending
@@ -347,7 +347,7 @@ class Sleec(Host):
         triggers = dict.fromkeys(by_label[label].trigger for label in labels if label in by_label)
         self._snapshot = self._snapshot.without_plans(triggers)
 
-    def _install(self, index: RuleIndex, instance: Instance, demand: Demand | None) -> None:
+    def _install(self, index: RuleIndex, instance: Instance, demand: CertificateRequirement | None) -> None:
         if demand is not None:
             demand.check(index.whole, index.domain)
         before = self._snapshot

@@ -10,7 +10,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
-from sleec_runtime.certificate.coverage import MANIFEST, SIGNATURE, Use, read_manifest, uncovered
+from sleec_runtime.certificate.coverage import MANIFEST, Use, coverage_problems, read_manifest
+from sleec_runtime.certificate.signature import SIGNATURE
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.support.files import read_file
 from sleec_verify import __version__
@@ -91,7 +92,7 @@ def check_certificate(
 
 def _check_use(ruleset: Ruleset, claimed: Manifest, use: Use) -> None:
     """The certificate must be of these rules, cover their use, and be about something that they have."""
-    not_covered = list(uncovered(claimed, ruleset, use))
+    not_covered = list(coverage_problems(claimed, ruleset, use))
     problems = [Problem(one.reason, one.message) for one in not_covered]
     if not problems or problems[0].reason != "ruleset-changed":
         if claimed.domain is not None and claimed.domain not in ruleset.domains:

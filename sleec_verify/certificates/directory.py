@@ -6,7 +6,8 @@ import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from sleec_runtime.certificate.coverage import MANIFEST, SIGNATURE, read_manifest
+from sleec_runtime.certificate.coverage import MANIFEST, read_manifest
+from sleec_runtime.certificate.signature import SIGNATURE
 from sleec_runtime.errors import CertificateRefused, SleecError
 from sleec_verify.files.temporary import with_temporary
 

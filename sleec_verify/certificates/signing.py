@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from base64 import b64encode
 
-from sleec_runtime.certificate.coverage import cryptography
+from sleec_runtime.certificate.signature import cryptography
 from sleec_runtime.errors import SleecError
 from sleec_runtime.support.files import read_file
 

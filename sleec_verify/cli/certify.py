@@ -128,7 +128,8 @@ def save(made: Certificate, ruleset: Ruleset, output: str, private: str | None =
 
     Raises CertificateRefused where it says that something is required that is not so. Then nothing is written.
     """
-    from sleec_runtime.certificate.coverage import MANIFEST, SIGNATURE
+    from sleec_runtime.certificate.coverage import MANIFEST
+    from sleec_runtime.certificate.signature import SIGNATURE
     from sleec_verify.certificates.checker import checker
     from sleec_verify.certificates.checking import check_certificate
     from sleec_verify.certificates.directory import write_folder

@@ -8,8 +8,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from sleec_runtime.certificate.coverage import MANIFEST, Demand
+from sleec_runtime.certificate.coverage import MANIFEST
 from sleec_runtime.certificate.manifest import Required, canonical
+from sleec_runtime.certificate.requirement import CertificateRequirement
 from sleec_runtime.language import parse_source
 from sleec_runtime.language.common.source import source_of
 from sleec_runtime.model import Ruleset
@@ -50,7 +51,7 @@ def manifest(data: bytes, folder: Path) -> None:
         (folder / name).write_text(text)
     for written in filter(None, (data, _canonical(data))):
         (folder / MANIFEST).write_bytes(written)
-        demand = unless_refused(Demand, folder, None, False, Required())
+        demand = unless_refused(CertificateRequirement, folder, None, False, Required())
         if demand is not None:
             unless_refused(demand.check, ruleset, None)
         confirmed = unless_refused(check_certificate, ruleset, str(folder), IN_PYTHON)
