@@ -56,14 +56,14 @@ def test_its_own_file_comes_first(cli: Cli, repository: Repository) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ([], "say which revision"),
+        ([], "name the base revision"),
         (["--base", "mian"], "did you mean main?"),
         (["--base", "main", "--config", "nothing.toml"], "there is no file nothing.toml"),
         (["--base", "main", "--config", "broken.toml"], "is no TOML"),
         (["--base", "main", "--baseline", "nothing.json"], "there is no baseline nothing.json"),
         (["--base", "main", "--summary", "a.sleec"], "exists and is not a summary"),
         (["--base", "main", "nothing.sleec"], "there is no .sleec file at or below nothing.sleec"),
-        (["--write-baseline"], "say where"),
+        (["--write-baseline"], "name the baseline file"),
     ],
 )
 def test_bad_usage(cli: Cli, repository: Repository, arguments: list[str], message: str) -> None:
@@ -79,8 +79,8 @@ def test_a_ruleset_that_is_none_now(cli: Cli, repository: Repository) -> None:
     ran = cli("gate", "--base", "main", "--summary", "out.md")
     assert ran.code == 2
     assert "a.sleec:1:5: error" in ran.err
-    assert "new conflict: a and b" in ran.out  # the others are examined all the same
-    assert "### What cannot be read" in (repository.folder / "out.md").read_text()
+    assert "a and b now conflict over o" in ran.out  # the others are examined all the same
+    assert "### Unreadable files" in (repository.folder / "out.md").read_text()
 
 
 def test_a_ruleset_that_was_none_before(cli: Cli, repository: Repository) -> None:

@@ -216,7 +216,7 @@ def test_a_summary_that_cannot_be_written(place: str, cli: Cli, repository: Repo
     assert (ran.code, ran.out) == (2, "")
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", place)
     ran = cli("gate", "--base", "main")
-    assert (ran.code, "which $GITHUB_STEP_SUMMARY names, cannot be written" in ran.err) == (2, True)
+    assert (ran.code, "(from $GITHUB_STEP_SUMMARY) cannot be written" in ran.err) == (2, True)
 
 
 def test_a_long_summary_is_cut(cli: Cli, repository: Repository) -> None:

@@ -168,7 +168,7 @@ def test_every_format_lists_the_changes(form: str, blocking: bool, cli: Cli, rep
         assert what.replace('"', QUOTES.get(form, '"')) in ran.out
         assert where in ran.out
     summary = (repository.folder / "out.md").read_text(encoding="utf-8")
-    title = "### What blocks" if blocking else "### What changes in the policy"
+    title = "### Reasons to block" if blocking else "### Policy changes"
     for where, what in LISTED:
         assert f"`{where}`: {what}".replace("@", "@\u200b") in summary.partition(title)[2]
     if form in ("full", "concise", "github"):
