@@ -1,0 +1,101 @@
+"""Imports point one way: between modules, between rooms, and between the two distributions.
+
+Imports within functions and under TYPE_CHECKING count.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Mapping
+from graphlib import CycleError, TopologicalSorter
+
+import pytest
+
+from tests.support.paths import ROOT
+
+PACKAGES = ("sleec_runtime", "sleec_verify")
+RUNTIME_LAYERS = (
+    "support",
+    "errors",
+    "concurrency",
+    "model",
+    "language",
+    "evaluation",
+    "certificate",
+    "dispatch",
+    "monitor",
+    "timed",
+    "facade",
+    "predicates",
+)
+"""The rooms of the runtime. Each imports only rooms before it."""
+EVALUATOR = ("evaluation", "dispatch", "monitor", "timed", "facade")
+"""The rooms of the runtime that evaluate rules directly."""
+SOLVER = ("encoding", "query", "traces", "games", "entailment", "certificates")
+"""The rooms of the verifier that answer with clauses and a solver."""
+
+
+def imports() -> dict[str, set[str]]:
+    """Each module of both packages, with the modules of both packages that it imports."""
+    paths = {}
+    for package in PACKAGES:
+        for path in (ROOT / package).rglob("*.py"):
+            parts = path.relative_to(ROOT).with_suffix("").parts
+            paths[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    found: dict[str, set[str]] = {module: set() for module in paths}
+    for module, path in paths.items():
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names: Iterable[str] = ()
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                assert not node.level, f"{module} has a relative import, which this test does not resolve"
+                names = [f"{node.module}.{alias.name}" for alias in node.names]
+            for name in names:
+                while name and name not in paths:
+                    name = name.rpartition(".")[0]
+                if name and name != module:
+                    found[module].add(name)
+    return found
+
+
+IMPORTS = imports()
+
+
+def room(module: str) -> str:
+    """The package and folder of a module."""
+    return ".".join(module.split(".")[:2])
+
+
+def rooms() -> dict[str, set[str]]:
+    found: dict[str, set[str]] = {}
+    for module, imported in IMPORTS.items():
+        found.setdefault(room(module), set()).update(room(one) for one in imported if room(one) != room(module))
+    return found
+
+
+@pytest.mark.parametrize("graph", [IMPORTS, rooms()], ids=["modules", "rooms"])
+def test_there_is_no_cycle(graph: Mapping[str, set[str]]) -> None:
+    try:
+        tuple(TopologicalSorter(graph).static_order())
+    except CycleError as error:
+        pytest.fail(" imports ".join(reversed(error.args[1])))
+
+
+def test_the_runtime_does_not_import_the_verifier() -> None:
+    for module, imported in IMPORTS.items():
+        if module.startswith("sleec_runtime"):
+            assert not [one for one in imported if one.startswith("sleec_verify")], module
+
+
+def test_the_layers_of_the_runtime() -> None:
+    found = {one.partition(".")[2]: imported for one, imported in rooms().items() if one.startswith("sleec_runtime.")}
+    assert found.keys() == set(RUNTIME_LAYERS)
+    for number, layer in enumerate(RUNTIME_LAYERS):
+        assert {one.partition(".")[2] for one in found[layer]} <= set(RUNTIME_LAYERS[:number]), layer
+
+
+def test_the_solver_and_the_evaluator_share_only_the_model() -> None:
+    evaluator = {f"sleec_runtime.{one}" for one in EVALUATOR}
+    for name in SOLVER:
+        assert not rooms()[f"sleec_verify.{name}"] & evaluator, name
