@@ -21,21 +21,21 @@ if TYPE_CHECKING:
 __all__ = ["load", "parse", "parse_source", "print_formula", "print_rule", "print_ruleset", "read_source"]
 
 _DSL_BLOCK = re.compile(r"^[ \t]*(?:def|rule|concern|purpose|relation)_(?:start|end)\b", re.MULTILINE | re.IGNORECASE)
-_OPENS = ("_start", "_START", "_Start")
-"""What a text in the DSL has somewhere; in capitals it is a slip, which is told."""
+_BLOCK_ENDINGS = ("_start", "_START", "_Start")
+"""Every text in the DSL contains one of these. Capitals are a mistake, which the DSL parser reports."""
 
 
 def parse(text: str, path: str = "<memory>", sha256: str | None = None) -> Ruleset:
-    """The ruleset that `text` spells out; `path` is what messages call the text.
+    """Parses a text in structured English or the DSL; messages call it `path`.
 
     Raises:
-        LanguageError: with every problem of the text, each with its place and what to try.
+        LanguageError: with every problem of the text, its place and a hint.
     """
     return parse_source(Source(path, tidy(text), sha256))
 
 
 def load(path: str | Path) -> Ruleset:
-    """The ruleset in the file at `path`; ``-`` is standard input.
+    """Reads and parses the file at `path`; ``-`` is standard input.
 
     Raises:
         UnreadableFile: the file cannot be read as text.
@@ -45,9 +45,9 @@ def load(path: str | Path) -> Ruleset:
 
 
 def parse_source(source: Source) -> Ruleset:
-    """As `parse`, of a text that has been read already."""
-    # In structured English no statement begins with a word in small letters.
-    if any(mark in source.text for mark in _OPENS) and _DSL_BLOCK.search(source.text):
+    """Parses a text that has been read already."""
+    # In structured English no statement begins with a word in lowercase.
+    if any(mark in source.text for mark in _BLOCK_ENDINGS) and _DSL_BLOCK.search(source.text):
         from sleec_runtime.language.dsl import parse_dsl
 
         return parse_dsl(source)

@@ -1,11 +1,11 @@
-"""Which line of rules each comment belongs to.
+"""Attaches comments to tokens.
 
-The printer writes lines that start with a keyword, so a comment belongs to the token of such a keyword: one on a line
-of its own to the next, one behind rules, or in the middle of them, to the one before it. Nothing is lost by printing.
+The printer writes lines that start with a keyword, so a comment belongs to the token of such a keyword: a comment on a
+line of its own to the next one, any other to the one before it. Printing keeps every comment.
 
-An empty string among the comments above a line stands for an empty line, so that a file's heading stays apart from its
-first rule. Below the begin of a block, a line break does: what stands above it is no heading. DOMAIN and READING are no
-statements of the model; a comment above them is kept, with a gap, for the statement after them.
+An empty string among the comments above a line is an empty line, which separates a file's heading from its first rule.
+Below the start of a block it is a line break, because no heading is there. DOMAIN and READING are not statements of the
+model; a comment above them belongs, with a gap, to the statement after them.
 """
 
 from __future__ import annotations
@@ -17,12 +17,11 @@ from typing import NamedTuple
 from sleec_runtime.model import NO_COMMENTS, Comments
 
 INNER_GAP = "\n"
-"""An empty line among comments below the begin of a block."""
+"""An empty line among comments below the start of a block."""
 
 
 class Remark(NamedTuple):
-    """A comment with its marker, ``text[start:end]``, or a line of one that has many lines, and the number of the token
-    behind it."""
+    """A comment with its marker, or one line of a longer comment: ``text[start:end]``, before the token `token`."""
 
     start: int
     end: int
@@ -39,19 +38,19 @@ def attach(
     settings: Collection[str],
     openings: Collection[str] = (),
 ) -> tuple[dict[int, Comments], tuple[str, ...]]:
-    """The comments of each token that starts a line of rules, and those that come after the last one.
+    """The comments of each token that starts a line of rules, and those after the last one.
 
-    `line_starts` are the kinds of the tokens that start a line; those of `settings` among them keep no comments. What
-    stands right below one of `openings` is not divided by empty lines into a heading and the rest.
+    `line_starts` are the kinds of token that start a line; those in `settings` have no comments of their own. Empty
+    lines below one of `openings` do not separate a heading.
     """
     attached: dict[int, Comments] = {}
     pending: list[str] = []
-    line = -1  # the token that starts the line of rules before the comment at hand
-    seen = 0  # tokens before this one have been looked at
+    line = -1  # the token that starts the line of rules before the current comment
+    seen = 0  # tokens before this one are done
     end_before = 0
 
-    def hand_over(token: int) -> None:
-        """The pending comments stand above `token`, which starts a line of rules."""
+    def attach_pending(token: int) -> None:
+        """Attaches the pending comments to `token`, which starts a line of rules."""
         if kinds[token] in settings:
             _leave_gap(pending)
         elif is_divided(starts[token]):
@@ -62,7 +61,7 @@ def attach(
             pending.clear()
 
     def is_divided(start: int) -> bool:
-        """Whether an empty line before this place tells comments apart."""
+        """Whether an empty line ends before `start`."""
         return text.count("\n", end_before, start) > 1
 
     def gap() -> str:
@@ -72,7 +71,7 @@ def attach(
         while seen < remark.token:
             if kinds[seen] in line_starts:
                 if pending:
-                    hand_over(seen)
+                    attach_pending(seen)
                 line = seen
             seen += 1
         words = _words(text, remark)
@@ -94,7 +93,7 @@ def attach(
         end_before = remark.end
     while pending and kinds[seen] != "end":
         if kinds[seen] in line_starts:
-            hand_over(seen)
+            attach_pending(seen)
         seen += 1
     return attached, tuple(pending)
 

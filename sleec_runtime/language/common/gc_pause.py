@@ -1,4 +1,4 @@
-"""Parsing makes many objects and no cycles: looking for them again and again takes a fifth of its time."""
+"""A pause of garbage collection, which would take a fifth of the time for parsing: its objects have no cycles."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from contextlib import contextmanager
 
 
 @contextmanager
-def uncollected() -> Iterator[None]:
-    """No collection of garbage inside, and no walk through what was made there soon after."""
+def gc_paused() -> Iterator[None]:
+    """Pauses garbage collection, and promotes the objects that are made inside to the oldest generation."""
     was_collecting = gc.isenabled()
     gc.disable()
     try:
@@ -17,7 +17,7 @@ def uncollected() -> Iterator[None]:
     finally:
         if was_collecting:
             if not gc.get_freeze_count():
-                # All that is new becomes old at once, unseen; else the first collection would walk through it.
+                # Without this, the next collection would traverse all new objects.
                 gc.freeze()
                 gc.unfreeze()
             gc.enable()

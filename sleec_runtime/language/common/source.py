@@ -1,4 +1,4 @@
-"""Reading a text of rules from a file or from standard input, as people's editors leave it."""
+"""Reads a text of rules from a file or standard input, in any form that editors save."""
 
 from __future__ import annotations
 
@@ -21,20 +21,21 @@ _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 def read_source(path: str | Path) -> Source:
     """The text at `path`, or standard input for ``-``.
 
-    A byte order mark and any kind of line break are tolerated.
+    A byte order mark and any kind of line break are accepted.
 
     Raises:
-        UnreadableFile: the file is missing, forbidden, too large or no regular file, is not UTF-8, or holds a NUL byte.
+        UnreadableFile: the file is missing, not readable, too large, not a regular file or not UTF-8, or
+            contains a NUL byte.
     """
     name, data = _read_bytes(path)
     return source_of(name, data)
 
 
 def source_of(name: str, data: bytes) -> Source:
-    """The text that these bytes are, by the name that messages call it.
+    """The text in these bytes; messages call it `name`.
 
     Raises:
-        UnreadableFile: they are not UTF-8, or hold a NUL byte.
+        UnreadableFile: they are not UTF-8, or contain a NUL byte.
     """
     from hashlib import sha256
 
@@ -42,7 +43,7 @@ def source_of(name: str, data: bytes) -> Source:
 
 
 def tidy(text: str) -> str:
-    """`text` without a byte order mark and with ``\\n`` for every lone ``\\r``, so that lines count as in an editor.
+    """`text` without a byte order mark and with ``\\n`` for every lone ``\\r``, to count lines as editors do.
 
     ``\\r\\n`` stays: its ``\\n`` ends the line.
     """
@@ -63,9 +64,9 @@ def _read_bytes(path: str | Path) -> tuple[str, bytes]:
     except FileNotFoundError:
         raise UnreadableFile(f"there is no file {name}", "check the spelling of its name and folder") from None
     except IsADirectoryError:
-        raise UnreadableFile(f"{name} is a folder, not a file", "name one of the files in it") from None
+        raise UnreadableFile(f"{name} is a folder, not a file", "give the path of a file in it") from None
     except PermissionError:
-        raise UnreadableFile(f"{name} may not be read", "ask for the right to read it") from None
+        raise UnreadableFile(f"no permission to read {name}", "change its permissions, or ask its owner") from None
     except (OSError, ValueError) as error:
         raise UnreadableFile(f"{name} cannot be read: {getattr(error, 'strerror', None) or error}") from None
 
@@ -76,8 +77,8 @@ def read_standard_input() -> bytes:
     Raises:
         UnreadableFile: it is closed, too large, or cannot be read.
     """
-    if sys.stdin is None:  # what Python has in place of a stream that was closed when it was started
-        raise UnreadableFile("there is no standard input: it is closed", "name a file, or redirect one to it")
+    if sys.stdin is None:  # closed when Python was started
+        raise UnreadableFile("standard input is closed", "give a file, or redirect one to standard input")
     try:
         return read_stream(sys.stdin.buffer)
     except OSError as error:
@@ -92,15 +93,15 @@ def _decode(data: bytes, name: str) -> str:
             raise UnreadableFile(f"{name} is saved as UTF-16, not as UTF-8", "save it again as UTF-8") from None
         line = data.count(b"\n", 0, error.start) + 1
         raise UnreadableFile(
-            f"{name} is not UTF-8 text: line {line} holds the byte 0x{data[error.start]:02x}"
+            f"{name} is not UTF-8 text: line {line} contains the byte 0x{data[error.start]:02x}"
             f" (byte {error.start + 1} of the file)",
-            "save it again as UTF-8; most editors offer this under 'Save as'",
+            "save it again as UTF-8, for example with 'Save as' in your editor",
         ) from None
     nul = text.find("\0")
     if nul >= 0:
         line = text.count("\n", 0, nul) + 1
         raise UnreadableFile(
-            f"{name} is not a text of rules: line {line} holds a NUL byte",
-            "it may be a document of a word processor: save it as plain text",
+            f"{name} is not a text of rules: line {line} contains a NUL byte",
+            "it may be a word processor document; save it as plain text",
         )
     return tidy(text)

@@ -1,6 +1,6 @@
-"""Empty lines between definitions, rules, claims and relations: where an author leaves some, one is kept.
+"""Blank lines between statements: where an author leaves some, one is kept.
 
-As among comments, an empty string stands for it: the first of what is above the statement.
+As in comments, it is an empty string: the first of the comments above the statement.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from collections.abc import Collection
 from sleec_runtime.model import NO_COMMENTS, Comments
 
 _GAP = re.compile(r"[^\n]*\n[^\S\n]*\n")
-"""The rest of a line and an empty one."""
+"""The rest of a line and an empty line."""
 
 
-def keep_gaps(
+def keep_blank_lines(
     text: str,
     kinds: list[str],
     starts: array[int],
@@ -24,8 +24,8 @@ def keep_gaps(
     statements: Collection[str],
     blocks: Collection[str],
 ) -> None:
-    """Adds the gap above each token of a kind among `statements` to its comments; there is none below what opens a
-    block, a kind among `blocks`."""
+    """Adds the gap above each token of a kind in `statements` to its comments, except directly below a kind in
+    `blocks`."""
     for token, kind in enumerate(kinds):
         if kind in statements and token and kinds[token - 1] not in blocks:
             before, start = ends[token - 1], starts[token]

@@ -45,8 +45,8 @@ class Comparisons(Amounts):
     """Makes comparisons of the names of one text."""
 
     def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison | Truth | None:
-        """``left operator right``; None, and a problem, if the sides do not fit. With two fixed numbers it is true or
-        false, whatever the situation."""
+        """``left operator right``; None, and a problem, if the sides do not fit. A comparison of two numbers is a truth
+        value."""
         if self._with_boolean(left, right):
             return None
         one, two = self._scale(left), self._scale(right)
@@ -76,8 +76,8 @@ class Comparisons(Amounts):
         return None if first is None or second is None else Comparison(first, operator, second, span)
 
     def calculated(self, left: Operand, operator: Operator, right: Operand, span: Span) -> Formula | None:
-        """A comparison of calculations as one that compares a measure with a number, or two measures, or else what is
-        calculated from several with a number; None, and a problem, if there is none."""
+        """A comparison of calculations in normal form: a term with a number, or two measures; None, and
+        a problem, if there is none."""
         one, two = self.polynomial(left), self.polynomial(right)
         if one is None or two is None:
             return None
@@ -92,12 +92,12 @@ class Comparisons(Amounts):
         divisor = gcd(*whole.terms.values()) * (1 if factor > 0 else -1)
         number = Fraction(-whole.number, divisor)
         if not more and len(names) == 1:
-            return _with_whole_number(self.measure_ref(names[0]), operator, number, span)
+            return _with_integer(self.measure_ref(names[0]), operator, number, span)
         if whole.number == 0 and [(len(other), times) for other, times in more] == [(1, -factor)] and len(names) == 1:
             return Comparison(self.measure_ref(names[0]), operator, self.measure_ref(more[0][0][0]), span)
         terms = tuple((times // divisor, product) for product, times in whole.terms.items())
-        found = _with_whole_number(Calculation(terms, self.line(span)), operator, number, span)
-        # A constant that stands alone on one side keeps its name.
+        found = _with_integer(Calculation(terms, self.line(span)), operator, number, span)
+        # A constant that is alone on one side keeps its name.
         for side, other in ((right, one), (left, two)):
             if isinstance(side, Side) and isinstance(found, Comparison) and other.number == 0:
                 alone = self.number(side)
@@ -106,7 +106,7 @@ class Comparisons(Amounts):
         return found
 
     def _with_boolean(self, left: Side, right: Side) -> bool:
-        """Whether a side is a boolean measure, which is compared with nothing; that is then reported."""
+        """Reports a boolean measure on either side; whether there is one."""
         for side, other in ((left, right), (right, left)):
             if not isinstance(side.written, str) or self.kinds.get(side.written) != "boolean":
                 continue
@@ -122,7 +122,7 @@ class Comparisons(Amounts):
         return False
 
     def _instead(self, boolean: str, other: str | Rational) -> str:
-        """What else may be meant by a comparison of a boolean measure with `other`."""
+        """Another possible meaning of a comparison of a boolean measure with `other`."""
         measure = self._owners.get(str(other)) or self.measures.get(str(other))
         if measure is not None and measure.kind == "scale":
             return f"; {quoted(measure.name)} can be {scale_text(measure)}"
@@ -138,8 +138,8 @@ class Comparisons(Amounts):
         return measure if measure is not None and measure.kind == "scale" else None
 
     def _value(self, measure: Measure, side: Side) -> ScaleValue | None:
-        """The other side of a comparison with a scale. A literal of another scale and a number are read by their
-        place, as others read them, and are defects."""
+        """The other side of a comparison with a scale. A literal of another scale and a number are read by their rank,
+        as in other tools, and are defects."""
         value = side.written
         if isinstance(value, str) and not side.braced:
             if value in measure.values:
@@ -166,7 +166,7 @@ class Comparisons(Amounts):
     def _by_place(
         self, measure: Measure, written: str, rank: int, kind: DefectKind, said: str, span: Span
     ) -> ScaleValue:
-        """What is no value of the measure, as the value in that place of its scale; there may be none."""
+        """The value of the scale at `rank`, for something that is not a value of it."""
         can_be = f"`{measure.name}` can be {scale_text(measure)}"
         if 0 <= rank < len(measure.values):
             meant = measure.values[rank]
@@ -181,7 +181,7 @@ class Comparisons(Amounts):
         return ScaleValue(written, rank)
 
     def _stray(self, side: Side, other: Side) -> bool:
-        """Whether one side is a value of a scale and the other no scale, which is then reported."""
+        """Reports a value of a scale that is compared with something else; whether there is one."""
         value = side.written
         if not isinstance(value, str) or value in self.kinds or value not in self._owners:
             return False
@@ -201,8 +201,8 @@ class Comparisons(Amounts):
         return True
 
 
-def _with_whole_number(measure: MeasureRef | Calculation, operator: Operator, number: Fraction, span: Span) -> Formula:
-    """A comparison of a whole number with any."""
+def _with_integer(measure: MeasureRef | Calculation, operator: Operator, number: Fraction, span: Span) -> Formula:
+    """A comparison of an integer term with any number, rounded to an integer."""
     if number.denominator == 1:
         return Comparison(measure, operator, Number(int(number)), span)
     if operator in ("=", "!="):

@@ -1,4 +1,4 @@
-"""Which dialect a text is in, and the words that are keywords of one and names in the other."""
+"""The dialect of a text."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ _LEGOS_ONLY = frozenset({"concern_start", "purpose_start", "relation_start", "ev
 
 
 def dialect_of(tokens: Tokens) -> Dialect:
-    """The dialect of a text: LEGOS's has measures in braces and constructs of its own, SLEEC-TK's has conditions
-    without braces. A text that has neither is taken for one of LEGOS.
+    """The dialect of a text: LEGOS has measures in braces and constructs of its own, SLEEC-TK has conditions without
+    braces. A text with neither is LEGOS.
 
-    Where nothing is of LEGOS, what is defined with one of its keywords for a name is a name in all of `tokens`, which
-    only SLEEC-TK can say.
+    A text without LEGOS constructs may define a keyword of LEGOS as a name. It is then SLEEC-TK, and that keyword
+    becomes a name in all of `tokens`.
     """
     kinds = tokens.kinds
     if not _LEGOS_ONLY.isdisjoint(kinds) or _has_measures_in_braces(kinds):
@@ -25,13 +25,13 @@ def dialect_of(tokens: Tokens) -> Dialect:
             if (kind in LEGOS_KEYWORDS or kind == UNNAMED) and tokens.text_of(token) in names:
                 kinds[token] = "word"
         return "sleec-tk"
-    # A claim outside of its block is a mistake of someone who writes LEGOS's dialect.
+    # A claim outside its block is a mistake in the LEGOS dialect.
     claims = any(kind in ("exists", "while", "meanwhile") for kind in kinds)
     return "sleec-tk" if not claims and _has_bare_measures(kinds) else "legos"
 
 
 def _defined(tokens: Tokens) -> set[str]:
-    """The keywords of LEGOS that stand where a definition has a name, or a value of its scale."""
+    """The keywords of LEGOS in the position of a defined name, or of a value of a scale."""
     kinds = tokens.kinds
     return {
         kind

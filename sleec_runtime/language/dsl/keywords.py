@@ -30,7 +30,7 @@ UNFINISHED = DEFINITIONS | {
 
 STATEMENTS = DEFINITIONS | {"label", "relation"}
 LINE_STARTS = BLOCK_MARKS | STATEMENTS | {"unless"}
-"""The kinds of token that begin a line where the printer writes one."""
+"""The kinds of token that start a line in printed text."""
 
 ITEM_STARTS = BLOCK_MARKS | STATEMENTS | {UNNAMED, "end"}
 """The kinds of token that start a definition, a rule, a claim or a relation, or end a block."""

@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import NoReturn, TypeVar, cast
 
 from sleec_runtime.errors import LanguageError, Problem
-from sleec_runtime.language.common.gc_pause import uncollected
+from sleec_runtime.language.common.gc_pause import gc_paused
 from sleec_runtime.language.common.problems import first_problems, quoted
 from sleec_runtime.language.common.token_cursor import Abandon
 from sleec_runtime.language.dsl.comparisons import Comparisons
@@ -48,7 +48,7 @@ def parse_dsl(source: Source) -> Ruleset:
         LanguageError: with every problem, in the order of the text.
     """
     problems: list[Problem] = []
-    with uncollected():
+    with gc_paused():
         tokens = scan(source.text)
         dialect = dialect_of(tokens)
         names = Comparisons(source, problems, "def_start" in tokens.kinds)

@@ -1,4 +1,4 @@
-"""From the characters of a text in the DSL to tokens, in parallel sequences as those of structured English."""
+"""Splits a text in the DSL into tokens."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from array import array
 from sleec_runtime.language.common.comments import Remark, attach
 from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.language.common.units import UNITS
-from sleec_runtime.language.dsl.blank_lines import keep_gaps
+from sleec_runtime.language.dsl.blank_lines import keep_blank_lines
 from sleec_runtime.language.dsl.keywords import (
     BLOCK_MARKS,
     BLOCKS,
@@ -33,10 +33,10 @@ _MARKS = {
 
 
 def scan(text: str) -> Tokens:
-    """The tokens of `text`, in time linear in its length. Nothing is refused here; the parser says what is wrong.
+    """The tokens of `text`, in time linear in its length. The parser reports what is wrong.
 
-    A name before ``when`` or ``exists`` is a ``label``, unless it ends what stands before it; where nothing is one, the
-    ``when`` is `UNNAMED`. What begins a relation is a ``relation``.
+    A name before ``when`` or ``exists`` is a ``label``, unless it belongs to what is before it; without a label, the
+    ``when`` is `UNNAMED`. The first token of a relation is a ``relation``.
     """
     kinds: list[str] = []
     starts = array("q")
@@ -62,9 +62,9 @@ def scan(text: str) -> Tokens:
         kinds.append("end")
         starts.append(len(text))
         ends.append(len(text))
-    mark_relations(text, kinds, starts, ends)
+    _mark_relations(text, kinds, starts, ends)
     comments, closing = attach(remarks, text, kinds, starts, ends, LINE_STARTS, BLOCK_MARKS, BLOCKS)
-    keep_gaps(text, kinds, starts, ends, comments, STATEMENTS, BLOCK_MARKS)
+    keep_blank_lines(text, kinds, starts, ends, comments, STATEMENTS, BLOCK_MARKS)
     return Tokens(text, kinds, starts, ends, comments, closing)
 
 
@@ -82,8 +82,8 @@ def _mark_label(kind: str, text: str, start: int, kinds: list[str], starts: arra
 
 
 def _ends_response(at: int, text: str, start: int, kinds: list[str], starts: array[int], ends: array[int]) -> bool:
-    """Whether the name in token `at`, before a ``when`` that begins at `start`, is the rest of what stands before it:
-    an event behind ``then``, say, or a unit behind a number. One that begins the line of ``when`` is a label even so.
+    """Whether the name in token `at`, before a ``when`` that begins at `start`, belongs to what is before it, such as
+    an event after ``then`` or a unit after a number. A name at the start of the line of ``when`` is always a label.
     """
     if at == 0:
         return False
@@ -103,7 +103,7 @@ def _kind(token: str, first: str) -> str:
 
 
 def _remarks(comment: str, start: int, token: int) -> list[Remark]:
-    """A comment to the end of the line, or the lines of one between ``/*`` and ``*/`` that say something."""
+    """A comment to the end of the line, or the lines of a comment between ``/*`` and ``*/`` that are not empty."""
     if comment.startswith("//"):
         return [Remark(start, start + len(comment), token)]
     found = []
@@ -117,8 +117,8 @@ def _remarks(comment: str, start: int, token: int) -> list[Remark]:
     return found
 
 
-def mark_relations(text: str, kinds: list[str], starts: array[int], ends: array[int]) -> None:
-    """Marks what begins a relation, which only a block of relations has words of its own for."""
+def _mark_relations(text: str, kinds: list[str], starts: array[int], ends: array[int]) -> None:
+    """Marks the first token of each relation. Its keywords are keywords only in a block of relations."""
     try:
         at = kinds.index("relation_start")
     except ValueError:

@@ -19,19 +19,19 @@ KEYWORDS = (
 )
 
 GUESSED = KEYWORDS - _OCCASIONS - {"EVENT", "RELATION", "ELSE"}
-"""The keywords that a word in capitals may be a misspelling of; WHITE and VENT in a phrase are none."""
+"""The keywords that a word in capitals may be a misspelling of. WHITE and VENT in a phrase are not misspellings."""
 
 RELATION_WORDS = frozenset(
     {"ALWAYS", "FOR", "WITNESSES", "EQUALS", "EXCLUDES", "PRECEDES", "CAUSES", "INCLUDES", "FORBIDS"}
     | {"IMPLIES", "OPPOSES"}
 )
-"""Keywords in a RELATION, and words of phrases everywhere else; likewise BY after EVENT and TO after WITHIN."""
+"""Keywords in a RELATION, and plain words everywhere else; likewise BY after EVENT and TO after WITHIN."""
 
 OCCASION = "when"
-"""The kind of a WHEN, or IF, inside a concern, purpose or relation: it starts no rule and no line."""
+"""The kind of a WHEN or IF inside a concern, purpose or relation, where it starts neither a rule nor a line."""
 
 LINE_STARTS = STATEMENTS | {"UNLESS"}
-"""The keywords that begin a line where the printer writes one."""
+"""The keywords that start a line in printed text."""
 
 PHRASE = frozenset({"word", "number", "digits"})
 """The kinds of token that may follow the first word of a phrase."""

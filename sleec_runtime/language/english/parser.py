@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from sleec_runtime.errors import LanguageError, Problem
-from sleec_runtime.language.common.gc_pause import uncollected
+from sleec_runtime.language.common.gc_pause import gc_paused
 from sleec_runtime.language.common.problems import first_problems, quoted
 from sleec_runtime.language.common.token_cursor import Abandon
 from sleec_runtime.language.english.constraints import ConstraintParser
@@ -44,7 +44,7 @@ def parse_english(source: Source) -> Ruleset:
         LanguageError: with every problem, in the order of the text.
     """
     problems: list[Problem] = []
-    with uncollected():
+    with gc_paused():
         tokens = scan(source.text)
         parser = EnglishParser(source, tokens, problems, Names(source, problems))
         statements = parser.statements()

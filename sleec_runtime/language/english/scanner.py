@@ -1,7 +1,7 @@
-"""From characters to tokens: one regular expression over the whole text.
+"""Splits a text into tokens with one regular expression.
 
-Tokens live in parallel sequences, not in objects, and are made a block of lines at a time, so that a text of 100,000
-rules stays small and most of the work is done inside Python's own loops.
+Tokens are made one block of lines at a time, so that a text of 100,000 rules needs little memory and most of the
+work is done inside Python's own loops.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ from sleec_runtime.language.english.keywords import (
 
 _BLOCK = 1 << 16
 
-# Letters with marks of their own (accents typed apart, Hebrew, Arabic, Indic and Thai vowels): \w leaves them out.
+# Combining marks (separate accents; Hebrew, Arabic, Indic and Thai vowels), which \w does not match.
 _MARKS = "\u0300-\u036f\u0591-\u05bd\u064b-\u065f\u0900-\u0963\u0966-\u0dff\u0e31-\u0eff"
 _REST = rf"[\w{_MARKS}'\u2019-]"
 
-# Every match begins where the one before it ended, blanks first: offsets are sums of lengths because of that.
+# Every match begins where the previous one ended, spaces first, so that offsets are sums of lengths.
 _TOKEN = re.compile(
     r"\s*(?:"
     rf"IN\s+WHICH\s+CASE(?!{_REST})"
@@ -46,7 +46,7 @@ _NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]+)?")
 
 
 class _Kinds(dict[str, str]):
-    """The kind of each token by its text: keywords and marks are known, the rest is told from how it begins."""
+    """The kind of each token by its text: keywords and marks are entries, other kinds depend on the first character."""
 
     def __missing__(self, token: str) -> str:
         first = token[:1]
@@ -73,14 +73,14 @@ _KINDS = _Kinds(
 
 
 def scan(text: str) -> Tokens:
-    """The tokens of `text`, in time linear in its length. Nothing is refused here; the parser says what is wrong."""
+    """The tokens of `text`, in time linear in its length. The parser reports what is wrong."""
     kinds: list[str] = []
     starts = array("q")
     ends = array("q")
     remarks: list[Remark] = []
     at = 0
     while at < len(text):
-        # No token reaches over a line break; an IN WHICH CASE that does is three tokens.
+        # No token contains a line break; an IN WHICH CASE on two lines is three tokens.
         stop = text.find("\n", at + _BLOCK) + 1 or len(text)
         pieces = _TOKEN.findall(text, at, stop)
         tokens = list(map(str.lstrip, pieces))
@@ -115,7 +115,7 @@ def scan(text: str) -> Tokens:
 
 
 def _mark_occasions(kinds: list[str]) -> None:
-    """Marks each WHEN that belongs to a concern, purpose or relation."""
+    """Marks each WHEN in a concern, purpose or relation."""
     for keyword in (*CLAIMS, "RELATION", "MEANWHILE"):
         at = -1
         for _ in range(kinds.count(keyword)):

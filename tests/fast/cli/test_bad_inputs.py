@@ -87,7 +87,7 @@ def locked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.mark.parametrize("command", [*COMMANDS, ["cases"]], ids=" ".join)
 def test_file_that_may_not_be_read(command: list[str], locked: Path, capfd: pytest.CaptureFixture[str]) -> None:
     assert run([command[0], str(locked), *command[1:]]) == 2
-    assert f"error: {locked} may not be read\n" in capfd.readouterr().err
+    assert f"error: no permission to read {locked}\n" in capfd.readouterr().err
 
 
 @pytest.mark.parametrize("forbidden", ["target", "ruleset"])
@@ -111,7 +111,7 @@ def test_file_that_may_not_be_read_among_others(
     sound.write_text("WHEN a THEN b\n")
     assert run(["check", str(locked), str(sound), "--format", "json"]) == 2
     first, second = json.loads(capfd.readouterr().out)["rulesets"]
-    assert first["error"]["message"] == f"{locked} may not be read"
+    assert first["error"]["message"] == f"no permission to read {locked}"
     assert second["rules"] == 1
 
 

@@ -18,10 +18,10 @@ RULE = "WHEN A THEN B\n"
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        (b"WHEN A\nTHEN \xff", "line 2 holds the byte 0xff (byte 13 of the file)"),
-        ("WHEN A THEN é".encode("latin-1"), "is not UTF-8 text: line 1 holds the byte 0xe9"),
+        (b"WHEN A\nTHEN \xff", "line 2 contains the byte 0xff (byte 13 of the file)"),
+        ("WHEN A THEN é".encode("latin-1"), "is not UTF-8 text: line 1 contains the byte 0xe9"),
         (RULE.encode("utf-16"), "is saved as UTF-16"),
-        (b"WHEN A\n\nTHEN \x00B", "line 3 holds a NUL byte"),
+        (b"WHEN A\n\nTHEN \x00B", "line 3 contains a NUL byte"),
     ],
 )
 def test_files_that_are_no_text(tmp_path: Path, data: bytes, message: str) -> None:
@@ -49,7 +49,7 @@ def test_forbidden_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
         raise PermissionError
 
     monkeypatch.setattr("builtins.open", refuse)
-    with pytest.raises(UnreadableFile, match="may not be read"):
+    with pytest.raises(UnreadableFile, match="no permission to read"):
         load(tmp_path / "secret.sleec")
 
 

@@ -240,11 +240,11 @@ def test_closed_pipe_for_messages(arguments: list[str]) -> None:
     [
         (
             "check - <&-",
-            "error: there is no standard input: it is closed\n  = help: name a file, or redirect one to it\n",
+            "error: standard input is closed\n  = help: give a file, or redirect one to standard input\n",
         ),
         (
             "fmt - <&-",
-            "error: there is no standard input: it is closed\n  = help: name a file, or redirect one to it\n",
+            "error: standard input is closed\n  = help: give a file, or redirect one to standard input\n",
         ),
         ("check - 0>/dev/null", "error: standard input cannot be read: Bad file descriptor\n"),
         ("check FILE >&-", "error: standard output is closed\n"),
