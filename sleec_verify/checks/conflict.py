@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.model import Formula, Obligation, Rule, Span, literals
 from sleec_verify.checks.base import Check, FindingKind, clause_at
-from sleec_verify.checks.causes import Cause, causes
+from sleec_verify.checks.causes import Cause, Enough, causes
 from sleec_verify.checks.conflict_wording import exclusion, help_for, sides_in_words, subject
 from sleec_verify.checks.questions import ask_each
 from sleec_verify.checks.relevant_rules import kind_of, relation_in_words
@@ -42,21 +42,29 @@ def _conflicts(index: RulesetIndex) -> Iterator[Finding]:
     rest = without(index, (rule for component in found for rule in component.rules), ())
     named = [(listed(rule.label for rule in component.rules), component) for component in found]
 
+    incomplete: list[str] = []
+
     def of(component: TraceIndex | None) -> Iterator[Finding]:
-        return _of_situations(rest) if component is None else _of_traces(traces, component)
+        return _of_situations(rest) if component is None else _of_traces(traces, component, incomplete)
 
     yield from ask_each([("the rules without time", None), *named], of)
+    if incomplete:
+        raise Enough(f"there may be further conflicts of {listed(map(quoted, incomplete))} with more rules")
 
 
 def _of_situations(index: RulesetIndex) -> Iterator[Finding]:
     yield from (_finding(index, cause, shown) for cause, shown in causes(index))
 
 
-def _of_traces(whole: TraceIndex, component: TraceIndex) -> Iterator[Finding]:
+def _of_traces(whole: TraceIndex, component: TraceIndex, incomplete: list[str]) -> Iterator[Finding]:
+    """The conflicts of a component. Adds to `incomplete` the rules of conflicts that may be part of others."""
     from sleec_verify.traces.conflicts import ConflictSearch
 
-    for conflict in ConflictSearch(component).find():
+    search = ConflictSearch(component)
+    for conflict in search.find():
         yield _of_trace(whole, conflict)
+    if search.may_be_more:
+        incomplete += (label for label in search.chained if label not in incomplete)
 
 
 def conflict_in(

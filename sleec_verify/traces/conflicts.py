@@ -27,6 +27,9 @@ from sleec_verify.traces.witness import needed_relations, needed_values
 MOST_UNDECIDED = 4
 """The number of undecided situations after which the search stops."""
 
+MOST_HIDDEN = 50
+"""Situations that are looked at for conflicts whose rules contain those of another one."""
+
 LATER = -1
 """In place of a clause, for a rule that the response triggers at a later instant."""
 
@@ -44,13 +47,14 @@ class Pair(NamedTuple):
 
 
 class Conflict(NamedTuple):
-    """The rules, each with the clauses that decide; a lawful history up to now; the inputs of now, with the
-    relevant conditions and measures; and the keys of the relevant relations."""
+    """The rules, each with the clauses that decide; a lawful history up to now; the inputs of now, with the conditions
+    and measures that matter; the keys of the relations that matter; and the rules that every response triggers now."""
 
     pairs: tuple[Pair, ...]
     history: tuple[TraceInstant, ...]
     now: TraceInstant
     relations: tuple[str, ...]
+    forced: frozenset[str]
 
     @property
     def rules(self) -> tuple[str, ...]:
@@ -64,6 +68,8 @@ class ConflictSearch:
         self._index = index = index.stated
         self._found: list[Conflict] = []
         self._undecided: list[Undecided] = []
+        self.may_be_more = False
+        """Whether conflicts may exist besides those found whose rules contain those of one found."""
 
     @cached_property
     def _situations(self) -> Situations:
@@ -86,10 +92,32 @@ class ConflictSearch:
                 self._examine()
         except Undecided as error:
             self._undecided.append(error)
+        if not self._undecided and self.chained:
+            self._find_hidden()
         every = [frozenset(conflict.pairs) for conflict in self._found]
         yield from (one for one, pairs in zip(self._found, every) if not any(other < pairs for other in every))
         if self._undecided:
             raise self._undecided[0]
+
+    @property
+    def chained(self) -> list[str]:
+        """The rules of conflicts that a response can trigger later in another conflict, in the order of the text."""
+        obliging, by_label = self._index.obliging, self._index.ruleset.by_label
+        found = {pair.rule for conflict in self._found for pair in conflict.pairs}
+        return [label for label, rule in by_label.items() if label in found and rule.trigger in obliging]
+
+    def _find_hidden(self) -> None:
+        """Look for the conflicts whose rules contain those of another one, but with other pairs."""
+        self._situations.refine_exclusions()
+        try:
+            for _ in range(MOST_HIDDEN):
+                if not self._refinement.propose(copies=0):
+                    return
+                self._examine()
+        except Undecided:
+            pass
+        self._undecided.clear()
+        self.may_be_more = True
 
     def _examine(self) -> None:
         """Record the conflict in the proposed situation, if there is one."""
@@ -101,7 +129,7 @@ class ConflictSearch:
         if conflict is not None:
             self._found.append(conflict)
             self._situations.exclude_pairs(
-                (pair.rule, None if pair.clause == LATER else pair.clause) for pair in conflict.pairs
+                ((pair.rule, None if pair.clause == LATER else pair.clause) for pair in conflict.pairs), conflict.forced
             )
 
     def _leave_open(self, error: Undecided) -> None:
@@ -154,8 +182,8 @@ class ConflictSearch:
         facts, continuations, given = self._with_fewer_inputs(rules, facts, continuations, given)
         core = drop_slots(continuations, rules, facts)
         slots = {int(str(f[1])) for f in core if f[0] == "slot"}
-        pairs = self._pairs(continuations, rules, given, slots)
-        return self._confirmed(rules, core, given, pairs, continuations)
+        pairs, forced = self._pairs(continuations, rules, given, slots)
+        return self._confirmed(rules, core, given, pairs, forced, continuations)
 
     def _doomed(self, core: list[Fact], rules: list[str]) -> Conflict | None:
         """The conflict of rules with pending demands that nothing can meet, although none of the rules decides now."""
@@ -204,6 +232,7 @@ class ConflictSearch:
         core: list[Fact],
         given: set[str],
         pairs: tuple[Pair, ...],
+        forced: frozenset[str],
         continuations: Continuations,
     ) -> Conflict | None:
         """The conflict with a lawful history, if there is one."""
@@ -239,7 +268,7 @@ class ConflictSearch:
         values = needed_values(s, continuations, rules, left_out, deciding, s.instant.values(s.holds))
         now = TraceInstant(time, frozenset(given), values)
         stated = tuple(key for key in relations if not is_of_state(self._index.relation_by_key[key]))
-        return Conflict(pairs, tuple(map(_without_states, moments)), _without_states(now), stated)
+        return Conflict(pairs, tuple(map(_without_states, moments)), _without_states(now), stated, forced)
 
     def _about_past(self, core: list[Fact], slots: set[int]) -> list[Fact]:
         """The facts of a core about the past, with all facts about some slots."""
@@ -255,18 +284,22 @@ class ConflictSearch:
 
     def _pairs(
         self, continuations: Continuations, rules: list[str], given: set[str], slots: set[int]
-    ) -> tuple[Pair, ...]:
+    ) -> tuple[tuple[Pair, ...], frozenset[str]]:
+        """The rules with the clauses that decide, and those of the rules that every response triggers now."""
         s = self._situations
         found: set[Pair] = set()
+        forced: set[str] = set()
         for label in rules:
             rule: Rule = self._index.ruleset.by_label[label]
             own = {Pair(label, s.slots[n].pending.number) for n in slots if s.slots[n].rule.label == label}
-            if rule.trigger in given or (not own and self._is_forced(continuations, rules, rule)):
+            if rule.trigger not in given and not own and self._is_forced(continuations, rules, rule):
+                forced.add(label)
+            if rule.trigger in given or label in forced:
                 own.update(Pair(label, n) for n, guard in enumerate(s.guards[label]) if s.holds(guard))
             # A rule that only a later instant triggers has no deciding clause yet.
             found |= own or {Pair(label, LATER)}
         order = {label: place for place, label in enumerate(self._index.ruleset.by_label)}
-        return tuple(sorted(found, key=lambda pair: (order[pair.rule], pair.clause)))
+        return tuple(sorted(found, key=lambda pair: (order[pair.rule], pair.clause))), frozenset(forced)
 
     @staticmethod
     def _is_forced(continuations: Continuations, rules: list[str], rule: Rule) -> bool:

@@ -42,8 +42,9 @@ class Refinement:
         self._copies = 0
         self._add(Template())
 
-    def propose(self) -> bool:
+    def propose(self, copies: int = MOST_COPIES) -> bool:
         """Whether a situation is left that no template fits. It is then that of the last `find` of the situations.
+        Each response may leave one pending demand, and so many `copies`.
 
         Raises Undecided if it could need too many pending demands of one response."""
         s = self._situations
@@ -59,7 +60,7 @@ class Refinement:
         while not s.find_least(-s.more, *self._lifted.values()):
             if -s.more not in s.core:
                 return False
-            if self._copies >= MOST_COPIES:
+            if self._copies >= copies:
                 raise Undecided(f"no conflict with {self._copies} more pending triggerings of each response")
             self._copies += 1
             s.add_copies(1)

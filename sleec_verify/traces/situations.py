@@ -9,7 +9,7 @@ This file does not decide whether a lawful history leads to the state: see `slee
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from sleec_runtime.model import Atom, EventRelation, Lasting, formulas_of, leaves
 from sleec_runtime.model import Formula as Condition
@@ -64,7 +64,12 @@ class Situations:
         }
         for law, active, node in self.lasting.values():
             self._pending_since(node, active, None if law.duration is None else last_second(law.duration))
-        self._present: dict[tuple[str, int], int] = {}
+        self._present: dict[tuple[str, int, bool], int] = {}
+        self.coarse: int | None = None
+        """A literal of the exclusions while `is_coarse`, when there are any."""
+        self.is_coarse = True
+        """Whether more situations are excluded than those of the conflicts that were found."""
+        self._excluded: list[tuple[list[tuple[str, int | None]], Collection[str]]] = []
         self.slots: list[Slot] = []
         self.several: list[Pending] = []
         """Responses of which a history can leave several demands, none of which implies the others."""
@@ -98,9 +103,10 @@ class Situations:
         allowed = self._allows_inputs(slot, slot.demand)
         if allowed != self.true:
             self.add([-slot.active, -selected, allowed])
-        present = self._present.get((slot.rule.label, pending.number))
-        if present is not None:
-            self.add([-selected, -slot.active, present])
+        for forced in (False, True):
+            present = self._present.get((slot.rule.label, pending.number, forced))
+            if present is not None:
+                self.add([-selected, -slot.active, present])
         return slot
 
     def _pending_since(self, node: int, active: int, last: int | None) -> None:
@@ -200,23 +206,41 @@ class Situations:
         """No further situation has all these facts."""
         self.add([-self.literal(fact) for fact in facts])
 
-    def exclude_pairs(self, pairs: Iterable[tuple[str, int | None]]) -> None:
-        """No further situation has all these rules with these clauses, which decide now or have a pending demand.
-        None stands for any clause."""
-        present = []
-        for label, number in pairs:
-            selected = self.selected[label]
-            if number is None:
-                present.append(selected)
-                continue
-            if (label, number) not in self._present:
-                literal = self._present[label, number] = self.formula.fresh()
-                self.add([-selected, -self.guards[label][number], literal])
-                for slot in self.slots:
-                    if (slot.rule.label, slot.pending.number) == (label, number):
-                        self.add([-selected, -slot.active, literal])
-            present.append(self._present[label, number])
-        self.add([-literal for literal in present])
+    def exclude_pairs(self, pairs: Iterable[tuple[str, int | None]], forced: Collection[str]) -> None:
+        """No further situation has all these rules, with their clauses that decide now or decided what is pending; None
+        is any.
+
+        A rule of `forced`, and while `is_coarse` any rule, counts wherever its clause decides if the rule is triggered
+        now, even if it is not.
+        """
+        chosen = list(pairs)
+        if self.is_coarse:
+            if self.coarse is None:
+                self.coarse = self.formula.fresh()
+            self.add([-self.coarse, *(-self._present_literal(label, number, True) for label, number in chosen)])
+            self._excluded.append((chosen, forced))
+        else:
+            self.add([-self._present_literal(label, number, label in forced) for label, number in chosen])
+
+    def refine_exclusions(self) -> None:
+        """Exclude no more situations than those with the same rules triggered."""
+        self.is_coarse = False
+        for chosen, forced in self._excluded:
+            self.exclude_pairs(chosen, forced)
+
+    def _present_literal(self, label: str, number: int | None, forced: bool) -> int:
+        selected = self.selected[label]
+        if number is None:
+            return selected
+        key = label, number, forced
+        if key not in self._present:
+            literal = self._present[key] = self.formula.fresh()
+            triggered = [] if forced else [-self.inputs[self.index.ruleset.by_label[label].trigger]]
+            self.add([-selected, *triggered, -self.guards[label][number], literal])
+            for slot in self.slots:
+                if (slot.rule.label, slot.pending.number) == (label, number):
+                    self.add([-selected, -slot.active, literal])
+        return self._present[key]
 
     def facts(self) -> list[Fact]:
         """The facts of the situation of the last `find`, without those on which no slot or rule depends."""
@@ -247,7 +271,8 @@ class Situations:
     # Solving --------------------------------------------------------------------------------------------------
 
     def find(self, *assumed: int) -> bool:
-        """Whether a situation is left in which all these literals are true."""
+        """Whether a situation is left, in which all these literals are true."""
+        assumed = (*assumed, self.coarse) if self.is_coarse and self.coarse is not None else assumed
         while True:
             self.instant.settle()
             self._solver.add(self.formula.clauses[self._sent :])

@@ -85,6 +85,13 @@ def test_worked_examples(rules: tuple[str, ...], relations: tuple[str, ...], exp
     assert (not expected) == (not rules_of(dsl(*rules, relations=relations)))
 
 
+@pytest.mark.parametrize("seconds", [1, 2, 3, 5])
+def test_a_conflict_does_not_hide_one_with_more_rules(seconds: int) -> None:
+    """In {R2, R3}, F is an input. In the other conflict it is the response of R1, and R2 has no clause that decides."""
+    rules = f"A then F within {seconds} seconds", "F then N within 1 seconds", "B then not N within 3 seconds"
+    assert rules_of(dsl(*rules, events="ABFN")) == {frozenset({"R2", "R3"}), frozenset({"R1", "R2", "R3"})}
+
+
 def test_a_conflict_has_a_lawful_history() -> None:
     (conflict,), reason = conflicts_of(dsl("A then X within 3 minutes", "B then not X within 2 minutes"))
     assert reason is None
