@@ -6,10 +6,10 @@ import ast
 import sys
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
-from typing import NamedTuple
 
 from sleec_verify.conformance.structure.control import Flow, is_generator
+from sleec_verify.conformance.structure.execution import Call, Doubt, Execution
+from sleec_verify.conformance.structure.implementation_lookup import ImplementationLookup
 from sleec_verify.conformance.structure.methods import HARMLESS
 from sleec_verify.conformance.structure.names import Names
 from sleec_verify.conformance.structure.program import DEFS, Class, Function, Scope
@@ -38,52 +38,6 @@ _TRIGGERS = {"trigger", "trigger_all"}
 _TRIGGERS_ASYNC = {"trigger_async", "trigger_all_async"}
 """What a runtime is told to trigger by: the names come first."""
 REPLACERS = {f"builtins.{name}" for name in ("exec", "eval", "compile", "__import__", "globals", "locals", "vars")}
-
-
-class Call(NamedTuple):
-    """A call of what implements an obligation. `why` says why it may not be executed exactly once; None if it is."""
-
-    obligation: str
-    node: ast.AST
-    file: PythonFile
-    why: str | None
-
-
-class Doubt(NamedTuple):
-    """A place that cannot be decided without running the program."""
-
-    node: ast.AST
-    file: PythonFile
-    why: str
-
-
-@dataclass
-class Execution:
-    """What one variant does. `unfollowed` are calls of inherited or imported code that is not in the target;
-    `triggers` are those that it triggers for certain while nothing has changed, so far as is seen (`changed`)."""
-
-    calls: list[Call] = field(default_factory=list)
-    doubts: list[Doubt] = field(default_factory=list)
-    proceeds: list[tuple[ast.AST, PythonFile]] = field(default_factory=list)
-    unfollowed: list[str] = field(default_factory=list)
-    triggers: list[tuple[str, ast.AST, PythonFile]] = field(default_factory=list)
-    changed: bool = False
-
-    def then(self, other: Execution) -> Execution:
-        """This, and then the other."""
-        return Execution(
-            self.calls + other.calls,
-            self.doubts + other.doubts,
-            self.proceeds + other.proceeds,
-            self.unfollowed + other.unfollowed,
-            self.triggers + ([] if self.changed else other.triggers),
-            self.changed or other.changed,
-        )
-
-    @property
-    def executed(self) -> list[str]:
-        """The obligations that are executed for certain, in order."""
-        return [call.obligation for call in self.calls if call.why is None]
 
 
 class AbstractExecutor:
@@ -198,6 +152,7 @@ class _Body(Flow):
         self.function = function
         self.given = given
         self.scopes: list[Scope] = [function.inner]
+        self.lookup = ImplementationLookup(run.resolver, run.names, run.stack[0], given)
         self.file = function.file
         self.pending: list[tuple[Function, list[Call]]] = []
 
@@ -280,7 +235,7 @@ class _Body(Flow):
         if not isinstance(node, ast.Attribute):
             return None
         receiver = self.value(node.value)
-        if not isinstance(receiver, Object) or not self._is_own(receiver):
+        if not isinstance(receiver, Object) or not self.lookup.is_robots(receiver):
             return None
         assigned = any(node.attr in above.attributes for above in self.run.resolver.order(receiver.class_)[0])
         return self.run.names.called(node.attr) if assigned else None
@@ -292,52 +247,12 @@ class _Body(Flow):
 
     def _obligation(self, node: ast.expr, value: Value) -> str | None:
         if isinstance(value, Code) and len(value.definitions) == 1:
-            return self._implemented(value.definitions[0], value.receiver)
+            return self.lookup.obligation_of(value.definitions[0], value.receiver)
         if isinstance(value, UnknownValue) and isinstance(node, ast.Attribute):
             receiver = self.value(node.value)
             if isinstance(receiver, (Object, ClassOf)):
                 return self.run.names.called(node.attr)
         return None
-
-    def _implemented(self, function: Function, receiver: Value | None) -> str | None:
-        """The obligation that a function of the target implements, if it is the robot's or marked."""
-        names = self.run.names
-        name = names.of(function)
-        if name is None or names.mark(function) is not None or self._is_own(receiver):
-            return name
-        return name if not self._own_implementation(name) else None
-
-    def _is_own(self, receiver: Value | None) -> bool:
-        robot = self.run.stack[0].owner
-        if receiver is None:
-            return robot is None
-        if not isinstance(receiver, (Object, ClassOf)) or robot is None:
-            return False
-        return robot in self.run.resolver.order(receiver.class_)[0]
-
-    def _own_implementation(self, name: str) -> bool:
-        """Whether the robot implements an obligation itself, or a function marked with it exists."""
-        names = self.run.names
-        if name in names.marked:
-            return True
-        receiver = self.given.get(self._self_name() or "")
-        robot = receiver.class_ if isinstance(receiver, Object) else self.run.stack[0].owner
-        if robot is None:
-            return any(
-                isinstance(one, Function)
-                for method, obligations in names.by_method.items()
-                if name in obligations
-                for one in self.run.stack[0].scope.module.bindings.get(method, ())
-            )
-        return any(
-            name in names.by_method.get(attribute, ())
-            for above in self.run.resolver.order(robot)[0]
-            for attribute in above.inner.bindings
-        )
-
-    def _self_name(self) -> str | None:
-        parameters = self.run.stack[0].parameters
-        return parameters[0].arg if parameters else None
 
     def _code(self, node: ast.Call, value: Code, why: str | None, awaited: bool) -> None:
         function = value.definitions[-1]
@@ -353,7 +268,7 @@ class _Body(Flow):
             return
         if isinstance(function.node, ast.AsyncFunctionDef) and not awaited:
             why = why or "not awaited here, so that it may never be run"
-        name = self._implemented(function, value.receiver)
+        name = self.lookup.obligation_of(function, value.receiver)
         if name is not None:
             self.run.tracer.implementations[function] = name
             self.run.execute(name, node, self.file, why)
@@ -400,8 +315,8 @@ class _Body(Flow):
             name = self.run.names.called(func.attr)
             receiver = self.value(func.value)
             if name is not None:
-                own = isinstance(receiver, (Object, ClassOf)) and self._is_own(receiver)
-                if own or not self._own_implementation(name):
+                own = isinstance(receiver, (Object, ClassOf)) and self.lookup.is_robots(receiver)
+                if own or not self.lookup.robot_implements(name):
                     self._by_name(node, name, why)
                 elif isinstance(receiver, UnknownValue):
                     self.run.doubt(node, self.file, f"whether this is what implements {name} is known only at run time")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sleec_runtime.dispatch.implementations import snake_case
 from sleec_runtime.model import Rule
-from sleec_verify.conformance.structure.abstract_execution import Call, Execution
+from sleec_verify.conformance.structure.execution import Call, Execution
 from sleec_verify.conformance.structure.methods import Variant
 from sleec_verify.conformance.structure.report import Findings, clause_name
 from sleec_verify.results.finding import ClauseRef

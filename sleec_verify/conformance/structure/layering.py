@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 
 from sleec_runtime.model import Rule
 from sleec_runtime.support.suggestions import nearest
-from sleec_verify.conformance.structure.abstract_execution import AbstractExecutor, Execution
+from sleec_verify.conformance.structure.abstract_execution import AbstractExecutor
 from sleec_verify.conformance.structure.bodies import compare
+from sleec_verify.conformance.structure.execution import Execution
 from sleec_verify.conformance.structure.methods import Method, Variant, calls_super
 from sleec_verify.conformance.structure.program import Function
 from sleec_verify.conformance.structure.report import Findings, clause_name, expression

@@ -173,7 +173,7 @@ def test_every_format_lists_the_changes(form: str, blocking: bool, cli: Cli, rep
         assert f"`{where}`: {what}".replace("@", "@\u200b") in summary.partition(title)[2]
     if form in ("full", "concise", "github"):
         verdict = ran.out.splitlines()[-1]
-        assert verdict.endswith("4 reasons to block" if blocking else "4 changes of the policy")
+        assert verdict.endswith("4 reasons to block" if blocking else "4 policy changes")
         assert "1 ruleset examined" in verdict
     if form in ("concise", "github"):
         assert "\n1 ruleset: " in "\n" + ran.out
