@@ -1,4 +1,4 @@
-"""The checks by name, and running them."""
+"""The checks by name, and running them on a ruleset."""
 
 from __future__ import annotations
 
@@ -80,28 +80,28 @@ _COSTLY = (
     CONFLICT.name,
     REALIZABILITY.name,
 )
-"""The checks that ask a solver, in the order in which they are made, after those that only read the text."""
+"""The checks that ask a solver, in the order in which they run, after those that only read the text."""
 
 _ROUNDS = 3
-"""How often a check is made, at most, that has spent its share of the budget."""
+"""How often a check runs at most, if it has spent its share of the budget."""
 
 _AT_FIRST = 1 / 3
 """The part of the budget that each check may spend at first."""
 
 Progress = Callable[[str, int, int], None]
-"""Called before each check with its name, how many are done, and how many there are."""
+"""Called before each check with its name, the number of finished checks, and the number of all checks."""
 
 
 def checks_for(ruleset: Ruleset) -> list[str]:
-    """The names of the checks that are made of a ruleset unless told."""
+    """The names of the checks that run on a ruleset by default."""
     left_out = {REALIZABILITY.name}
     if ruleset.source.text.isascii():
         left_out.add(CONFUSABLE.name)
     if ruleset.syntax == "dsl":
-        # Nobody expects a response to be another thing than the event of that name there.
+        # In the DSL, a response is always the event of that name.
         left_out.add(TRIGGER_OBLIGATION.name)
     else:
-        # Structured English has no defects: it refuses them.
+        # Structured English has no defects: the parser rejects them.
         left_out.add(DEFECTS.name)
     if ruleset.dialect != "sleec-tk":
         left_out.add(BARE_PROHIBITION.name)
@@ -123,12 +123,11 @@ def run_checks(
 ) -> tuple[CheckResult, ...]:
     """The verdicts of the checks (all, or those of `names`), in their own order.
 
-    A ruleset is checked in each of its domains, with the rules that apply everywhere; `domain` picks one. A finding
-    says in which domains it holds. `untimed` is what a response without a window means, in rules that speak of time.
-    Without `chains`, what is done triggers no rules (the paper's one-step reading).
-    `realizable` adds that check, for an environment that acts up to so many times. Unless the work has a budget
-    (`encoding.budget`), it is given that of one file; what is not decided within it is unknown. Raises KeyError for
-    an unknown check.
+    A ruleset is checked in each of its domains, with the rules that apply everywhere; `domain` selects one. A finding
+    names its domains. `untimed` is the meaning of a response without a window in rules with time. Without `chains`,
+    responses trigger no rules (the paper's one-step reading). `realizable` adds that check, with this number of acts of
+    the environment. Unless there is a budget already (`encoding.budget`), the checks get that of one file. Anything
+    undecided within it is unknown. Raises `KeyError` for an unknown check.
     """
     checking = Checking(ruleset, domain, untimed, realizable=1 if realizable is None else realizable, chains=chains)
     chosen = list(dict.fromkeys(checks_for(ruleset) if names is None else names))
@@ -138,10 +137,10 @@ def run_checks(
 
 
 class Checking:
-    """The checks of one ruleset, one after the other. `recorder` is told of the questions that they ask.
+    """The checks of one ruleset, one after the other. `recorder` receives their questions.
 
-    `by_domain` is what they are asked of: the ruleset in each of its domains, in the one that is named, or, under an
-    empty name, as it is where it has none.
+    `by_domain` is what they check: the ruleset in each of its domains or in the selected one; without domains, the
+    whole ruleset under an empty name.
     """
 
     def __init__(
@@ -153,8 +152,8 @@ class Checking:
         realizable: int = 1,
         chains: bool = True,
     ) -> None:
-        """`realizable` is how often the environment acts in that check. Without `chains`, what is done triggers no
-        rules."""
+        """`realizable` is the number of acts of the environment in that check. Without `chains`, responses trigger
+        no rules."""
         self._checks: Mapping[str, Check] = {**CHECKS, REALIZABILITY.name: realizability(realizable)}
         known: Callable[[Ruleset], RulesetIndex] = partial(
             RulesetIndex, recorder=recorder, untimed=untimed, chains=chains
@@ -169,10 +168,10 @@ class Checking:
         progress: Progress | None = None,
         made: Callable[[CheckResult], None] | None = None,
     ) -> tuple[CheckResult, ...]:
-        """The verdicts of these checks. Each is made with a small part of the budget at first. Where that is not
-        enough, it is made again after all others, with an equal share of what is left then.
+        """The verdicts of these checks. Each runs with a small part of the budget at first. If that is not enough, it
+        runs again after all others, with an equal share of the rest.
 
-        `made` is called after each check that was made. Raises KeyError for an unknown one.
+        `made` is called after each finished check. Raises `KeyError` for an unknown check.
         """
         found: dict[str, CheckResult] = {}
         had: dict[str, float] = {}
@@ -197,7 +196,7 @@ class Checking:
         return tuple(found[name] for name in names)
 
     def _ask_what_is_possible(self) -> None:
-        """Ask it first, and once: every question about situations rests on it."""
+        """Ask this first, and once, because every question about situations depends on it."""
         for index in (self.whole, *self.by_domain.values()):
             if index.assumptions:
                 with share(1 / 2), suppress(Undecided):
@@ -221,11 +220,11 @@ def _verdict(check: Check, by_domain: Mapping[str, RulesetIndex]) -> tuple[Verdi
                 if not replay_finding(index, finding):
                     unknown.append(f"the replay rejected a witness; this is a bug in sleec-verify: {finding.message}")
                     continue
-                # What covers a redundant rule may be another rule in each domain; it is one finding all the same.
+                # A redundant rule may have another reason in each domain, and is still one finding.
                 rules = finding.rules[:1] if check.scope == "every domain" else finding.rules
                 key: tuple[object, ...] = (finding.code, rules, finding.clauses, finding.obligations, finding.span)
                 if key in found and not replay_finding(index, found[key]):
-                    # The other domain's situation cannot be in this one, by the assumptions of this one.
+                    # The assumptions of this domain exclude the situation of the other one.
                     key = (*key, domain)
                 seen = found.setdefault(key, finding)
                 if domain:
@@ -245,7 +244,7 @@ def _verdict(check: Check, by_domain: Mapping[str, RulesetIndex]) -> tuple[Verdi
 
 
 def _everywhere(finding: Finding, by_domain: Mapping[str, RulesetIndex]) -> bool:
-    """Whether a finding holds in every domain in which its first rule counts."""
+    """Whether a finding holds in every domain in which its first rule applies."""
     rule = finding.rules[0]
     counts_in = (domain for domain, index in by_domain.items() if domain and rule in index.ruleset.by_label)
     return all(domain in finding.domains for domain in counts_in)

@@ -37,8 +37,8 @@ def _contradictory(index: RulesetIndex) -> Iterator[Finding]:
 
 
 def _at_odds(index: RulesetIndex) -> tuple[list[int], bool]:
-    """Assumptions that contradict one another, and whether none of them can be left out: of those that one refutation
-    needs, leave out one after the other."""
+    """Assumptions that contradict each other, and whether the set is minimal. Starts from a core and removes one
+    assumption after the other."""
     with Question(index, assuming=False) as question:
         switches = {question.encoder.fresh(): position for position in range(len(index.assumptions))}
         for switch, position in switches.items():

@@ -1,4 +1,5 @@
-"""Causes of conflicts: minimal sets of clauses that oblige what they, or the constraints, rule out together."""
+"""Causes of conflicts: minimal sets of clauses whose responses are inconsistent, by themselves or with the
+constraints."""
 
 from __future__ import annotations
 
@@ -20,28 +21,30 @@ from sleec_verify.results.finding import Witness
 from sleec_verify.results.phrases import listed
 
 MOST, MOST_PER_RULE = 1_000, 3
-"""How many causes are listed: so many, and so many more for each rule. Contradicting clauses multiply, and a ruleset
-with more has one problem, not millions."""
+"""The maximal number of causes that are listed: this number, plus more for each rule. Contradicting clauses
+multiply, and a ruleset with more causes has one problem, not millions."""
 
 MANY_WAYS = 16
-"""Ways to oblige the literals of a clash with which it is asked first whether any of them is possible."""
+"""The number of ways to oblige the literals of an inconsistent set from which on the first question is whether any
+of them is possible."""
 
 PER_ATTEMPT = 8
-"""Steps of a budget for one attempt to complete a cause."""
+"""Budget steps for one attempt to complete a cause."""
 
 Cause = tuple[ClausePosition, ...]
-"""A minimal set of clauses that clash, in the order of the text."""
+"""A minimal set of clauses with inconsistent responses, in the order of the text."""
 
 
 class Enough(Exception):
-    """As many causes are found as are listed, and there may be more."""
+    """The maximal number of causes is found, and there may be more."""
 
 
 def causes(index: RulesetIndex) -> Iterator[tuple[Cause, list[tuple[InconsistentSet, Witness]]]]:
-    """Every cause, in the order of the text, with what is ruled out and a smallest situation for each.
+    """Every cause, in the order of the text, with its inconsistent set and a smallest situation.
 
-    Unsatisfiable exactly when a set of clauses is no cause: the guards of the clauses, and the situation in which their
-    literals clash. A model is a conflicting context. Raises Undecided or Enough after those that were found.
+    Unsatisfiable exactly if a set of clauses is not a cause: the guards of the clauses, and the situation in which
+    their literals are inconsistent. A model is a conflicting context. Raises `Undecided` or `Enough` after the last
+    cause.
     """
     found: dict[Cause, list[tuple[InconsistentSet, Witness]]] = {}
     most = MOST + MOST_PER_RULE * len(index.rules)
@@ -66,7 +69,7 @@ def causes(index: RulesetIndex) -> Iterator[tuple[Cause, list[tuple[Inconsistent
 
 
 def _candidates(index: RulesetIndex) -> Iterator[tuple[str, tuple[Cause, InconsistentSet]]]:
-    """The clashes, each with every set of clauses that may be its cause, and the rules of these."""
+    """The inconsistent sets, each with every set of clauses that may be its cause, and the rules of these."""
     found = inconsistent_sets_of(index)
     pairs = (pair for exclusion in found.exclusions for pair in _due_together(index, exclusion))
     for clash in chain(found.listed, pairs):
@@ -79,15 +82,15 @@ def _candidates(index: RulesetIndex) -> Iterator[tuple[str, tuple[Cause, Inconsi
 
 
 def _all_due(index: RulesetIndex, clash: InconsistentSet) -> bool:
-    """Whether all literals of a clash are due in some situation."""
+    """Whether all literals of an inconsistent set are due in some situation."""
     rules = {place.rule for literal in clash.literals for place in index.by_obligation[literal]}
     with Question(index) as question:
         return question.ask(*question.due(sorted(rules), clash.literals).values())
 
 
 def _due_together(index: RulesetIndex, exclusion: Exclusion) -> Iterator[InconsistentSet]:
-    """The pairs of an exclusion that may be due in some situation: all pairs of a literal that is due with another one.
-    One formula, satisfiable exactly when there is a further such literal. A model shows one."""
+    """The pairs of an exclusion that may be due in some situation: all pairs of a literal that can be due with
+    another one. One formula, satisfiable exactly if there is a further such literal. A model shows one."""
     rules = {place.rule for literal in exclusion.literals for place in index.by_obligation[literal]}
     with Question(index) as question:
         encoder = question.encoder
@@ -103,7 +106,7 @@ def _due_together(index: RulesetIndex, exclusion: Exclusion) -> Iterator[Inconsi
 
 
 def _covers(index: RulesetIndex, clash: InconsistentSet) -> Iterator[Cause]:
-    """The minimal sets of clauses, one at most of each rule, that oblige every literal of the clash."""
+    """The minimal sets of clauses, at most one of each rule, that oblige every literal of the inconsistent set."""
     literals = sorted(clash.literals, key=str)
     seen: set[Cause] = set()
 
@@ -136,7 +139,8 @@ def _obliged(index: RulesetIndex, places: Iterable[ClausePosition]) -> set[Oblig
 
 
 def _situation(index: RulesetIndex, cause: Cause, clash: InconsistentSet) -> Formula | None:
-    """Where the clauses decide together and clash, and no part of them clashes already. None if a part always does."""
+    """A situation in which the clauses decide together and are inconsistent, and no proper subset of them is. None
+    if a subset always is."""
     conjuncts = [guard_at(index, place) for place in cause]
     if clash.labels:
         conjuncts.append(clash.situation)

@@ -37,7 +37,7 @@ def _conflicts(index: RulesetIndex) -> Iterator[Finding]:
         return
     from sleec_verify.traces.components import components, needs_traces
 
-    # A component of these rules in which nothing takes time is about situations, too.
+    # A component of these rules without windows is about situations, too.
     found = [component for component in components(traces) if needs_traces(component)]
     rest = without(index, (rule for component in found for rule in component.rules), ())
     named = [(listed(rule.label for rule in component.rules), component) for component in found]
@@ -74,8 +74,8 @@ def conflict_in(
     true: Collection[Formula],
     witness: Witness,
 ) -> Iterator[Finding]:
-    """The conflicts of one context: `active` are the clauses that decide there, `declared` the clashes of constraints,
-    `true` the labels of these that its situation makes true."""
+    """The conflicts of one context. `active` are the clauses that decide there, `declared` the inconsistent sets of
+    constraints, and `true` the labels of these that hold in the situation."""
     by_literal: dict[Obligation, ClausePosition] = {}
     for place in active:
         for literal in clause_at(index, place).obligations:

@@ -29,8 +29,8 @@ def _confusable(index: RulesetIndex) -> Iterator[Finding]:
 
 
 def _words(ruleset: Ruleset) -> tuple[dict[str, Span], frozenset[str]]:
-    """The names, labels and keywords in a text, word by word, each with its first place; and all keywords there are.
-    Comments are left out."""
+    """The names, labels and keywords in a text, word by word, each with its first place; and all keywords of the
+    language. Comments are left out."""
     if ruleset.syntax == "dsl":
         from sleec_runtime.language.dsl.keywords import KEYWORDS
         from sleec_runtime.language.dsl.scanner import scan
@@ -46,13 +46,13 @@ def _words(ruleset: Ruleset) -> tuple[dict[str, Span], frozenset[str]]:
 
 
 def _alike(words: dict[str, Span], keywords: frozenset[str]) -> dict[str, str]:
-    """Each word that looks like another one, with that: one in ASCII, if there is one, and of these a keyword."""
+    """Each word that looks like another one, with that one: preferably in ASCII, and among these a keyword."""
     from sleec_verify.checks.skeleton import skeleton
 
     groups: dict[str, list[str]] = {skeleton(word): [] for word in words if not word.isascii()}
     for word in sorted({*words, *keywords}, key=lambda word: (not word.isascii(), word not in keywords, word)):
         groups.get(skeleton(word), []).append(word)
-    # Words that differ in ASCII only, as by l and 1, are no matter of scripts.
+    # Words that differ only in ASCII, such as by l and 1, do not mix scripts.
     return {
         word: first
         for first, *others in groups.values()

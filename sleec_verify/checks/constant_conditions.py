@@ -42,8 +42,8 @@ class _Place(NamedTuple):
 
 
 def _constant(index: RulesetIndex) -> Iterator[Finding]:
-    """For each part of a condition: unsatisfiable exactly when it is always false, and its negation when it is always
-    true. A model is a situation in which it is not."""
+    """For each part of a condition: unsatisfiable exactly if it is always false, or its negation exactly if it is
+    always true. A model is a situation in which it is not."""
     changing: set[Formula] = set()
     source = index.ruleset.source
     places = ((f"line {source.place(place.condition.span).line}", place) for place in _places(index.ruleset))
@@ -51,14 +51,14 @@ def _constant(index: RulesetIndex) -> Iterator[Finding]:
 
 
 def _in_condition(index: RulesetIndex, place: _Place, changing: set[Formula]) -> Iterator[Finding]:
-    """The smallest parts of a condition that are constant. `changing` are conditions that have none, and grows."""
+    """The smallest parts of a condition that are constant. `changing` collects the conditions that have none."""
     condition = place.condition
     if not _may_be_constant(condition) or condition in changing:
         return
     parts = list(_parts(condition))
     always = _always(index, parts)
     if place.if_false is None and always[-1] is False:
-        # The whole condition of a guard or hedge: that it is dead says so already, and what follows from it.
+        # The whole condition of a guard or hedge: the finding about the dead rule or hedge says so already.
         return
     constant = {id(part): value for part, value in zip(parts, always) if value is not None}
     around = {id(operand): part for part in parts for operand in _operands(part)}
@@ -81,9 +81,9 @@ def _in_condition(index: RulesetIndex, place: _Place, changing: set[Formula]) ->
 
 
 def _with_it(part: Formula, value: bool, around: dict[int, Formula]) -> tuple[Formula, bool]:
-    """The smallest formula around a part that is always `value`, or itself, without which the condition means the
-    same, and what that formula always is; the whole condition if there is none such. What is true can go out of AND,
-    what is false out of OR; the others make all of what they stand in constant."""
+    """The smallest formula around a part that is always `value`, or the part itself, that can be removed without a
+    change of meaning, and the constant value of that formula; the whole condition if there is none. A true operand
+    can be removed from AND, and a false one from OR. Other operands make the whole formula constant."""
     while id(part) in around:
         outer = around[id(part)]
         if isinstance(outer, And if value else Or):
@@ -150,7 +150,7 @@ def _in_claim(claim: Claim, reading: Reading) -> Iterator[_Place]:
 
 
 def _in_clause(clause: Clause, reading: Reading, labels: tuple[str, ...]) -> Iterator[_Place]:
-    """The conditions in the chain that is nested in a clause, and in what is due in place of its responses."""
+    """The conditions in the chain that is nested in a clause, and in the alternatives of its responses."""
     yield from _in_chain(clause.hedges, reading, labels, "the response before the first UNLESS")
     for obligation in clause.obligations:
         for alternative in obligation.timing.alternatives() if obligation.timing is not None else ():
@@ -158,12 +158,12 @@ def _in_clause(clause: Clause, reading: Reading, labels: tuple[str, ...]) -> Ite
 
 
 def _in_chain(hedges: Sequence[Clause], reading: Reading, labels: tuple[str, ...], first: str) -> Iterator[_Place]:
-    """The conditions of a chain of hedges; `first` is what decides where none of them does."""
+    """The conditions of a chain of hedges. `first` decides if none of them does."""
     for position, hedge in enumerate(hedges):
         if hedge.condition is not None:
             if_false = None
             if not labels:
-                # The cascade stops at it, so that no later one decides.
+                # The cascade stops at it, so no later hedge decides.
                 later = reading == "cascade" and position + 1 < len(hedges)
                 if_false = f"correct it, or remove the exception{' and those after it' if later else ''}"
             yield _Place(hedge.condition, labels, _always_holds(hedges, position, reading, first), if_false)
@@ -203,20 +203,20 @@ def _operands(formula: Formula) -> tuple[Formula, ...]:
 
 
 def _always(index: RulesetIndex, parts: Sequence[Formula]) -> list[bool | None]:
-    """What each formula always is, assumptions left aside; None if it may be either."""
+    """The constant value of each formula without assumptions; None if it has both values."""
     with Question(index, assuming=False) as question:
         literals = [question.encoder.literal(part) for part in parts]
         possible: set[int] = set()
         for literal in (sign * literal for literal in literals for sign in (1, -1)):
-            # One model shows what many parts can be.
+            # One model shows possible values of many parts.
             if literal not in possible and question.ask(literal):
                 possible.update(one if question.true(one) else -one for one in literals)
     return [None if {literal, -literal} <= possible else literal in possible for literal in literals]
 
 
 def _may_be_constant(formula: Formula) -> bool:
-    """False only if no part of the formula is constant: each of its names stands in it once, and a number
-    that is not calculated can lie on either side of any other. Most conditions are so, and need no solver."""
+    """False only if no part of the formula is constant: each name occurs once in it, and a number that is not
+    calculated can be on either side of any other. Most conditions are like this, and need no solver."""
     seen: set[str] = set()
     for part in _parts(formula):
         names: tuple[str, ...] = ()
@@ -236,7 +236,8 @@ def _may_be_constant(formula: Formula) -> bool:
 
 
 def _is_defect(part: Formula, ruleset: Ruleset) -> bool:
-    """Whether it is constant because it compares a scale with what has no place in it, which is reported as such."""
+    """Whether it is constant because it compares a scale with a value outside the scale, which is reported
+    separately."""
     if not isinstance(part, Comparison):
         return False
     measure, value = (part.left, part.right) if isinstance(part.left, MeasureRef) else (part.right, part.left)

@@ -50,13 +50,13 @@ def _dead_hedges(index: RulesetIndex) -> Iterator[Finding]:
             dead.add(finding.clauses)
             yield finding
 
-    # What relations between events add is asked only of the hedges that decide without them.
+    # Ask about relations between events only for hedges that decide without them.
     yield from ask_both_parts(index, in_situations, lambda traces: _hedges_in_traces(traces, dead))
 
 
 def _hedges_in_traces(traces: TraceIndex, dead: Collection[tuple[ClauseRef, ...]]) -> Iterator[Finding]:
-    """A finding for each hedge, but for those that are dead already, that decides at no instant that the relations
-    allow, whether or not rules are kept."""
+    """A finding for each hedge that is not already reported as dead and that decides at no instant that the
+    relations allow, for all traces, lawful or not."""
     from sleec_verify.traces.questions import find_decision
 
     def of(place: tuple[Rule, int]) -> Iterator[Finding]:
@@ -91,7 +91,7 @@ def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
             return
         with Question(index) as question:
             guards = question.guards(position)
-            # All is grown before the first question.
+            # The formula is complete before the first question.
             nested = list(_guards_inside(question, guards, clauses)) if inside else []
             for number, guard in enumerate(guards):
                 if number and not question.ask(guard):
@@ -104,7 +104,7 @@ def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
                         help="correct its condition, or remove it",
                     )
             for number, hedge, guard in nested:
-                # Where the clause itself decides nowhere, that is said already.
+                # If the clause itself never decides, this is reported already.
                 if question.ask(guards[number]) and not question.ask(guard):
                     yield DEAD_HEDGE.finding(
                         f"in {clause_name(rule, number)}, {exception(hedge)} inside OTHERWISE or ELSE never applies",
@@ -152,7 +152,7 @@ def _hedges_inside(question: Question, guard: int, clause: Clause) -> Iterator[t
 
 
 def _why(index: RulesetIndex, position: int, number: int) -> str:
-    """In words, what kind of thing keeps the hedge from find_decision."""
+    """The reason in words why the hedge never decides."""
     condition = index.clauses[position][number].condition
     assert condition is not None, "only hedges are asked about"
     with Question(index) as question:

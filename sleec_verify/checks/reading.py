@@ -1,4 +1,4 @@
-"""Rules that mean something else under the other reading of their hedges."""
+"""Rules whose meaning depends on the reading of their hedges."""
 
 from __future__ import annotations
 
@@ -95,11 +95,11 @@ def _parting(index: RulesetIndex, position: int) -> Formula | None:
 
 
 def _parts_in_chain(index: RulesetIndex, rule: Rule) -> bool:
-    """Whether the readings differ anywhere, for a chain without nested chains.
+    """Whether the readings differ in some situation, for a chain without nested chains.
 
-    They differ where hedge j is the last true one, the cascade ends at a clause before hedge j - 1, and the two oblige
-    different things. Each j is one question for each run of adjacent clauses that oblige something else, so most
-    negative answers need no search and have a short refutation.
+    They differ if hedge j is the last true one, the cascade ends at a clause before hedge j - 1, and the two oblige
+    different things. Each j is one question for each run of adjacent clauses with other obligations. So most negative
+    answers need no search and have a short refutation.
     """
     with Question(index) as question:
         encoder = question.encoder
@@ -119,7 +119,7 @@ def _parts_in_chain(index: RulesetIndex, rule: Rule) -> bool:
 
 
 def _unequal(rule: Rule, j: int) -> Iterator[tuple[int, int]]:
-    """The runs of clauses before hedge j - 1 that oblige something else than hedge j: for each its first clause, and
+    """The runs of clauses before hedge j - 1 with other obligations than hedge j: for each its first clause, and
     the clause after its last."""
     due = [frozenset(clause.obligations) for clause in (rule.default, *rule.hedges)]
     first = None

@@ -50,7 +50,7 @@ def _redundant_rules(index: RulesetIndex) -> Iterator[Finding]:
 
 
 def _rules_in_traces(traces: TraceIndex) -> Iterator[Finding]:
-    """A finding for each rule that no trace breaks which satisfies all the others."""
+    """A finding for each rule that no trace violates that satisfies all other rules."""
     from sleec_verify.traces.questions import find_violation
 
     def of(rule: Rule) -> Iterator[Finding]:
@@ -62,7 +62,7 @@ def _rules_in_traces(traces: TraceIndex) -> Iterator[Finding]:
             f"rule {quoted(rule.label)} can be removed: the rules require and allow the same without it",
             rule.heading_span,
             rules=(rule.label, *rules_in(traces, answer.matter)),
-            note=f"whoever follows {listed(others)} follows it, too" if others else "nothing can break it",
+            note=f"a robot that follows {listed(others)} follows it, too" if others else "nothing can break it",
         )
 
     yield from ask_each(((rule.label, rule) for rule in traces.rules), of)
@@ -100,7 +100,7 @@ def _makes_a_difference(index: RulesetIndex, position: int, others: Sequence[int
 def _differs(
     question: Question, one: dict[Obligation, int], other: dict[Obligation, int], anyway: dict[Obligation, int]
 ) -> int:
-    """A literal equal to "some literal is due by one and not by the other, and not due anyway"."""
+    """A literal that is equivalent to "some literal is due by one and not by the other, and not due by other rules"."""
     encoder, never = question.encoder, -question.encoder.true()
     differences = []
     for obligation in {**one, **other}:
@@ -111,8 +111,8 @@ def _differs(
 
 
 def _needed(index: RulesetIndex, position: int, others: Sequence[int]) -> list[int]:
-    """A minimal part of `others` that makes the rule redundant: of those that one refutation needs, leave out one after
-    the other. One formula, in which each of the others has a switch: a hundred copies of one rule are no rarity."""
+    """A minimal part of `others` that makes the rule redundant. Starts from a core and removes one rule after the
+    other. One formula, with a switch for each of the others, because a hundred copies of one rule do occur."""
     about = literals_of(index.clauses[position])
     with Question(index) as question:
         encoder = question.encoder
@@ -138,8 +138,8 @@ def _redundant_hedges(index: RulesetIndex) -> Iterator[Finding]:
 
 
 def _hedges_in_traces(traces: TraceIndex) -> Iterator[Finding]:
-    """A finding for each hedge without which the same traces satisfy all: none breaks the rule and satisfies it without
-    the hedge, and none breaks that and satisfies the rule."""
+    """A finding for each hedge without which the same traces satisfy everything: no trace violates the rule and
+    satisfies it without the hedge, or the reverse."""
     from sleec_verify.traces.questions import find_difference
 
     def of(place: tuple[Rule, int]) -> Iterator[Finding]:
@@ -196,8 +196,8 @@ def what_to_do(hedge: Clause) -> str:
 
 
 def _not_plainly_needed(index: RulesetIndex, position: int, others: Sequence[int]) -> list[int]:
-    """The hedges but those that oblige, somewhere, what no other clause and no other rule obliges: these make a
-    difference, and are found in one formula instead of one for each hedge."""
+    """The hedges except those that oblige, in some situation, what no other clause and no other rule obliges. One
+    formula finds these, instead of one for each hedge."""
     clauses = index.clauses[position]
     if len(clauses) == 1:
         return []

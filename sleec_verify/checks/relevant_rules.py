@@ -1,4 +1,4 @@
-"""The rules and relations that an answer about traces rests on, in words."""
+"""The rules and relations on which an answer about traces depends, in words."""
 
 from __future__ import annotations
 

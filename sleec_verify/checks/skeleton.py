@@ -1,4 +1,4 @@
-"""What a word looks like, whatever its characters are (Unicode Technical Standard #39)."""
+"""Skeletons of words: equal for words that look alike (Unicode Technical Standard #39)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from unicodedata import decomposition, name, normalize
 from sleec_verify.checks.unicode_confusables import LOOKALIKES
 
 _INVISIBLE = "\u034f\u115f\u1160\u3164\uffa0"
-"""The characters without a shape of their own that a name may hold."""
+"""The invisible characters that a name may contain."""
 _LATIN = {ord(other): plain for plain, others in LOOKALIKES.items() for other in others}
 _SHAPES = {
     **_LATIN,
@@ -28,7 +28,7 @@ _MOST = 5
 
 
 def skeleton(word: str) -> str:
-    """What is the same for words that look the same."""
+    """A text that is the same for words that look the same."""
     return word.translate(_SHAPES) if word.isascii() else normalize("NFKD", word).translate(_SHAPES)
 
 
@@ -49,7 +49,7 @@ def plain(word: str) -> str:
 
 
 def foreign_letters(word: str) -> list[str]:
-    """The letters of another script than the others, where letters of several scripts stand side by side."""
+    """The letters of another script than the others, if letters of several scripts are adjacent."""
     return [c for part in re.split(r"[\W\d_]+", word) if not part.isascii() for c in _foreign(part)]
 
 
@@ -59,7 +59,7 @@ def _foreign(part: str) -> list[str]:
     if len(scripts) < 2 or any(scripts <= together for together in _TOGETHER):
         return []
     main = "LATIN" if "LATIN" in scripts else _script(letters[0])
-    # A Greek letter is a symbol in front of a Latin name, unless it passes for a Latin letter.
+    # A Greek letter before a Latin name is a symbol, unless it looks like a Latin letter.
     symbols = scripts == {"LATIN", "GREEK"}
     return [c for c in letters if _script(c) != main and not (symbols and ord(c) not in _LATIN)]
 
@@ -71,7 +71,7 @@ def _script(letter: str) -> str:
 
 
 def described(characters: Iterable[str]) -> str:
-    """``U+041E CYRILLIC CAPITAL LETTER O``, once each; of many only the first."""
+    """``U+041E CYRILLIC CAPITAL LETTER O``, each once; only the first of many."""
     found = [f"U+{ord(c):04X} {name(c, '')}".rstrip() for c in dict.fromkeys(characters)]
     more = f" and {len(found) - _MOST} more" if len(found) > _MOST else ""
     return ", ".join(found[:_MOST]) + more

@@ -55,7 +55,7 @@ def _in_situations(index: RulesetIndex) -> Iterator[Finding]:
 
 
 def _in_traces(index: RulesetIndex, traces: TraceIndex) -> Iterator[Finding]:
-    """A finding for each rule that no trace triggers, though its condition can hold."""
+    """A finding for each rule that no trace triggers, although its condition can hold."""
     from sleec_verify.traces.questions import find_trigger
 
     def of(rule: Rule) -> Iterator[Finding]:
@@ -94,7 +94,7 @@ def _is_triggered_by_itself(index: RulesetIndex, rule: Rule) -> bool:
 
 
 def _by_trigger(index: RulesetIndex) -> Iterator[tuple[str, int]]:
-    """The label of each rule, with its position; rules of one trigger stand together."""
+    """The label of each rule, with its position, grouped by trigger."""
     return ((index.rules[position].label, position) for same in index.by_trigger.values() for position in same)
 
 
@@ -106,7 +106,7 @@ def _finding(index: RulesetIndex, position: int, others: Sequence[int]) -> Findi
         f"rule {quoted(rule.label)} can be triggered, but never without a conflict",
         rule.heading_span,
         rules=(rule.label, *labels),
-        # Whatever the measures are there is a conflict, but each must be something.
+        # There is a conflict for all values of the measures, but each needs a value.
         witness=smallest_situation(index, conjunction(triggered), _measures(index, [position, *others])),
         note=f"it always conflicts with {listed(map(quoted, labels))}" if labels else None,
         help="see the findings of the check `conflict`: whenever the rule is triggered, one of them applies",
@@ -127,7 +127,7 @@ class _Kept:
         self._index = index
         self._question = Question(index)
         encoder = self._question.encoder
-        # A rule speaks only if it is let in, so that the solver's core names the rules that matter.
+        # Each rule has a switch, so that the solver's core names the relevant rules.
         self._switches = {position: encoder.fresh() for position in group}
         pairs = []
         for position, switch in self._switches.items():
@@ -146,8 +146,8 @@ class _Kept:
 
     @classmethod
     def of(cls, index: RulesetIndex, trigger: str, stack: ExitStack) -> _Kept | None:
-        """None if the rules of this trigger, and those that may be active with them, come to no clash. `stack` closes
-        it."""
+        """None if the rules of this trigger, and those that may be active with them, have no inconsistent set.
+        Otherwise `stack` closes the formula."""
         group = rules_active_with(index, trigger, satisfying=True)
         clashes = inconsistent_sets_of(index).among(
             {literal for other in group for literal in literals_of(index.clauses[other])}
@@ -161,8 +161,8 @@ class _Kept:
         return found
 
     def always_met(self, position: int) -> list[int] | None:
-        """A minimal set of other rules with which the rule at `position` conflicts wherever it is triggered, or None if
-        it can be kept somewhere, or is triggered nowhere."""
+        """A minimal set of other rules with which the rule at `position` conflicts whenever it is triggered. None
+        if it can be followed in some situation, or is never triggered."""
         question = self._question
         given = [self._triggered[position]]
         given += [switch for other, switch in self._switches.items() if other == position]
