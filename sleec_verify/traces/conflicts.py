@@ -69,7 +69,7 @@ class ConflictSearch:
         self._found: list[Conflict] = []
         self._undecided: list[Undecided] = []
         self.may_be_more = False
-        """Whether there may be further conflicts, other than those whose rules contain the rules of a conflict found."""
+        """Whether there may be further conflicts whose rules do not contain the rules of a conflict found."""
 
     @cached_property
     def _situations(self) -> Situations:
