@@ -8,7 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 from math import ceil, floor, gcd
 
-from sleec_runtime.language.common.comparisons import Side, scale_text
+from sleec_runtime.language.common.comparisons import Side, scale_text, values_hint
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.dsl.amounts import Amounts
 from sleec_runtime.language.dsl.calculations import Operand
@@ -28,7 +28,6 @@ from sleec_runtime.model import (
     Term,
     Truth,
 )
-from sleec_runtime.support.suggestions import did_you_mean
 
 _COMPARED: Mapping[Operator, Callable[[Rational, Rational], bool]] = {
     "<": operators.lt,
@@ -125,7 +124,7 @@ class Comparisons(Amounts):
         """Another possible meaning of a comparison of a boolean measure with `other`."""
         measure = self._owners.get(str(other)) or self.measures.get(str(other))
         if measure is not None and measure.kind == "scale":
-            return f"; {quoted(measure.name)} can be {scale_text(measure)}"
+            return f"; {values_hint(measure)}"
         kind = self.kinds.get(str(other))
         if kind == "boolean" and other != boolean:
             return f"; if both are equal, write ({boolean} and {other}) or (not {boolean} and not {other})"
@@ -159,7 +158,7 @@ class Comparisons(Amounts):
         self.problem(
             f"{what} not a value of {quoted(measure.name)}",
             side.span,
-            f"{did_you_mean(near) + ' ' if near else ''}{quoted(measure.name)} can be {scale_text(measure)}",
+            values_hint(measure, near),
         )
         return None
 
@@ -167,16 +166,16 @@ class Comparisons(Amounts):
         self, measure: Measure, written: str, rank: int, kind: DefectKind, said: str, span: Span
     ) -> ScaleValue:
         """The value of the scale at `rank`, for something that is not a value of it."""
-        can_be = f"`{measure.name}` can be {scale_text(measure)}"
+        values = values_hint(measure)
         if 0 <= rank < len(measure.values):
             meant = measure.values[rank]
             place = "the same place" if kind == "foreign-value" else f"place {rank}, counted from 0"
             read = f"it is read as `{meant}`, which has {place}"
-            hint = f"write {meant} if you mean that; {can_be}"
+            hint = f"write {meant} if you mean that; {values}"
         else:
             side = "below" if rank > 0 else "above"
             read = f"every value of `{measure.name}` is {side} it, so the result is always the same"
-            hint = f"write the value that you mean; {can_be}"
+            hint = f"write the value that you mean; {values}"
         self.defects.append(Defect(kind, f"{said}; {read}", span, hint))
         return ScaleValue(written, rank)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sleec_runtime.language.common.comparisons import Side, scale_text
+from sleec_runtime.language.common.comparisons import Side, scale_text, values_hint
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.english.name_resolution import Names
 from sleec_runtime.model import Comparison, Measure, MeasureRef, Number, Operator, ScaleValue, Span, Term
@@ -109,7 +109,7 @@ class Comparisons:
         self._names.problem(
             f"{_written(side)} is not a value of {quoted(measure.name)}{of_other}",
             side.span,
-            f"{did_you_mean(near) + ' ' if near else ''}{quoted(measure.name)} can be {scale_text(measure)}",
+            values_hint(measure, near),
         )
 
     def _problem_of_stray_value(self, value: Side, opposite: Side) -> None:

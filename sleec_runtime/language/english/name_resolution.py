@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from sleec_runtime.errors import Problem
+from sleec_runtime.language.common.formula_printer import print_number
 from sleec_runtime.language.common.problems import MAX_PROBLEMS, quoted
 from sleec_runtime.language.common.symbol_table import SymbolTable, WrittenConstants
 from sleec_runtime.language.english.name_conflicts import Uses, conflicts
@@ -86,7 +87,7 @@ class Names(SymbolTable):
         if first is span:
             return
         if other == what:
-            message = f"there are two {what}s {quoted(label)}; the first is in line {self.line(first)}"
+            message = f"two {what}s are called {quoted(label)}; the first is in line {self.line(first)}"
         else:
             message = f"{quoted(label)} is also the label of the {other} in line {self.line(first)}"
         self.problem(message, span, f"give each {what} its own label")
@@ -151,10 +152,11 @@ class Names(SymbolTable):
 
     def _constant_amount(self, constant: Constant, name: str, span: Span) -> Number | None:
         if constant.value < 0:
-            self.problem(f"the constant {quoted(name)} is negative, but a time is not", span, "use another value")
+            message = f"a time cannot be negative: the constant {quoted(name)} is {print_number(constant.value)}"
+            self.problem(message, span, "use another value")
             return None
         if constant.value.denominator != 1:
-            message = f"the constant {quoted(name)} is not a whole number, but a time is"
+            message = f"a time is a whole number, but the constant {quoted(name)} is {print_number(constant.value)}"
             self.problem(message, span, "use a smaller unit: 90 seconds, not 1.5 minutes")
             return None
         return Number(constant.value, name)
@@ -177,7 +179,7 @@ class Names(SymbolTable):
             self.problem(
                 f"{quoted(name)} is an obligation, but ASSUME is about triggers and conditions",
                 span,
-                "to forbid something to the robot, write NEVER",
+                "to forbid an obligation, write NEVER",
             )
             return Atom("obligation", name, span)
         return self._atom("condition", name, span)

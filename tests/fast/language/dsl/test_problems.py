@@ -83,7 +83,7 @@ def test_a_measure_without_a_definition_that_is_compared_with_a_value_of_a_scale
     assert [(problem.message, problem.hint) for problem in caught.value.problems] == [
         (
             "`m` is a boolean measure (line 5), which cannot be compared with `low`",
-            "write m alone, or not m; `risk` can be low < middle < high",
+            "write m alone, or not m; the values of `risk` are low < middle < high",
         ),
         ("no measure is called `rism`", "did you mean `risk`?"),
         (
