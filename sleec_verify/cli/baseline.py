@@ -10,18 +10,14 @@ import click
 
 from sleec_runtime.errors import SleecError
 from sleec_runtime.support.files import read_file
-from sleec_verify.changes.gate import findings_now
-from sleec_verify.changes.gate.baseline import baseline_text, read_baseline
-from sleec_verify.changes.gate.settings import no_baseline
+from sleec_verify.changes.gate import baseline_text, findings_now, no_baseline, read_baseline
 from sleec_verify.cli import exits
 from sleec_verify.cli.output import tell
 from sleec_verify.files.placement import require_writable, write_whole
 from sleec_verify.results.phrases import counted
 
 if TYPE_CHECKING:
-    from sleec_verify.changes.gate import Check
-    from sleec_verify.changes.gate.baseline import Key
-    from sleec_verify.changes.gate.config import Config
+    from sleec_verify.changes.gate import Check, Config, Key
     from sleec_verify.changes.revisions.single_file import Tree
 
 

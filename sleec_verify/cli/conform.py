@@ -47,8 +47,7 @@ def command(
     clause, in order. No other code may call these directly. Code that cannot be decided without running it is reported
     as inconclusive, with exit code 3 if there are no findings.
     """
-    from sleec_verify.conformance.structure import UNDECIDED, check_structure
-    from sleec_verify.conformance.structure.target import python_files
+    from sleec_verify.conformance.structure import UNDECIDED, check_structure, python_files
 
     if target == path == "-":
         raise click.UsageError("TARGET and the rules cannot both be standard input")

@@ -17,11 +17,7 @@ from sleec_verify.files.folders import SUFFIX
 from sleec_verify.report import FORMATS
 
 if TYPE_CHECKING:
-    from sleec_verify.changes.gate import AssertionSources, Check
-    from sleec_verify.changes.gate.config import Config
-    from sleec_verify.changes.gate.keys import Target
-    from sleec_verify.changes.gate.result import GateResult
-    from sleec_verify.changes.gate.settings import Settings
+    from sleec_verify.changes.gate import AssertionSources, Check, Config, GateResult, Settings, Target
     from sleec_verify.changes.revisions.repository import Repository
     from sleec_verify.encoding.trace_scope import Untimed
 
@@ -93,9 +89,7 @@ def command(
 
     Exit codes: 0 passed; 1 blocked; 2 invalid input or configuration; 3 inconclusive.
     """
-    from sleec_verify.changes.gate import evidence, gate
-    from sleec_verify.changes.gate.settings import config_of, no_config, read_sides
-    from sleec_verify.changes.gate.settings_changes import policy_changes
+    from sleec_verify.changes.gate import config_of, evidence, gate, no_config, policy_changes, read_sides
     from sleec_verify.changes.revisions.commits import NOW, commit, merge_base
     from sleec_verify.changes.revisions.repository import Repository
     from sleec_verify.changes.revisions.single_file import Tree
@@ -176,8 +170,7 @@ def _report(found: GateResult, form: str, output: str | None) -> None:
 
 
 def _asserting(settings: Settings, texts: Sequence[str]) -> AssertionSources:
-    from sleec_verify.changes.gate import AssertionSources
-    from sleec_verify.changes.gate.keys import is_assertion
+    from sleec_verify.changes.gate import AssertionSources, is_assertion
 
     return AssertionSources(
         [*texts, *filter(is_assertion, settings.config.assertions)], [*settings.assertions.values()]

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from sleec_verify.changes.compare.result import by_obligation
+from sleec_verify.changes.compare import by_obligation
 from sleec_verify.report.difference_phrases import RELATION_ROLES
 from sleec_verify.report.escape import as_text
 from sleec_verify.results.phrases import counted, in_domains, in_short, value_text
 
 if TYPE_CHECKING:
-    from sleec_verify.changes.compare.result import (
+    from sleec_verify.changes.compare import (
         Change,
         ConflictChange,
     )

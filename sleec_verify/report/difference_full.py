@@ -23,7 +23,7 @@ from sleec_verify.results.phrases import counted, given, in_domains, listed, occ
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
     from sleec_verify.changes.assertions.assertion import AssertionResult
-    from sleec_verify.changes.compare.result import (
+    from sleec_verify.changes.compare import (
         Change,
         ConflictChange,
         DecidingClause,

@@ -9,7 +9,7 @@ from sleec_verify.results.phrases import clause_name, counted, given, in_short, 
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Obligation, Ruleset
-    from sleec_verify.changes.compare.result import (
+    from sleec_verify.changes.compare import (
         Change,
         ConflictChange,
         DecidingClause,

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from sleec_verify.changes.compare.result import relation
+from sleec_verify.changes.compare import relation
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_verify.changes.assertions.assertion import AssertionResult
-    from sleec_verify.changes.compare.result import (
+    from sleec_verify.changes.compare import (
         Difference,
         Relation,
     )

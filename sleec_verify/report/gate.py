@@ -14,7 +14,7 @@ from sleec_verify.results.phrases import counted, error_summary, in_domains, in_
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_verify.changes.compare import Change, ConflictChange, DecidingClause, Difference
-    from sleec_verify.changes.gate.result import Block, GateResult, RulesetExamination, Status
+    from sleec_verify.changes.gate import Block, GateResult, RulesetExamination, Status
     from sleec_verify.report.palette import Palette
 
 MARK = "<!-- written by sleec-verify gate -->"

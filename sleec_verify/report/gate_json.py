@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from sleec_runtime.certificate.manifest import Manifest
     from sleec_runtime.model import Source
     from sleec_verify.changes.assertions.assertion import AssertionResult
-    from sleec_verify.changes.gate.result import Block, GateResult, RulesetExamination, TargetConformance
+    from sleec_verify.changes.gate import Block, GateResult, RulesetExamination, TargetConformance
     from sleec_verify.report.palette import Palette
     from sleec_verify.results.json_values import Json
 

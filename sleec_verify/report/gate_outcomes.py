@@ -7,14 +7,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Ruleset
-from sleec_verify.changes.gate.result import POLICY_CHANGES
+from sleec_verify.changes.gate import POLICY_CHANGES
 from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput
 from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Source
-    from sleec_verify.changes.gate.result import GateResult, RulesetExamination, TargetConformance
+    from sleec_verify.changes.gate import GateResult, RulesetExamination, TargetConformance
 
 _OWN = ("findings", "dead-hedges")
 """Policies that block because of findings, which are outcomes already."""

@@ -79,7 +79,7 @@ def _descriptors(codes: set[str], undecided: set[str]) -> list[_Object]:
     asked = dict(questions())
     others = codes - by_code().keys()
     if others or undecided - asked.keys():  # policies of the gate
-        from sleec_verify.changes.gate.policy import POLICIES
+        from sleec_verify.changes.gate import POLICIES
 
         asked |= POLICIES
         descriptors += ({"id": name, "shortDescription": _message(asked[name])} for name in sorted(others))

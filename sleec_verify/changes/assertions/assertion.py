@@ -12,7 +12,7 @@ from sleec_runtime.model import (
     Source,
     Span,
 )
-from sleec_verify.changes.compare.result import DecidingClause
+from sleec_verify.changes.compare import DecidingClause
 from sleec_verify.results.finding import Witness
 
 Kind = Literal["never", "always"]

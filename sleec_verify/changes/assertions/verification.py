@@ -20,8 +20,8 @@ from sleec_runtime.model import (
 )
 from sleec_verify.changes.assertions.assertion import Assertion, AssertionResult, Violation
 from sleec_verify.changes.assertions.vocabulary import Vocabulary
-from sleec_verify.changes.compare.relations import relations_at_one_instant
-from sleec_verify.changes.compare.result import DecidingClause
+from sleec_verify.changes.compare import DecidingClause
+from sleec_verify.changes.relations import relations_at_one_instant
 from sleec_verify.encoding.equation import conjunction, disjunction, implications
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.question import is_possible

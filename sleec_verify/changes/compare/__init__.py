@@ -3,20 +3,13 @@
 A context is compared where the assumptions of both sides allow it and neither side conflicts in it; there the sets of
 literals that are due (Definition 1) are compared. Where only one side conflicts, or only one side allows the context,
 that is told by itself. Rules that are equal on both sides cancel; only what is left is given to a solver.
+
+Entry point: `compare`. The rest are the values that it returns.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import chain
-from typing import TypeVar, Union
-
-from sleec_runtime.model import Formula, Never, Ruleset, formulas_of
-from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, other
-from sleec_verify.changes.compare.conflicts import conflict_changes
-from sleec_verify.changes.compare.inferred_kinds import with_kinds_of
-from sleec_verify.changes.compare.obligations import changes
-from sleec_verify.changes.compare.relations import relations_over_time
+from sleec_verify.changes.compare.differences import compare
 from sleec_verify.changes.compare.result import (
     Change,
     ConflictChange,
@@ -30,13 +23,6 @@ from sleec_verify.changes.compare.result import (
     by_obligation,
     relation,
 )
-from sleec_verify.changes.compare.sides import condition_names
-from sleec_verify.changes.compare.situations import situation_changes
-from sleec_verify.changes.compare.vocabulary import name_changes
-from sleec_verify.encoding.budget import Undecided, for_file
-from sleec_verify.encoding.calculations import calculations, named
-from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
-from sleec_verify.query.question import is_possible
 
 __all__ = [
     "Change",
@@ -52,154 +38,3 @@ __all__ = [
     "compare",
     "relation",
 ]
-
-_Told = TypeVar("_Told", Change, ConflictChange, SituationChange)
-_Any = Union[Change, ConflictChange, SituationChange, Undecidable]
-
-
-def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Untimed = "at") -> Difference:
-    """What differs between what `old` and `new` mean, in each domain of either, or in `domain` alone.
-
-    Each ruleset is read in its own reading. `untimed` is what a response without a window means where rules speak of
-    time. Nothing is missed and nothing invented, but for what `Difference.undecided` names. O(size of the rules) for
-    those that are equal; for each of the others, questions about the rules of its trigger (NP-hard, as all
-    satisfiability is, and small), and a count that is given up past the bounds of `changes.diagram`.
-    """
-    with for_file(len(old.source.text) + len(new.source.text)):
-        return _difference(old, new, domain, untimed)
-
-
-def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed) -> Difference:
-    old, new = with_kinds_of(old, new), with_kinds_of(new, old)
-    whole = Comparison(old, new, untimed)
-    shared = Difference(
-        old,
-        new,
-        names=tuple(name_changes(old, new, whole.aligned)),
-        undecided=tuple(_not_comparable(old, new)),
-        renamed=tuple(whole.aligned.renamed),
-        reordered=whole.aligned.reordered,
-        same=len(whole.aligned.same),
-        notes=tuple(_notes(whole)),
-    )
-    calculated = list(dict.fromkeys(one for ruleset in (old, new) for one in calculations(ruleset)))
-    if calculated and (old.statements, old.reading) != (new.statements, new.reading):
-        why = "comparisons of what is calculated from several measures are not compared"
-        return shared._replace(undecided=(*shared.undecided, Undecidable(named(calculated), why)))
-    if domain is not None:
-        domains: Sequence[str] = (domain,)
-    else:
-        domains = tuple(dict.fromkeys((*old.domains, *new.domains)))
-    if domains:
-        found = [_compared(Comparison(old.in_domain(one), new.in_domain(one), untimed), one) for one in domains]
-    else:
-        found = [_compared(whole, None)]
-    told = [one for each in found for one in each]
-    difference = shared._replace(
-        changes=_merged([one for one in told if isinstance(one, Change)]),
-        conflicts=_merged([one for one in told if isinstance(one, ConflictChange)]),
-        situations=_merged([one for one in told if isinstance(one, SituationChange)]),
-        undecided=tuple(dict.fromkeys((*shared.undecided, *(one for one in told if isinstance(one, Undecidable))))),
-    )
-    return difference._replace(rewritten=_rewritten(whole, difference))
-
-
-def _compared(comparison: Comparison, domain: str | None) -> list[_Any]:
-    clashes = [*comparison.vocabulary.clashes, *_conditions_that_are_measures(comparison)]
-    if clashes:
-        return [*clashes]
-    found: list[_Any] = []
-    try:
-        found += situation_changes(comparison)
-        if is_possible(comparison.index):
-            found += conflict_changes(comparison)
-            found += changes(comparison)
-        elif all(is_possible(comparison.situations_of(which)) for which in comparison.sides):
-            why = "the assumptions of the two sides leave no situation that both allow"
-            found.append(Undecidable("the obligations", why))
-    except Undecided as error:
-        found.append(Undecidable("the rest of the comparison", error.message))
-    if domain is None:
-        return found
-    return [one if isinstance(one, Undecidable) else one._replace(domains=(domain,)) for one in found]
-
-
-def _conditions_that_are_measures(comparison: Comparison) -> Iterator[Undecidable]:
-    """Names that one text compares as numbers or on a scale, and the other takes as true or false."""
-    for which in SIDES:
-        measures = comparison.sides[other(which)].stated.measures
-        for name in sorted(condition_names(_formulas(comparison, which)) & measures.keys()):
-            yield Undecidable(name, f"{name} is true or false in the one text and a measure in the other")
-
-
-def _formulas(comparison: Comparison, which: SideName) -> Iterator[Formula]:
-    """The formulas of one side, but for those in rules that both sides have."""
-    for pair, _ in comparison.changed:
-        rule = pair.old if which == "old" else pair.new
-        if rule is not None:
-            yield from formulas_of(rule)
-    yield from (given.formula for given in comparison.sides[which].given)
-    yield from (one.formula for one in comparison.sides[which].constraints if isinstance(one, Never))
-
-
-def _merged(found: Sequence[_Told]) -> tuple[_Told, ...]:
-    """Equal findings of several domains as one."""
-    merged: dict[str, list[_Told]] = {}
-    for number, one in enumerate(found):
-        # Only what several domains say can be the same twice.
-        key = repr(one._replace(domains=())) if one.domains else str(number)
-        merged.setdefault(key, []).append(one)
-    return tuple(
-        same[0]._replace(domains=tuple(chain.from_iterable(s.domains for s in same))) for same in merged.values()
-    )
-
-
-def _rewritten(comparison: Comparison, difference: Difference) -> tuple[tuple[str, ...], ...]:
-    """The rules that are on both sides, written otherwise, and make no difference."""
-    if difference.undecided:
-        return ()
-    at_work = {change.new_rule for change in difference.changes}
-    at_work.update(change.old_rule for change in difference.changes)
-    at_work.update(label for conflict in difference.conflicts for label in conflict.rules)
-    return tuple(
-        tuple(dict.fromkeys((pair.old.label, pair.new.label)))
-        for pair, _ in comparison.changed
-        if pair.old is not None and pair.new is not None and at_work.isdisjoint((pair.old.label, pair.new.label))
-    )
-
-
-# What is not compared -------------------------------------------------------------------------------------
-
-
-def _not_comparable(old: Ruleset, new: Ruleset) -> Iterator[Undecidable]:
-    """Relations that speak of several instants, where the two sides have others."""
-    if not (old.is_timed or new.is_timed):
-        return
-    from sleec_runtime.model import relation_name
-
-    mine, theirs = relations_over_time(old), relations_over_time(new)
-    for one, others, word in ((mine, theirs, "gone"), (theirs, mine, "new")):
-        for relation_ in one:
-            if relation_ not in others:
-                name = relation_name(relation_)
-                yield Undecidable(
-                    f"the relation {name}", f"it is {word}, and what it says of the course of events is not compared"
-                )
-
-
-def _notes(comparison: Comparison) -> Iterator[str]:
-    old, new = comparison.sides["old"].stated, comparison.sides["new"].stated
-    if comparison.vocabulary.whole and old.syntax != new.syntax:
-        names = ", ".join(comparison.vocabulary.whole)
-        yield f"the numbers of the DSL are whole, so that only whole values of {names} are compared"
-    if speaks_of_traces(old) or speaks_of_traces(new):
-        yield (
-            "what the rules call for is compared moment by moment; conflicts that take time to come about, and what is "
-            "triggered by what is done, are for `sleec-verify check`"
-        )
-    if old.is_timed or new.is_timed:
-        from sleec_runtime.model import Claim
-
-        one, other = ([s for s in ruleset.statements if isinstance(s, Claim)] for ruleset in (old, new))
-        if any(claim not in other for claim in one) or any(claim not in one for claim in other):
-            yield "concerns or purposes changed; they ask about the rules and oblige nothing"

@@ -25,9 +25,9 @@ from sleec_runtime.model import (
     leaves,
     measures_of,
 )
-from sleec_verify.changes.compare.relations import relations_at_one_instant
 from sleec_verify.changes.compare.result import Undecidable
 from sleec_verify.changes.diagram.formulas import compares
+from sleec_verify.changes.relations import relations_at_one_instant
 from sleec_verify.encoding.equation import conjunction, disjunction
 
 

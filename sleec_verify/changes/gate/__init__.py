@@ -3,107 +3,53 @@ coverage by cases, each as far as the policy asks (docs/gate.md).
 
 Only rulesets that differ from the base, byte for byte, are examined, unless all are asked for: the others passed
 before.
+
+Entry points: `read_sides` reads the settings, `gate` gives the verdict, `findings_now` the findings for a baseline.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence, Set
-from typing import TYPE_CHECKING
+from sleec_verify.changes.gate.assertion_results import AssertionSources
+from sleec_verify.changes.gate.baseline import Key, baseline_text, read_baseline
+from sleec_verify.changes.gate.config import Config
+from sleec_verify.changes.gate.examination import Check, evidence
+from sleec_verify.changes.gate.keys import Target, is_assertion
+from sleec_verify.changes.gate.policy import POLICIES
+from sleec_verify.changes.gate.result import (
+    POLICY_CHANGES,
+    Block,
+    GateResult,
+    RulesetExamination,
+    Status,
+    TargetConformance,
+)
+from sleec_verify.changes.gate.settings import Settings, config_of, no_baseline, no_config, read_sides
+from sleec_verify.changes.gate.settings_changes import policy_changes
+from sleec_verify.changes.gate.verdict import findings_now, gate
 
-from sleec_runtime.errors import SleecError
-from sleec_runtime.language import parse_source
-from sleec_runtime.model import Ruleset
-from sleec_verify.changes.gate.assertion_results import AssertionSources, RulesetVersions, ask_all
-from sleec_verify.changes.gate.baseline import Key, KnownFindings
-from sleec_verify.changes.gate.examination import Check, Examiner, Locate, check_ruleset, evidence, suppressions_of
-from sleec_verify.changes.gate.policy import judge
-from sleec_verify.changes.gate.result import Block, GateResult, RulesetExamination
-from sleec_verify.changes.gate.targets import conform
-from sleec_verify.changes.revisions.renames import with_renames
-from sleec_verify.encoding.trace_scope import Untimed
-from sleec_verify.results.internal_error import internal_errors_of
-
-if TYPE_CHECKING:
-    from sleec_verify.changes.gate.keys import Policy, Target
-    from sleec_verify.changes.revisions.versions import Version, Versions
-
-__all__ = ["AssertionSources", "Check", "evidence", "findings_now", "gate"]
-
-
-def gate(
-    versions: Sequence[Versions],
-    base: str,
-    policy: Policy,
-    check: Check,
-    locate: Locate,
-    *,
-    targets: Sequence[Target] = (),
-    changes: Sequence[Block] = (),
-    known: Collection[Key] = (),
-    everything: bool = False,
-    asserting: AssertionSources | None = None,
-    untimed: Untimed = "at",
-    touched: Set[str] = frozenset(),
-) -> GateResult:
-    """The verdict on rulesets in two versions, the older one called `base`.
-
-    `changes` are those of the settings, `known` the findings of the baseline, `touched` what differs from the base of
-    the `evidence` beside the rulesets. A ruleset that is the same is left out, unless `everything` is examined or the
-    cases or the certificate beside it changed; only the assertions are asked of all. Raises `LanguageError` for
-    assertions that are none. Linear in the rulesets that are the same; for the others, what `check` and `diff` cost.
-    """
-    versions, before = with_renames(versions)
-    found = GateResult(base, changes=[*changes])
-    baseline = KnownFindings(known)
-    examiner = Examiner(base, policy, baseline, check, locate, untimed)
-    asked: list[RulesetVersions] = []
-    for one in versions:
-        if everything or not one.unchanged or not touched.isdisjoint(evidence(one.path, policy)):
-            examined = examiner.examine(one, before.get(one.path))
-            found.examined.append(examined)
-            if examined.difference is not None:
-                asked.append(RulesetVersions(examined.difference.new, examined.difference.old))
-                found.paths[examined.difference.new.source.path] = one.path
-        else:
-            found.unchanged += 1
-            if asserting:
-                try:
-                    with internal_errors_of(one.path):
-                        ruleset = _read(one)
-                    asked.append(RulesetVersions(ruleset, ruleset))
-                    found.paths[ruleset.source.path] = one.path
-                except SleecError as error:
-                    found.examined.append(RulesetExamination(one.path, errors=[error]))
-    found.conformed = [conform(target, locate, baseline) for target in targets]
-    if asserting:
-        found.asked = ask_all(found, asked, asserting)
-    about = {one.path for one in found.examined} | {target.code for target in targets} | {*before.values()}
-    found.stale = sum(1 for one in baseline.keys - baseline.met if one[0] in about)
-    judge(found, policy)
-    return found
-
-
-def _read(one: Versions) -> Ruleset:
-    """A ruleset that is the same in the base. Raises `SleecError`."""
-    assert one.new is not None, "what is the same is there"
-    return parse_source(one.new.read())
-
-
-def findings_now(places: Mapping[str, Version], targets: Sequence[Target], check: Check, locate: Locate) -> set[Key]:
-    """All findings of these rulesets, by what they are called, and of the targets that no suppression allows: what a
-    baseline holds.
-
-    Raises:
-        SleecError: something cannot be read.
-    """
-    known = KnownFindings()
-    for name, place in places.items():
-        with internal_errors_of(name):
-            ruleset = parse_source(place.read())
-            allowing, _ = suppressions_of(ruleset)
-            check_ruleset(RulesetExamination(name), ruleset, known, check, allowing)
-    for target in targets:
-        found = conform(target, locate, known)
-        if found.error is not None:
-            raise found.error
-    return known.met
+__all__ = [
+    "POLICIES",
+    "POLICY_CHANGES",
+    "AssertionSources",
+    "Block",
+    "Check",
+    "Config",
+    "GateResult",
+    "Key",
+    "RulesetExamination",
+    "Settings",
+    "Status",
+    "Target",
+    "TargetConformance",
+    "baseline_text",
+    "config_of",
+    "evidence",
+    "findings_now",
+    "gate",
+    "is_assertion",
+    "no_baseline",
+    "no_config",
+    "policy_changes",
+    "read_baseline",
+    "read_sides",
+]

@@ -25,7 +25,7 @@ from sleec_verify.results.phrases import in_short, listed
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
-    from sleec_verify.changes.compare.result import DecidingClause
+    from sleec_verify.changes.compare import DecidingClause
     from sleec_verify.results.finding import Witness
 
 DEAD_HEDGE = CHECKS["dead-hedge"].kinds[0].code

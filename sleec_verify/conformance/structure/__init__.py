@@ -3,6 +3,8 @@
 Each rule must have a method, with one variant for each clause, bound to the clause's layer, that calls what implements
 the obligations of the clause, in their order, and nothing else that rules oblige; and nothing may reach those, the
 method or its layers around the dispatch. What only running the program would tell is reported as undecided.
+
+Entry points: `python_files` reads the target, `check_structure` gives the verdict. `KINDS` are the kinds of findings.
 """
 
 from __future__ import annotations
@@ -13,13 +15,21 @@ from typing import TYPE_CHECKING
 from sleec_runtime.model import require_untimed
 from sleec_verify.conformance.structure.kinds import KINDS
 from sleec_verify.conformance.structure.report import NAME
+from sleec_verify.conformance.structure.target import python_files
 from sleec_verify.results.finding import CheckResult, Proved, Refuted, Unknown
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
     from sleec_verify.conformance.structure.target import PythonFile
 
-__all__ = ["KINDS", "NAME", "QUESTION", "UNDECIDED", "check_structure"]
+__all__ = [
+    "KINDS",
+    "NAME",
+    "QUESTION",
+    "UNDECIDED",
+    "check_structure",
+    "python_files",
+]
 
 QUESTION = "Does the code do exactly what the rules say, clause by clause?"
 UNDECIDED = KINDS["undecided"].code
