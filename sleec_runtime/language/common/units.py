@@ -59,11 +59,8 @@ class WindowParser(TokenCursor):
 
     def unit_hint(self, word: str) -> str:
         """What to write instead of `word`, in lowercase, where a unit is expected."""
-        meant = (
-            word
-            if word in UNITS
-            else _ABBREVIATIONS.get(word) or nearest(word, ("seconds", "minutes", "hours", "days"))
-        )
+        units = ("seconds", "minutes", "hours", "days")
+        meant = word if word in UNITS else _ABBREVIATIONS.get(word) or nearest(word, units)
         return _OTHER_UNITS.get(word) or did_you_mean(meant) or "the units are seconds, minutes, hours and days"
 
     def check_window(self, window: Window) -> None:

@@ -6,14 +6,14 @@ from typing import Union
 
 from sleec_runtime.language.common.comparisons import MAX_DIGITS, Side
 from sleec_runtime.language.dsl.calculations import Operand, Polynomial
-from sleec_runtime.language.dsl.name_resolution import Names
+from sleec_runtime.language.dsl.name_resolution import DslNames
 from sleec_runtime.model import Calculation, MeasureRef, Number, Span
 
 MAX_TERMS = 20
 """The most terms of a polynomial: written with all parentheses, they are no longer than a calculation may be."""
 
 
-class Amounts(Names):
+class DslAmounts(DslNames):
     """Makes amounts of the names of one text."""
 
     def amount(self, operand: Operand) -> Union[Number, MeasureRef, Calculation, None]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.common.claim_parser import ClaimParser
 from sleec_runtime.language.dsl.keywords import UNNAMED
-from sleec_runtime.language.dsl.responses import ResponseParser
+from sleec_runtime.language.dsl.responses import DslResponseParser
 from sleec_runtime.model import NOWHERE, Claim, ClaimKind, Clause, Formula, Span
 
 _EXAMPLES = {
@@ -15,7 +15,7 @@ _EXAMPLES = {
 }
 
 
-class DslClaimParser(ResponseParser, ClaimParser):
+class DslClaimParser(DslResponseParser, ClaimParser):
     """Reads concerns and purposes."""
 
     claim_forms = ("when", "exists", UNNAMED)

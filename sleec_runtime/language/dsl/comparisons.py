@@ -10,7 +10,7 @@ from math import ceil, floor, gcd
 
 from sleec_runtime.language.common.comparisons import Side, scale_text, values_hint
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.dsl.amounts import Amounts
+from sleec_runtime.language.dsl.amounts import DslAmounts
 from sleec_runtime.language.dsl.calculations import Operand
 from sleec_runtime.model import (
     Calculation,
@@ -40,7 +40,7 @@ _COMPARED: Mapping[Operator, Callable[[Rational, Rational], bool]] = {
 _MIRRORED: Mapping[Operator, Operator] = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
 
-class Comparisons(Amounts):
+class DslComparisons(DslAmounts):
     """Makes comparisons of the names of one text."""
 
     def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison | Truth | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sleec_runtime.language.common.comparisons import Side
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.units import UNITS
-from sleec_runtime.language.dsl.formulas import ConditionParser
+from sleec_runtime.language.dsl.formulas import DslConditionParser
 from sleec_runtime.language.dsl.hints import TYPE_SYNONYMS
 from sleec_runtime.model import Agent, Constant, Declaration, Measure, Span
 from sleec_runtime.support.suggestions import did_you_mean, nearest
@@ -14,7 +14,7 @@ _TYPES = ("boolean", "numeric", "scale")
 _SCALE_EXAMPLE = "for example: scale(low, medium, high)"
 
 
-class DefinitionParser(ConditionParser):
+class DslDefinitionParser(DslConditionParser):
     """Reads definitions. Constants get their values once all of them are read."""
 
     constants: dict[str, tuple[Side, Constant]]

@@ -14,13 +14,13 @@ from sleec_runtime.language.common.formula_parser import FormulaParser
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.language.dsl.calculations import Expression, Operand
-from sleec_runtime.language.dsl.comparisons import Comparisons
+from sleec_runtime.language.dsl.comparisons import DslComparisons
 from sleec_runtime.language.dsl.keywords import KEYWORDS
-from sleec_runtime.language.dsl.operands import OperandParser
+from sleec_runtime.language.dsl.operands import DslOperandParser
 from sleec_runtime.model import And, Atom, Dialect, Formula, Not, Or, Source, Span, Truth
 
 
-class ConditionParser(OperandParser, FormulaParser):
+class DslConditionParser(DslOperandParser, FormulaParser):
     """Reads conditions."""
 
     precedence: ClassVar[Mapping[str, int]] = {"and": 1, "or": 1}
@@ -29,7 +29,7 @@ class ConditionParser(OperandParser, FormulaParser):
     comparison_example = "({riskLevel} > low)"
 
     def __init__(
-        self, source: Source, tokens: Tokens, dialect: Dialect, problems: list[Problem], names: Comparisons
+        self, source: Source, tokens: Tokens, dialect: Dialect, problems: list[Problem], names: DslComparisons
     ) -> None:
         super().__init__(source, tokens, dialect, problems)
         self.names = names

@@ -22,7 +22,7 @@ NameKind = Literal["event", "boolean", "measure", "constant"]
 _ARTICLE = {"event": "an event", "boolean": "a boolean measure", "measure": "a measure", "constant": "a constant"}
 
 
-class Names(SymbolTable):
+class DslNames(SymbolTable):
     """The names of one text and what they stand for."""
 
     constant_keyword = "constant"
@@ -43,7 +43,7 @@ class Names(SymbolTable):
         self._labels: dict[str, tuple[Span, int]] = {}
         self._defined = defined
         self._undefined: dict[str, tuple[int, int]] = {}
-        """Names without a definition: which problem says so, and how often each is used."""
+        """Names without a definition: the index of the problem that reports each, and how often each is used."""
 
     # Definitions ----------------------------------------------------------------------------------------------
 

@@ -13,7 +13,7 @@ MAX_CALCULATION = 400
 _OPERATORS = ("+", "-", "*")
 
 
-class OperandParser(DslCursor):
+class DslOperandParser(DslCursor):
     """Reads sides of comparisons."""
 
     def opens_calculation(self) -> bool:

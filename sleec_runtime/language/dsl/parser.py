@@ -13,7 +13,7 @@ from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.common.gc_pause import gc_paused
 from sleec_runtime.language.common.problems import first_problems, quoted
 from sleec_runtime.language.common.token_cursor import Abandon
-from sleec_runtime.language.dsl.comparisons import Comparisons
+from sleec_runtime.language.dsl.comparisons import DslComparisons
 from sleec_runtime.language.dsl.dialects import dialect_of
 from sleec_runtime.language.dsl.hints import DEFINITION_END, RULE_EXAMPLE, example_of
 from sleec_runtime.language.dsl.keywords import (
@@ -25,7 +25,7 @@ from sleec_runtime.language.dsl.keywords import (
     ITEM_STARTS,
     UNNAMED,
 )
-from sleec_runtime.language.dsl.rules import RuleParser
+from sleec_runtime.language.dsl.rules import DslRuleParser
 from sleec_runtime.language.dsl.scanner import scan
 from sleec_runtime.model import ClaimKind, Constant, Rule, Ruleset, Source, Span, Statement
 from sleec_runtime.support.suggestions import did_you_mean, nearest
@@ -51,7 +51,7 @@ def parse_dsl(source: Source) -> Ruleset:
     with gc_paused():
         tokens = scan(source.text)
         dialect = dialect_of(tokens)
-        names = Comparisons(source, problems, "def_start" in tokens.kinds)
+        names = DslComparisons(source, problems, "def_start" in tokens.kinds)
         statements = DslParser(source, tokens, dialect, problems, names).statements()
     if problems:
         names.count_uses()
@@ -68,7 +68,7 @@ def parse_dsl(source: Source) -> Ruleset:
     )
 
 
-class DslParser(RuleParser):
+class DslParser(DslRuleParser):
     """Reads a whole text, once."""
 
     def statements(self) -> list[Statement]:

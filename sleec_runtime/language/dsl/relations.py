@@ -22,7 +22,7 @@ OF_MEASURES = ("imply", "iff", "mutualExclusive", "opposite", "invariant")
 """The relations of measures, as they follow the keyword `measure`."""
 
 
-class RelationParser(DslClaimParser):
+class DslRelationParser(DslClaimParser):
     """Reads relations."""
 
     def relation(self) -> EventRelation | MeasureRelation | Effect | Lasting:

@@ -9,11 +9,11 @@ from __future__ import annotations
 from sleec_runtime.language.common.token_cursor import ALTERNATIVE_LEVELS, Abandon
 from sleec_runtime.language.dsl.hints import CONDITION_END
 from sleec_runtime.language.dsl.keywords import ITEM_STARTS
-from sleec_runtime.language.dsl.windows import TimeParser
+from sleec_runtime.language.dsl.windows import DslTimeParser
 from sleec_runtime.model import NO_COMMENTS, Clause, Formula, Obligation, Timing
 
 
-class ResponseParser(TimeParser):
+class DslResponseParser(DslTimeParser):
     """Reads responses."""
 
     def chain(self, condition: Formula | None, first: int) -> Clause:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from sleec_runtime.language.common.token_cursor import Abandon
 from sleec_runtime.language.dsl.hints import CONDITION_END, OCCASION_END, RESPONSE_END
 from sleec_runtime.language.dsl.keywords import ITEM_STARTS
-from sleec_runtime.language.dsl.relations import RelationParser
+from sleec_runtime.language.dsl.relations import DslRelationParser
 from sleec_runtime.model import Clause, Formula, Rule, Span
 
 
-class RuleParser(RelationParser):
+class DslRuleParser(DslRelationParser):
     """Reads rules. A problem in one clause leaves the others readable."""
 
     _hedges_of_rules: set[int] | None = None

@@ -6,7 +6,7 @@ from sleec_runtime.language.common.comparisons import Side
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.token_cursor import Abandon
 from sleec_runtime.language.common.units import UNITS, WindowParser
-from sleec_runtime.language.dsl.definitions import DefinitionParser
+from sleec_runtime.language.dsl.definitions import DslDefinitionParser
 from sleec_runtime.language.dsl.keywords import ITEM_STARTS
 from sleec_runtime.model import NOWHERE, Length, Number, Span, Unit, Window
 
@@ -14,7 +14,7 @@ _EXAMPLE = "for example: within 5 minutes"
 _RANGE_EXAMPLE = "for example: within [1, 5] minutes"
 
 
-class TimeParser(DefinitionParser, WindowParser):
+class DslTimeParser(DslDefinitionParser, WindowParser):
     """Reads windows and lengths of time."""
 
     window_example = "within 5 minutes"

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from sleec_runtime.language.common.claim_parser import ClaimParser
 from sleec_runtime.language.english.keywords import OCCASION
-from sleec_runtime.language.english.rules import RuleParser
+from sleec_runtime.language.english.rules import EnglishRuleParser
 from sleec_runtime.model import Claim, ClaimKind, Clause, Formula, Span
 
 
-class EnglishClaimParser(RuleParser, ClaimParser):
+class EnglishClaimParser(EnglishRuleParser, ClaimParser):
     """Reads concerns and purposes. They apply to the whole text."""
 
     claim_forms = (OCCASION, "WHEN", "IF", "EXISTS")

@@ -1,18 +1,18 @@
-"""Comparisons: what each side is, and whether the two fit."""
+"""EnglishComparisons: what each side is, and whether the two fit."""
 
 from __future__ import annotations
 
 from sleec_runtime.language.common.comparisons import Side, scale_text, values_hint
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.english.name_resolution import Names
+from sleec_runtime.language.english.name_resolution import EnglishNames
 from sleec_runtime.model import Comparison, Measure, MeasureRef, Number, Operator, ScaleValue, Span, Term
 from sleec_runtime.support.suggestions import did_you_mean
 
 
-class Comparisons:
+class EnglishComparisons:
     """Makes comparisons of what is written, by the declarations in `names`, and infers the measures that have none."""
 
-    def __init__(self, names: Names) -> None:
+    def __init__(self, names: EnglishNames) -> None:
         self._names = names
 
     def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.english.relations import RelationParser
+from sleec_runtime.language.english.relations import EnglishRelationParser
 from sleec_runtime.model import Assume, Atom, Exclusive, Never, leaves
 
 
-class ConstraintParser(RelationParser):
+class EnglishConstraintParser(EnglishRelationParser):
     """Reads constraints. They apply to the domains that are set."""
 
     def exclusive(self) -> Exclusive:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sleec_runtime.language.common.comparisons import Side
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.english.formulas import ConditionParser
+from sleec_runtime.language.english.formulas import EnglishConditionParser
 from sleec_runtime.language.english.keywords import PHRASE
 from sleec_runtime.model import Agent, Constant, Declaration, Kind, Measure, MeasureKind, Span
 from sleec_runtime.support.suggestions import did_you_mean, nearest
@@ -25,7 +25,7 @@ _TYPE_SYNONYMS = {
 }
 
 
-class DeclarationParser(ConditionParser):
+class EnglishDeclarationParser(EnglishConditionParser):
     """Reads declarations. They apply to the whole text."""
 
     constants: dict[str, tuple[Side, Constant]]

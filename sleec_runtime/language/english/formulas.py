@@ -11,10 +11,10 @@ from sleec_runtime.language.common.comparisons import MAX_DIGITS, OPERATORS, Sid
 from sleec_runtime.language.common.formula_parser import FormulaParser
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.tokens import Tokens
-from sleec_runtime.language.english.comparisons import Comparisons
+from sleec_runtime.language.english.comparisons import EnglishComparisons
 from sleec_runtime.language.english.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
-from sleec_runtime.language.english.name_resolution import Names
-from sleec_runtime.language.english.phrases import PhraseParser
+from sleec_runtime.language.english.name_resolution import EnglishNames
+from sleec_runtime.language.english.phrases import EnglishPhraseParser
 from sleec_runtime.model import Atom, Formula, Rational, Source, Span, Truth
 
 _DECIMAL_COMMA = re.compile(r"-?[0-9]+,[0-9]+")
@@ -22,13 +22,13 @@ _THOUSANDS = re.compile(r"-?[1-9][0-9]{0,2},[0-9]{3}")
 _BOOLEAN_HINT = "a condition is true or false by itself: write its name alone, or NOT and its name"
 
 
-class ConditionParser(PhraseParser, FormulaParser):
+class EnglishConditionParser(EnglishPhraseParser, FormulaParser):
     """Reads conditions. `resolve` makes an atom of a name; what a name means depends on the statement."""
 
-    def __init__(self, source: Source, tokens: Tokens, problems: list[Problem], names: Names) -> None:
+    def __init__(self, source: Source, tokens: Tokens, problems: list[Problem], names: EnglishNames) -> None:
         super().__init__(source, tokens, problems)
         self.names = names
-        self._compare = Comparisons(names).comparison
+        self._compare = EnglishComparisons(names).comparison
         self.resolve: Callable[[str, Span], Atom] = names.condition
 
     def leaf(self) -> Formula:

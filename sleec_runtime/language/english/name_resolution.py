@@ -18,7 +18,7 @@ from sleec_runtime.support.suggestions import did_you_mean
 _KINDS: tuple[Kind, ...] = ("trigger", "condition", "obligation")
 
 
-class Names(SymbolTable):
+class EnglishNames(SymbolTable):
     """The names of one text and what they stand for."""
 
     constant_keyword = "CONSTANT"

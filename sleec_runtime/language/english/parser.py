@@ -13,10 +13,10 @@ from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.common.gc_pause import gc_paused
 from sleec_runtime.language.common.problems import first_problems, quoted
 from sleec_runtime.language.common.token_cursor import Abandon
-from sleec_runtime.language.english.constraints import ConstraintParser
+from sleec_runtime.language.english.constraints import EnglishConstraintParser
 from sleec_runtime.language.english.keyword_correction import near_keyword
 from sleec_runtime.language.english.keywords import CLAIMS, DECLARATIONS, OPENINGS, RULE_STARTS, STATEMENTS
-from sleec_runtime.language.english.name_resolution import Names
+from sleec_runtime.language.english.name_resolution import EnglishNames
 from sleec_runtime.language.english.scanner import scan
 from sleec_runtime.model import (
     READINGS,
@@ -46,7 +46,7 @@ def parse_english(source: Source) -> Ruleset:
     problems: list[Problem] = []
     with gc_paused():
         tokens = scan(source.text)
-        parser = EnglishParser(source, tokens, problems, Names(source, problems))
+        parser = EnglishParser(source, tokens, problems, EnglishNames(source, problems))
         statements = parser.statements()
     if problems:
         raise LanguageError(source, first_problems(problems))
@@ -61,7 +61,7 @@ def parse_english(source: Source) -> Ruleset:
     )
 
 
-class EnglishParser(ConstraintParser):
+class EnglishParser(EnglishConstraintParser):
     """Reads a whole text, once."""
 
     def statements(self) -> list[Statement]:

@@ -1,4 +1,4 @@
-"""Names and phrases of plain words, and the keywords that are misspelt or missing in them."""
+"""EnglishNames and phrases of plain words, and the keywords that are misspelt or missing in them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ OBLIGATION = "an obligation"
 """What a response consists of, for messages. A time may follow it."""
 
 
-class PhraseParser(EnglishCursor):
+class EnglishPhraseParser(EnglishCursor):
     """Reads names and phrases."""
 
     def name(self, what: str, hint: str | None = None) -> str:

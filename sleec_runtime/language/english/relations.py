@@ -34,7 +34,7 @@ EFFECTS: dict[str, EffectKind] = {"CAUSES": "causation", "INCLUDES": "includes",
 _EXAMPLE = "for example: RELATION OpenDoor EXCLUDES LockDoor"
 
 
-class RelationParser(EnglishClaimParser):
+class EnglishRelationParser(EnglishClaimParser):
     """Reads relations. They apply to the whole text."""
 
     def relation(self) -> Relation:

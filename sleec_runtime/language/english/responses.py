@@ -10,7 +10,7 @@ from __future__ import annotations
 from sleec_runtime.language.common.token_cursor import ALTERNATIVE_LEVELS, MAX_DEPTH
 from sleec_runtime.language.english.keywords import ALTERNATIVES, IN_WHICH_CASE, STATEMENTS
 from sleec_runtime.language.english.phrases import OBLIGATION
-from sleec_runtime.language.english.windows import TimeParser
+from sleec_runtime.language.english.windows import EnglishTimeParser
 from sleec_runtime.model import Clause, Obligation, Timing
 from sleec_runtime.support.suggestions import edit_distance
 
@@ -18,7 +18,7 @@ RULE_STOPS = STATEMENTS | {"UNLESS"}
 _Response = tuple[tuple[Obligation, ...], tuple[Clause, ...]]
 
 
-class ResponseParser(TimeParser):
+class EnglishResponseParser(EnglishTimeParser):
     """Reads responses and hedges."""
 
     def hedge(self) -> Clause:

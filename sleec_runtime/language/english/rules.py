@@ -9,13 +9,13 @@ from typing import NoReturn
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.token_cursor import Abandon
 from sleec_runtime.language.english.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
-from sleec_runtime.language.english.responses import RULE_STOPS, ResponseParser
+from sleec_runtime.language.english.responses import RULE_STOPS, EnglishResponseParser
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Or, Rule, Span
 
 _LABEL = re.compile(r"\w(?:[\w.'\u2019-]*\w)?")
 
 
-class RuleParser(ResponseParser):
+class EnglishRuleParser(EnglishResponseParser):
     """Reads rules. A problem in one clause leaves the others readable."""
 
     domains: tuple[str, ...] | None

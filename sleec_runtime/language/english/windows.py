@@ -8,7 +8,7 @@ from sleec_runtime.language.common.comparisons import MAX_DIGITS
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.token_cursor import MAX_NAME
 from sleec_runtime.language.common.units import UNITS, WindowParser
-from sleec_runtime.language.english.declarations import DeclarationParser
+from sleec_runtime.language.english.declarations import EnglishDeclarationParser
 from sleec_runtime.language.english.keywords import ALTERNATIVES, PHRASE, TIMES
 from sleec_runtime.model import Length, MeasureRef, Number, Span, Unit, Window
 
@@ -24,7 +24,7 @@ class _Bound(NamedTuple):
     span: Span
 
 
-class TimeParser(DeclarationParser, WindowParser):
+class EnglishTimeParser(EnglishDeclarationParser, WindowParser):
     """Reads windows and lengths of time."""
 
     window_example = "WITHIN 5 minutes"
