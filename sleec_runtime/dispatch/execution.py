@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from types import CoroutineType
-from typing import Any
 
 from sleec_runtime.dispatch.decisions import due_in
 from sleec_runtime.dispatch.instance import Instance
-from sleec_runtime.dispatch.plan import Plan
+from sleec_runtime.dispatch.plan import Args, Kwargs, Plan
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.dispatch.variants import Unfinished, await_under, run_all
 from sleec_runtime.errors import NeedsAwait, VariantsFailed
@@ -30,7 +29,7 @@ def plan(snapshot: Snapshot, triggers: tuple[str, ...], instance: Instance) -> P
     return Plan(triggers, due, tuple(variants), snapshot.mark)
 
 
-def run(plan: Plan, args: tuple[Any, ...], kwargs: dict[str, Any]) -> list[object]:
+def run(plan: Plan, args: Args, kwargs: Kwargs) -> list[object]:
     """Runs the variants of a plan in order, and returns their results. Raises their errors after all have run."""
     plan.refuse_misfits(args, kwargs)
     plan.refuse_coroutines()
@@ -46,7 +45,7 @@ def run(plan: Plan, args: tuple[Any, ...], kwargs: dict[str, Any]) -> list[objec
     return results
 
 
-async def run_async(plan: Plan, args: tuple[Any, ...], kwargs: dict[str, Any]) -> list[object]:
+async def run_async(plan: Plan, args: Args, kwargs: Kwargs) -> list[object]:
     """Runs the variants of a plan as `run` does, and awaits coroutines."""
     plan.refuse_misfits(args, kwargs)
     results: list[object] = []

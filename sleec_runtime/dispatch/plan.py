@@ -10,6 +10,10 @@ from sleec_runtime.errors import NeedsAwait, WrongArguments
 from sleec_runtime.evaluation.due import Due
 from sleec_runtime.support.messages import represent, text_of
 
+Args = tuple[Any, ...]
+Kwargs = dict[str, Any]
+"""The arguments of a trigger."""
+
 
 class ActiveClause(NamedTuple):
     """The label of a rule, and the number of its active clause: 0 is the default, i has the layer ``label.hci``."""
@@ -48,7 +52,7 @@ class Plan:
         self.fitting: set[tuple[object, ...]] = set()
         """The shapes of arguments that fit all variants: see `Variant.fitting`."""
 
-    def refuse_misfits(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+    def refuse_misfits(self, args: Args, kwargs: Kwargs) -> None:
         """Raises WrongArguments if the arguments do not fit the code of a rule. O(1) after the first of a shape."""
         shape = (len(args), *kwargs)
         if shape in self.fitting:

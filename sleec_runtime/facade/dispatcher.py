@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from sleec_runtime.dispatch.decisions import due_in
 from sleec_runtime.dispatch.execution import plan, run, run_async
 from sleec_runtime.dispatch.instance import Instance
-from sleec_runtime.dispatch.plan import Plan
+from sleec_runtime.dispatch.plan import Args, Kwargs, Plan
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import UnknownObligation, UnknownTrigger
 from sleec_runtime.evaluation.due import Due
@@ -55,12 +55,7 @@ class Dispatcher:
         return known
 
     def trigger(
-        self,
-        snapshot: Snapshot,
-        names: tuple[str, ...],
-        args: tuple[Any, ...],
-        kwargs: dict[str, Any],
-        monitor: Monitor | None,
+        self, snapshot: Snapshot, names: tuple[str, ...], args: Args, kwargs: Kwargs, monitor: Monitor | None
     ) -> Done:
         ready = self.plan(snapshot, names)
         ready.refuse_misfits(args, kwargs)
@@ -69,12 +64,7 @@ class Dispatcher:
             return Done(ready, snapshot, run(ready, args, kwargs))
 
     async def trigger_async(
-        self,
-        snapshot: Snapshot,
-        names: tuple[str, ...],
-        args: tuple[Any, ...],
-        kwargs: dict[str, Any],
-        monitor: Monitor | None,
+        self, snapshot: Snapshot, names: tuple[str, ...], args: Args, kwargs: Kwargs, monitor: Monitor | None
     ) -> Done:
         ready = self.plan(snapshot, names)
         ready.refuse_misfits(args, kwargs)

@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any
 
 from sleec_runtime.dispatch.execution import one_of
+from sleec_runtime.dispatch.plan import Args, Kwargs
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.evaluation.due import Due
 from sleec_runtime.facade.dispatcher import Dispatcher, State
@@ -37,12 +38,7 @@ class TimedDispatcher(Dispatcher):
         self.scheduler = Scheduler(state, clock, chains, on_error)
 
     def trigger(
-        self,
-        snapshot: Snapshot,
-        names: tuple[str, ...],
-        args: tuple[Any, ...],
-        kwargs: dict[str, Any],
-        monitor: Monitor | None,
+        self, snapshot: Snapshot, names: tuple[str, ...], args: Args, kwargs: Kwargs, monitor: Monitor | None
     ) -> Done:
         run, snapshot = self.scheduler.decide(names, args, kwargs)
         with self._observed(names, snapshot, run, monitor):
@@ -50,12 +46,7 @@ class TimedDispatcher(Dispatcher):
         return self._done(names, snapshot, run)
 
     async def trigger_async(
-        self,
-        snapshot: Snapshot,
-        names: tuple[str, ...],
-        args: tuple[Any, ...],
-        kwargs: dict[str, Any],
-        monitor: Monitor | None,
+        self, snapshot: Snapshot, names: tuple[str, ...], args: Args, kwargs: Kwargs, monitor: Monitor | None
     ) -> Done:
         run, snapshot = self.scheduler.decide(names, args, kwargs, in_loop=True)
         with self._observed(names, snapshot, run, monitor):

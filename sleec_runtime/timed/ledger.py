@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from functools import partial
+from functools import partial, wraps
 from itertools import count
-from typing import NamedTuple, TypeVar
+from typing import Concatenate, NamedTuple, ParamSpec, Protocol, TypeVar
 
 from sleec_runtime.concurrency.critical_section import CriticalSection
 from sleec_runtime.concurrency.fork import renew_after_fork
@@ -18,6 +18,7 @@ from sleec_runtime.timed.task import State, Task
 from sleec_runtime.timed.unit import Unit
 
 T = TypeVar("T")
+P = ParamSpec("P")
 
 
 class Action(NamedTuple):
@@ -210,3 +211,20 @@ class Ledger:
         self._woken_at = at
         if cancel is not None:
             cancel()
+
+
+class _HasLedger(Protocol):
+    _ledger: Ledger
+
+
+S = TypeVar("S", bound=_HasLedger)
+
+
+def transaction(method: Callable[Concatenate[S, P], T]) -> Callable[Concatenate[S, P], T]:
+    """Makes a method one change of the ledger of its object."""
+
+    @wraps(method)
+    def change(self: S, /, *args: P.args, **kwargs: P.kwargs) -> T:
+        return self._ledger.change(partial(method, self, *args, **kwargs))
+
+    return change

@@ -7,7 +7,7 @@ from functools import partial
 
 from sleec_runtime.timed.admission import Admission
 from sleec_runtime.timed.cascade import Stage, alternative_stage
-from sleec_runtime.timed.ledger import Ledger
+from sleec_runtime.timed.ledger import Ledger, transaction
 from sleec_runtime.timed.refusals import done_though_forbidden
 from sleec_runtime.timed.task import Task
 from sleec_runtime.timed.unit import Unit
@@ -20,11 +20,9 @@ class Progress:
         self._admission = admission
         self._ledger = ledger
 
+    @transaction
     def begin(self, unit: Unit) -> list[Task]:
         """Sets the open tasks of `unit` to "under way", and returns them."""
-        return self._ledger.change(partial(self._begin, unit))
-
-    def _begin(self, unit: Unit) -> list[Task]:
         tasks = [task for task in unit.tasks if task.is_open]
         for task in tasks:
             self._ledger.set(task, "state", "under way")
@@ -46,13 +44,14 @@ class Progress:
             alternatives = task.otherwise
         if alternatives is not None:
             try:
-                return self._ledger.change(partial(self._replace, task, alternatives))
+                return self._replace(task, alternatives)
             except Exception:
-                self._ledger.change(partial(self._keep_open, task))
+                self._keep_open(task)
                 raise
-        self._ledger.change(partial(self._keep_open, task))
+        self._keep_open(task)
         return []
 
+    @transaction
     def _keep_open(self, task: Task) -> None:
         """Keeps the task open if it has a window."""
         if task.is_open and task.at_once:
@@ -60,6 +59,7 @@ class Progress:
         elif task.is_open:
             self._ledger.set(task, "state", "waiting")
 
+    @transaction
     def _replace(self, task: Task, alternatives: tuple[Task, ...]) -> list[Stage]:
         if not task.is_open:
             return []
@@ -69,11 +69,9 @@ class Progress:
         self._admission.admit(stages, moment.now, in_loop=True)
         return stages
 
+    @transaction
     def withdraw(self, tasks: Iterable[Task]) -> None:
         """Withdraws tasks whose event did not happen."""
-        self._ledger.change(partial(self._withdraw, tasks))
-
-    def _withdraw(self, tasks: Iterable[Task]) -> None:
         for task in tasks:
             if task.is_open:
                 self._ledger.end(task, "withdrawn")

@@ -6,12 +6,13 @@ dispatch, by a trigger or by the clock, ever sees a part of its tasks.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable
 from functools import partial
 from typing import Any
 
 from sleec_runtime.dispatch.execution import one_of
 from sleec_runtime.dispatch.instance import Instance
+from sleec_runtime.dispatch.plan import Args, Kwargs
 from sleec_runtime.dispatch.recording import recording
 from sleec_runtime.dispatch.rule_index import RuleIndex
 from sleec_runtime.dispatch.snapshot import Snapshot
@@ -22,15 +23,13 @@ from sleec_runtime.timed.agenda import CLOSES, OPENS
 from sleec_runtime.timed.cascade import triggered_stage
 from sleec_runtime.timed.clock import CheckedClock, Clock, Time
 from sleec_runtime.timed.failures import Failure, Failures
-from sleec_runtime.timed.ledger import Ledger
+from sleec_runtime.timed.ledger import Ledger, transaction
 from sleec_runtime.timed.pending import Pending
 from sleec_runtime.timed.progress import Progress
 from sleec_runtime.timed.refusals import done_though_forbidden, refuse
 from sleec_runtime.timed.run import Run
 from sleec_runtime.timed.task import Task
 from sleec_runtime.timed.timer_events import TimerEvents
-
-_NO_ARGUMENTS: tuple[tuple[Any, ...], Mapping[str, Any]] = ((), {})
 
 
 class Scheduler:
@@ -59,29 +58,15 @@ class Scheduler:
 
     # Triggers -------------------------------------------------------------------------------------------------
 
+    @transaction
     def decide(
-        self,
-        names: tuple[str, ...],
-        args: tuple[Any, ...],
-        kwargs: Mapping[str, Any],
-        in_loop: bool = False,
-        settled: bool = False,
+        self, names: tuple[str, ...], args: Args, kwargs: Kwargs, in_loop: bool = False, settled: bool = False
     ) -> tuple[Run, Snapshot]:
         """Decides and checks what the triggers ask for, and puts it on the agenda. Returns the run of its code.
 
         Coroutine functions are refused unless the run is `in_loop`. Prohibitions do not refuse triggers that are
         `settled`. Raises as `Sleec.trigger`.
         """
-        return self._ledger.change(partial(self._decide, names, args, kwargs, in_loop, settled))
-
-    def _decide(
-        self,
-        names: tuple[str, ...],
-        args: tuple[Any, ...],
-        kwargs: Mapping[str, Any],
-        in_loop: bool,
-        settled: bool,
-    ) -> tuple[Run, Snapshot]:
         moment = self._admission.moment(args, kwargs)
         stages = self._admission.closure(triggered_stage(names, moment), moment)
         self._admission.admit(stages, moment.now, in_loop, names if self._chains else (), settled)
@@ -94,11 +79,9 @@ class Scheduler:
         """The obligations that trigger rules when their callables return."""
         return snapshot.index.number_of.keys() - self._state()[1].takes_time if self._chains else ()
 
+    @transaction
     def due(self, names: tuple[str, ...]) -> Due:
         """`Sleec.due`: the decisions. Raises if they are refused now."""
-        return self._ledger.change(partial(self._due, names))
-
-    def _due(self, names: tuple[str, ...]) -> Due:
         moment = self._admission.moment()
         stage = triggered_stage(names, moment, code=False)
         refuse([stage], self._ledger.agenda, moment.now, names if self._chains else ())
@@ -108,13 +91,13 @@ class Scheduler:
         """`name` is done: `Sleec.completed`, and `Pending.completed` of `task`."""
         if task is not None and task.literal.negated:
             raise SleecError(f"`{name}` is a prohibition, which cannot be completed", "complete an obligation")
-        snapshot, _ = self._state()
-        index = snapshot.index
-        discharged, broken, waiting, now = self._ledger.change(partial(self._discharge, name, task, index))
-        origin = next(iter(discharged or waiting), task)
+        index = self._state()[0].index
+        discharged, broken, waiting, now = self._discharge(name, task, index)
+        fulfilled = next(iter(discharged or waiting), task)
         if self._chains and name in index.number_of:
-            args, kwargs = _NO_ARGUMENTS if origin is None else (origin.origin.args, origin.origin.kwargs)
+            origin = None if fulfilled is None else fulfilled.origin
             # A prohibition does not undo it, so the rules that it triggers apply.
+            args, kwargs = ((), {}) if origin is None else (origin.args, dict(origin.kwargs))
             run, _ = self.decide((name,), args, kwargs, settled=True)
             run.go()
             if run.errors:
@@ -123,6 +106,7 @@ class Scheduler:
             raise done_though_forbidden(name, broken, now)
         return self.view_all(discharged)
 
+    @transaction
     def _discharge(
         self, name: str, task: Task | None, index: RuleIndex
     ) -> tuple[list[Task], list[Task], tuple[Task, ...], Time]:
@@ -166,10 +150,11 @@ class Scheduler:
 
     def restore(self, data: object, world: Time) -> tuple[Pending, ...]:
         """`Sleec.restore`."""
-        self._ledger.change(partial(self._restore, data, world))
+        self._restore(data, world)
         self.tick()
         return self.pending()
 
+    @transaction
     def _restore(self, data: object, world: Time) -> None:
         from sleec_runtime.timed.recovery import Heir, recover
 

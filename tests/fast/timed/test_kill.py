@@ -86,7 +86,7 @@ time.sleep(600)
 '''
 
 
-MISSED = "failure: CallNurse (fall): CallNurse was not done within 300 seconds of the trigger of rule fall"
+MISSED = "failure: CallNurse (fall): `CallNurse` was not done within 300 seconds of the trigger of rule `fall`"
 
 
 @contextmanager

@@ -494,7 +494,7 @@ def test_a_section_is_left_whatever_is_raised():
     for error in (OSError, KeyboardInterrupt):
         with pytest.raises(error):
             section.run(partial(raising, error))
-    with pytest.raises(errors.Reentrant, match="in a signal handler, only note that the signal came"):
+    with pytest.raises(errors.Reentrant, match="in a signal handler, only record the signal"):
         section.run(lambda: section.run(lambda: None))
     assert section.run(lambda: 5) == 5
 
