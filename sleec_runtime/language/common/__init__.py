@@ -1,1 +1,1 @@
-"""What both languages share: source text, suggestions, comments, comparisons, units."""
+"""What both languages share: tokens, formulas, claims, names, comments and printing."""

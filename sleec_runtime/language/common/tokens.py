@@ -27,5 +27,5 @@ class Tokens(NamedTuple):
         return self.text[self.starts[token] : self.ends[token]]
 
     def starts_line(self, token: int) -> bool:
-        """Whether a line break stands between the token and the one before it."""
+        """Whether a line break is between the token and the one before it."""
         return token == 0 or "\n" in self.text[self.ends[token - 1] : self.starts[token]]

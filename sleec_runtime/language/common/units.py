@@ -1,12 +1,7 @@
-"""Units of time, and the checks of windows that both languages share."""
+"""Units of time."""
 
 from __future__ import annotations
 
-from typing import ClassVar, NoReturn, cast
-
-from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.common.token_cursor import TokenCursor
-from sleec_runtime.model import Span, Unit, Window
 from sleec_runtime.support.suggestions import did_you_mean, nearest
 
 UNITS = frozenset({"seconds", "minutes", "hours", "days", "second", "minute", "hour", "day"})
@@ -25,52 +20,8 @@ _OTHER_UNITS = {
 }
 
 
-class WindowParser(TokenCursor):
-    """Reads units of time and checks windows."""
-
-    window_example: ClassVar[str]
-    range_example: ClassVar[str]
-
-    def unit(self) -> Unit:
-        """Reads the unit at hand, or gives up."""
-        return self.unit_at_hand() or self._refuse_unit()
-
-    def _refuse_unit(self) -> NoReturn:
-        example = f"for example: {self.window_example}"
-        if self.kinds[self.at] == "strange":
-            self.expected("a unit: seconds, minutes, hours or days", example)
-        if self.kinds[self.at] != "word" or self.starts_line(self.at):
-            end = self.ends[self.at - 1]
-            self.fail(
-                "a unit is missing after the number: seconds, minutes, hours or days",
-                Span(end, end),
-                example,
-            )
-        written = self.token_text(self.at)
-        self.fail(f"no unit is called {quoted(written)}", self.token_span(self.at), self.unit_hint(written.casefold()))
-
-    def unit_at_hand(self) -> Unit | None:
-        """Reads the unit at hand, if there is one."""
-        if self.kinds[self.at] != "word" or self.token_text(self.at) not in UNITS:
-            return None
-        unit = self.token_text(self.at)
-        self.at += 1
-        return cast("Unit", unit if unit.endswith("s") else f"{unit}s")
-
-    def unit_hint(self, word: str) -> str:
-        """What to write instead of `word`, in lowercase, where a unit is expected."""
-        units = ("seconds", "minutes", "hours", "days")
-        meant = word if word in UNITS else _ABBREVIATIONS.get(word) or nearest(word, units)
-        return _OTHER_UNITS.get(word) or did_you_mean(meant) or "the units are seconds, minutes, hours and days"
-
-    def check_window(self, window: Window) -> None:
-        """Reports a window that ends before it begins."""
-        if window.start is None or window.end is None:
-            return
-        begins, ends = window.start.seconds, window.end.seconds
-        if begins is not None and ends is not None and begins > ends:
-            self.problem(
-                f"this window ends ({window.end}) before it begins ({window.start})",
-                window.span,
-                f"write the earlier end first, for example: {self.range_example}",
-            )
+def unit_hint(word: str) -> str:
+    """What to write instead of `word`, in lowercase, where a unit is expected."""
+    units = ("seconds", "minutes", "hours", "days")
+    meant = word if word in UNITS else _ABBREVIATIONS.get(word) or nearest(word, units)
+    return _OTHER_UNITS.get(word) or did_you_mean(meant) or "the units are seconds, minutes, hours and days"

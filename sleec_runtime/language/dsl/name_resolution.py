@@ -1,4 +1,4 @@
-"""What each name of a text in the DSL is: event, measure, constant, or value of a scale. Every one is defined."""
+"""What each name is: event, measure, constant, or value of a scale. Every name must be defined."""
 
 from __future__ import annotations
 
@@ -96,8 +96,7 @@ class DslNames(SymbolTable):
         return f"no constant is called {quoted(name)}", did_you_mean(self.nearest(name, known))
 
     def label(self, label: str, span: Span) -> str:
-        """The label to call a rule or claim by. Others read texts in which two have the same; the second one becomes
-        ``label#2``."""
+        """The label of a rule or claim. Other tools accept equal labels; here the second one becomes ``label#2``."""
         first, count = self._labels.get(label, (span, 0))
         self._labels[label] = first, count + 1
         if not count:

@@ -42,7 +42,7 @@ _ITEMS = {
 
 
 def parse_dsl(source: Source) -> Ruleset:
-    """The ruleset that `source` spells out, in either dialect.
+    """Parses a text, in either dialect.
 
     Raises:
         LanguageError: with every problem, in the order of the text.
@@ -72,7 +72,7 @@ class DslParser(DslRuleParser):
     """Reads a whole text, once."""
 
     def statements(self) -> list[Statement]:
-        """Everything in the text, in its order; what could not be read is among the problems instead."""
+        """All statements in text order. What cannot be parsed is reported as a problem."""
         self.constants = {}
         defined = self._definitions()
         found: list[Statement] = []

@@ -5,7 +5,8 @@ from __future__ import annotations
 from sleec_runtime.language.common.comparisons import Side
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.token_cursor import Abandon
-from sleec_runtime.language.common.units import UNITS, WindowParser
+from sleec_runtime.language.common.units import UNITS
+from sleec_runtime.language.common.window_parser import WindowParser
 from sleec_runtime.language.dsl.definitions import DslDefinitionParser
 from sleec_runtime.language.dsl.keywords import ITEM_STARTS
 from sleec_runtime.model import NOWHERE, Length, Number, Span, Unit, Window

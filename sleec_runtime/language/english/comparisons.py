@@ -1,4 +1,4 @@
-"""EnglishComparisons: what each side is, and whether the two fit."""
+"""Comparisons: what each side is, and whether the two fit."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from sleec_runtime.support.suggestions import did_you_mean
 
 
 class EnglishComparisons:
-    """Makes comparisons of what is written, by the declarations in `names`, and infers the measures that have none."""
+    """Makes comparisons with the declarations in `names`, and infers undeclared measures."""
 
     def __init__(self, names: EnglishNames) -> None:
         self._names = names
 
     def comparison(self, left: Side, operator: Operator, right: Side, span: Span) -> Comparison:
-        """``left operator right`` with each side as what it is; whatever does not fit is reported."""
+        """``left operator right``. Sides that do not fit are reported."""
         terms = self._term(left, right), self._term(right, left)
         self._check_fit(left, terms[0], right, terms[1], span)
         return Comparison(terms[0], operator, terms[1], span)

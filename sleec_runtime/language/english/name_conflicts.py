@@ -1,4 +1,4 @@
-"""EnglishNames that are two things at once, although one excludes the other."""
+"""Names that are two things at once, although one excludes the other."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ _Read = TypeVar("_Read")
 
 
 def parse_english(source: Source) -> Ruleset:
-    """The ruleset that `source` spells out.
+    """Parses a text.
 
     Raises:
         LanguageError: with every problem, in the order of the text.
@@ -65,7 +65,7 @@ class EnglishParser(EnglishConstraintParser):
     """Reads a whole text, once."""
 
     def statements(self) -> list[Statement]:
-        """Everything in the text, in its order; what could not be read is among the problems instead."""
+        """All statements in text order. What cannot be parsed is reported as a problem."""
         self.domains = None
         self.reading: Reading | None = None
         self.rules_so_far = 0
@@ -76,7 +76,7 @@ class EnglishParser(EnglishConstraintParser):
         self._postponed: list[tuple[int, int, tuple[str, ...] | None]] = []
         declared = self._declarations()
         self._in_order(declared)
-        # Assumptions first: a name of theirs is a condition for the prohibitions too.
+        # Assumptions first: their conditions are also conditions in NEVER.
         for keyword in ("ASSUME", "NEVER"):
             for index, token, domains in self._postponed:
                 if self.kinds[token] == keyword:
@@ -145,7 +145,7 @@ class EnglishParser(EnglishConstraintParser):
                 found.append(self._read(self.claim if kind in CLAIMS else self.relation))
 
     def _next_statement(self) -> int:
-        """The token at hand if a statement starts there; else it is reported, and the next one that does."""
+        """The current token if a statement starts there; else reports it, and moves to the next one that starts one."""
         if self.at == 0 and self.kinds[0] not in STATEMENTS and self.kinds[0] != "end":
             self.begin_clause()
             try:

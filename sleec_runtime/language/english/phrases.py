@@ -1,4 +1,4 @@
-"""EnglishNames and phrases of plain words, and the keywords that are misspelt or missing in them."""
+"""Names and phrases of plain words, and the keywords that are misspelt or missing in them."""
 
 from __future__ import annotations
 

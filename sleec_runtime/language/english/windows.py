@@ -7,7 +7,8 @@ from typing import NamedTuple
 from sleec_runtime.language.common.comparisons import MAX_DIGITS
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.token_cursor import MAX_NAME
-from sleec_runtime.language.common.units import UNITS, WindowParser
+from sleec_runtime.language.common.units import UNITS
+from sleec_runtime.language.common.window_parser import WindowParser
 from sleec_runtime.language.english.declarations import EnglishDeclarationParser
 from sleec_runtime.language.english.keywords import ALTERNATIVES, PHRASE, TIMES
 from sleec_runtime.model import Length, MeasureRef, Number, Span, Unit, Window
@@ -17,7 +18,7 @@ _TO = "TO"
 
 
 class _Bound(NamedTuple):
-    """One end of a window as it is written; without a unit where that stands behind the other end."""
+    """One end of a window as it is written; without a unit if only the other end has one."""
 
     amount: Number | MeasureRef
     unit: Unit | None
@@ -69,7 +70,7 @@ class EnglishTimeParser(EnglishDeclarationParser, WindowParser):
             self.at += 1
             end = self._bound()
             unit = end.unit or self.unit()
-        # A unit behind both is that of each end which has none of its own.
+        # A unit after both is that of each end without a unit.
         return (
             Length(start.amount, start.unit or unit or "seconds", start.span),
             Length(end.amount, end.unit or unit or "seconds", end.span),
@@ -89,7 +90,7 @@ class EnglishTimeParser(EnglishDeclarationParser, WindowParser):
     # Amounts and units ----------------------------------------------------------------------------------------
 
     def _bound(self, in_brackets: bool = False) -> _Bound:
-        """An amount, with its unit if that stands directly behind it."""
+        """An amount, with its unit if that follows directly."""
         first = self.at
         kind = self.kinds[first]
         if kind == "number":
@@ -111,7 +112,7 @@ class EnglishTimeParser(EnglishDeclarationParser, WindowParser):
         token = self.at
         span = self.token_span(token)
         text = self.token_text(token)
-        # In brackets a comma stands between two numbers; elsewhere it may be meant for a decimal point.
+        # In brackets a comma separates two numbers; elsewhere it may be a decimal comma.
         if in_brackets:
             self.at += 1
         else:
