@@ -1,9 +1,6 @@
-"""What a trace breaks, construct by construct. In the timelines, `1: A B` is an instant at second 1 with two events."""
+"""The evaluator of traces: rules, relations, constraints and claims."""
 
 from __future__ import annotations
-
-from dataclasses import replace
-from typing import Any
 
 import pytest
 
@@ -12,64 +9,15 @@ from sleec_runtime.evaluation.trace import Instant, Trace
 from sleec_runtime.evaluation.trace_violations import claim_holds, violations, violations_so_far
 from sleec_runtime.language import parse
 from sleec_runtime.model import Rule, claims
-
-DEFINITIONS = """def_start
-  event A
-  event B
-  event C
-  measure m: boolean
-  measure n: boolean
-  measure x: numeric
-  measure risk: scale(low, middle, high)
-def_end
-"""
-ALL_LOW: dict[str, Any] = {"m": False, "n": False, "x": 0, "risk": "low"}
-
-
-# A rule that nothing breaks: a text needs one.
-KEPT = "R0 when C then C"
-
-
-def ruleset(rules=KEPT, relations="", concerns=""):
-    blocks = [("rule", rules), ("relation", relations), ("concern", concerns)]
-    return parse(DEFINITIONS + "".join(f"{name}_start\n{text}\n{name}_end\n" for name, text in blocks if text))
-
-
-def trace(timeline):
-    """`0: A m | 2: B x=3 | 4:`: capital letters are events, other words are true, all else is false and low."""
-    instants = []
-    for part in timeline.split("|"):
-        time, words = part.split(":")
-        events = {word for word in words.split() if word.isupper()}
-        conditions = dict(ALL_LOW)
-        for word in set(words.split()) - events:
-            name, _, value = word.partition("=")
-            conditions[name] = (int(value) if value.lstrip("-").isdigit() else value) or True
-        instants.append(Instant(int(time), frozenset(events), conditions))
-    return Trace(tuple(instants))
-
-
-def times(found):
-    return [time for _, time in found]
+from tests.support.short_traces import ruleset, times, trace
 
 
 def broken_at(rules, timeline, untimed="at"):
     return times(violations(ruleset(f"R1 when {rules}"), trace(timeline), untimed))
 
 
-def hopeless_at(rules, timeline, untimed="at"):
-    return times(violations_so_far(ruleset(f"R1 when {rules}"), trace(timeline), untimed))
-
-
 def relation_broken_at(relation, timeline):
     return times(violations(ruleset(relations=relation), trace(timeline)))
-
-
-def relation_hopeless_at(relation, timeline):
-    return times(violations_so_far(ruleset(relations=relation), trace(timeline)))
-
-
-# Traces ---------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("times_given", [(-1,), (0, 0), (3, 2), (True,), (0.5,)])
@@ -92,9 +40,6 @@ def test_what_is_broken_is_told_by_time_and_then_by_the_order_of_the_text():
     assert found == ((first, 1), (second, 1), (relation, 2), (second, 4))
     assert found[0].statement is first
     assert isinstance(first, Rule)
-
-
-# Rules ----------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -201,9 +146,6 @@ def test_a_window_needs_the_value_of_its_measure():
         violations(ruleset("R1 when A then B within {x} seconds"), Trace((Instant(0, frozenset("A")),)))
 
 
-# Relations and constraints --------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("relation", "timeline", "expected"),
     [
@@ -247,127 +189,6 @@ def test_relations(relation, timeline, expected):
 def test_constraints(constraint, expected):
     rules = parse(f"{constraint}\nWHEN A THEN NOT D\nWHEN B THEN NOT D\nWHEN D THEN (A AND B AND C)\nUNLESS m")
     assert times(violations(rules, trace("0: | 1: A m | 2: A B | 3: B C"))) == expected
-
-
-# Histories ------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("rule", "timeline", "expected"),
-    [
-        # Now may hold more, the past may not.
-        ("A then B", "0: A", []),
-        ("A then B", "0: A | 1: A", [0]),
-        ("A then not B", "0: A B", [0]),
-        ("A then not B", "0: A | 1:", []),
-        ("A then not A", "0: A", [0]),
-        # Windows that include now, or what is later.
-        ("A then B within 2 seconds", "0: A | 2:", []),
-        ("A then B within 2 seconds", "0: A | 3:", [0]),
-        ("A then B within 2 seconds", "0: A | 1: B | 3:", []),
-        ("A then B within [1, 2] seconds", "0: A B | 3:", [0]),
-        ("A then not B within 2 seconds", "0: A | 2: B", [0]),
-        ("A then B within {x} seconds", "1: A x=-1", [1]),
-        ("A then B eventually", "0: A | 99:", []),
-        ("A then not B eventually", "0: A | 99: B", [0]),
-        # What is due in place of it.
-        ("A then B within 2 seconds otherwise C", "0: A | 2:", []),
-        ("A then B within 2 seconds otherwise C", "0: A | 3:", [0]),
-        ("A then B within 2 seconds otherwise C", "0: A | 2: C | 3:", []),
-        ("A then B within 2 seconds otherwise C within 2 seconds", "0: A | 4:", []),
-        ("A then B within 2 seconds otherwise not C", "0: A | 2: C | 3:", [0]),
-        ("A then not B within 2 seconds otherwise C", "0: A | 1: B", []),
-        ("A then not B within 2 seconds otherwise C", "0: A B | 3:", [0]),
-        ("A then not B else C within 1 second", "0: A B | 1:", []),
-    ],
-)
-def test_what_a_history_breaks_for_good(rule, timeline, expected):
-    assert hopeless_at(rule, timeline) == expected
-
-
-def test_what_a_history_breaks_for_good_without_windows():
-    assert hopeless_at("A then B", "0: A | 9:", "eventually") == []
-    assert hopeless_at("A then not B", "0: A | 9: B", "eventually") == [0]
-
-
-@pytest.mark.parametrize(
-    ("rule", "timeline", "expected"),
-    [
-        # What still occurs now decides hedges and guards of now, and not those of before.
-        ("A then not A unless B", "0: A", []),
-        ("A then not A unless B", "0: A | 1:", [0]),
-        ("A and (not B) then not A", "0: A", []),
-        ("A then not A unless B then not B", "0: A", [0]),
-        ("A then C within 2 seconds otherwise {not A unless B}", "0: A", []),
-        # What a hedge looks for and what it then forbids, or requires, go together.
-        ("A then B unless B then not B", "0: A", [0]),
-        ("A then B unless B then not A", "0: A", [0]),
-        ("A then B unless B then C", "0: A", []),
-        ("A then B within [0, 1] seconds unless B then not A", "0: A", []),
-        ("A then B within [0, 1] seconds unless B then not A", "0: A B", [0]),
-    ],
-)
-def test_what_else_occurs_now_decides_conditions_that_name_events(rule, timeline, expected):
-    assert hopeless_at(rule, timeline) == expected
-
-
-@pytest.mark.parametrize(
-    ("first", "second", "timeline", "expected"),
-    [
-        # Each could be kept, both cannot.
-        ("B", "not B", "0: A", [0]),
-        ("B within 2 seconds", "not B within 3 seconds", "0: A", [0]),
-        ("B within 3 seconds", "not B within 2 seconds", "0: A", []),
-        ("B within 3 seconds", "not B within 2 seconds", "0: A | 4:", [0]),
-        ("B within 3 seconds", "not B within 2 seconds", "0: A | 3: B | 4:", []),
-        ("B within 3 seconds", "not B within [2, 3] seconds", "0: A | 1:", []),
-        ("B within 3 seconds", "not B within [2, 3] seconds", "0: A | 2:", [0]),
-        ("B eventually", "not B eventually", "0: A", [0]),
-        ("B within 3 seconds", "not C within 3 seconds", "0: A", []),
-        ("B within 1 second otherwise C", "not B within 3 seconds", "0: A | 1:", []),
-        ("B within 1 second otherwise C", "not B within 3 seconds", "0: A | 2:", [0]),
-    ],
-)
-def test_obligations_of_one_clause_are_kept_together(first, second, timeline, expected):
-    rules = ruleset(f"R1 when A then {first}\nR2 when A then {second}")
-    obligations = tuple(o for rule in rules.rules for o in rule.default.obligations)
-    rule = replace(rules.rules[0], default=replace(rules.rules[0].default, obligations=obligations))
-    assert times(violations_so_far(replace(rules, statements=(rule,)), trace(timeline))) == expected
-
-
-@pytest.mark.parametrize(
-    ("relation", "timeline", "expected"),
-    [
-        ("witness A B", "0: A | 1: A", [0]),
-        ("equal A B", "0: B | 1: B", [0]),
-        ("mutualExclusive A B", "0: | 1: A B", [1]),
-        ("happenBefore A B", "0: | 1: B", [1]),
-        ("happenBefore A B", "0: A | 1: B", []),
-        ("measure invariant {m}", "0: | 1:", [0, 1]),
-        ("causation A {m}", "0: m | 1: m", [0]),
-        ("includes A {m}", "0: m A | 1: A", [1]),
-        ("forbid A {m}", "0: A | 1: A m", [1]),
-        ("when A then {n} until B", "0: A n | 1:", []),
-        ("when A then {n} until B", "0: A n | 1: | 2:", [0]),
-        ("when A then {n} until B and {m}", "0: A n | 1:", [0]),
-        ("when A then {n} until B and {m}", "0: A n | 1: m", []),
-        ("when A then {n} until B", "0: A", []),
-        ("when A then {n} for 2 seconds", "0: A n | 1:", [0]),
-        ("when A then {n} for 2 seconds", "0: A n | 2:", []),
-    ],
-)
-def test_what_a_history_breaks_of_relations(relation, timeline, expected):
-    assert relation_hopeless_at(relation, timeline) == expected
-
-
-def test_what_a_history_breaks_of_constraints():
-    rules = parse("ASSUME A OR B OR m\nNEVER C AND m\nWHEN A THEN NOT D\nWHEN B THEN C UNLESS m")
-    assert times(violations_so_far(rules, trace("0: | 1: C m | 2:"))) == [0, 1]
-    assert times(violations_so_far(rules, trace("0: m | 1: C m"))) == [1]
-    assert times(violations_so_far(rules, trace("0: A | 1:"))) == []
-
-
-# Concerns and purposes ------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Code that the clock starts, and that raises whatever it likes or never returns: no other obligation is lost."""
+"""Code that fails on a thread."""
 
 from __future__ import annotations
 
@@ -9,24 +9,15 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from sleec_runtime import AsyncioClock, Failure, MonotonicClock, PolledClock, Sleec, VirtualClock, errors, obligation
+from sleec_runtime import Failure, MonotonicClock, Sleec, errors
 from sleec_runtime.language import parse
 from sleec_runtime.timed import executor
-
-ISSUE = """
-RULE a WHEN T1 THEN A WITHIN 1 TO 5 seconds
-RULE b WHEN T2 THEN B WITHIN 2 seconds OTHERWISE C
-RULE d WHEN T3 THEN D WITHIN 1 TO 3 seconds
-"""
-QUICK = """
-RULE a WHEN A THEN X WITHIN 1 TO 1000 seconds
-RULE b WHEN B THEN Y WITHIN 1 TO 1000 seconds
-"""
-PATIENCE = 20
-HASTE = 50
-NOT_EXCEPTIONS = (SystemExit, KeyboardInterrupt, GeneratorExit, asyncio.CancelledError)
+from tests.support.failing_code import HASTE, PATIENCE, QUICK, Robot, raising, slow
 
 pytestmark = pytest.mark.filterwarnings("ignore::sleec_runtime.errors.NotEnforced")
+
+
+NOT_EXCEPTIONS = (SystemExit, KeyboardInterrupt, GeneratorExit, asyncio.CancelledError)
 
 
 class Hasty(MonotonicClock):
@@ -39,57 +30,12 @@ class Hasty(MonotonicClock):
         return super().wake(at / HASTE, call)
 
 
-class HastyLoop(AsyncioClock):
-    """Windows on it are shorter than their seconds."""
-
-    def now(self):
-        return super().now() * HASTE
-
-    def wake(self, at, call):
-        return super().wake(at / HASTE, call)
-
-
-def raising(error: type[BaseException]):
-    def code() -> None:
-        raise error
-
-    return code
-
-
-def slow() -> None:
-    """Begun, and not done."""
-
-
 @pytest.fixture
 def never() -> Iterator[threading.Event]:
     """What is waited for until the test ends, so that no thread outlives it."""
     event = threading.Event()
     yield event
     event.set()
-
-
-class Robot:
-    """Rules at work on a clock of their own, where `a` fails: events say what was done."""
-
-    def __init__(self, a, text: str = ISSUE, **options) -> None:
-        self.told: list[Failure] = []
-        self.sleec = Sleec(parse(text), on_error=self.told.append, **options)
-        self.done = {name: threading.Event() for name in "CD"}
-        self.sleec.implement(
-            {"A": a, "B": obligation("B", completes=False)(slow), "C": self.do("C"), "D": self.do("D")}
-        )
-
-    def do(self, name: str):
-        return lambda: self.done[name].set()
-
-    def does(self, name: str) -> bool:
-        return self.done[name].wait(PATIENCE)
-
-    def errors(self) -> list[type[BaseException]]:
-        return [type(failure.error) for failure in self.sleec.failures]
-
-
-# On a thread ----------------------------------------------------------------------------------------------
 
 
 def test_whatever_code_does_other_deadlines_are_kept_and_later_triggers_watched(never):
@@ -333,138 +279,3 @@ def test_a_call_by_the_clock_may_raise_anything(error, caplog):
 def test_a_limit_is_a_number_of_seconds(limit):
     with pytest.raises(errors.WrongType, match="limit is a number of seconds above 0"):
         MonotonicClock(limit=limit)
-
-
-# In the thread of the user --------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("error", [SystemExit, GeneratorExit, asyncio.CancelledError])
-def test_on_a_virtual_clock_a_failure_is_reported_and_not_raised(error):
-    clock = VirtualClock()
-    robot = Robot(raising(error), clock=clock)
-    robot.sleec.trigger_all(["T1", "T2", "T3"])
-    clock.advance(4)
-    assert robot.done["C"].is_set()
-    assert robot.done["D"].is_set()
-    assert robot.errors() == [error]
-    assert robot.told == list(robot.sleec.failures)
-    assert [one.state for one in robot.sleec.pending()] == ["waiting"], "it can still be done"
-
-
-def test_in_the_main_thread_an_interrupt_is_raised_once_all_that_is_due_is_served():
-    clock = VirtualClock()
-    robot = Robot(raising(KeyboardInterrupt), clock=clock)
-    robot.sleec.trigger_all(["T1", "T2", "T3"])
-    with pytest.raises(KeyboardInterrupt):
-        clock.advance(4)
-    assert clock.now() == 1
-    assert robot.done["D"].is_set()
-    assert robot.errors() == [KeyboardInterrupt]
-    clock.advance(1)
-    assert robot.done["C"].is_set()
-
-
-def test_an_interrupt_of_an_error_handler_is_raised_in_the_main_thread(caplog):
-    clock = VirtualClock()
-    sleec = Sleec(parse(ISSUE), clock=clock, on_error=lambda failure: raising(KeyboardInterrupt)())
-    sleec.implement({"A": raising(OSError), "B": slow, "C": slow, "D": slow})
-    sleec.trigger("T1")
-    with pytest.raises(KeyboardInterrupt):
-        clock.advance(2)
-    assert len(sleec.failures) == 1
-
-
-@pytest.mark.parametrize("error", [SystemExit, GeneratorExit, OSError])
-def test_a_polled_clock_raises_nothing(error, monkeypatch):
-    now = [0.0]
-    monkeypatch.setattr(time, "monotonic", lambda: now[0])
-    robot = Robot(raising(error), clock=PolledClock())
-    robot.sleec.trigger_all(["T1", "T2", "T3"])
-    now[0] = 2.5
-    robot.sleec.tick()
-    assert robot.done["C"].is_set()
-    assert robot.done["D"].is_set()
-    assert robot.errors() == [error]
-
-
-@pytest.mark.parametrize("coroutine", [False, True], ids=["function", "coroutine function"])
-@pytest.mark.parametrize("error", [SystemExit, GeneratorExit, asyncio.CancelledError, OSError])
-def test_an_event_loop_goes_on(error, coroutine):
-    async def awaited() -> None:
-        await asyncio.sleep(0)
-        raise error
-
-    async def main() -> None:
-        robot = Robot(awaited if coroutine else raising(error), clock=HastyLoop())
-        robot.sleec.trigger_all(["T1", "T2", "T3"])
-        for name in "CD":
-            assert await asyncio.to_thread(robot.does, name)
-        assert robot.errors() == [error]
-        assert robot.told == list(robot.sleec.failures)
-        robot.sleec.close()
-
-    asyncio.run(main())
-
-
-def test_what_a_loop_cancels_at_its_end_is_reported():
-    told: list[Failure] = []
-
-    async def waits() -> None:
-        await asyncio.sleep(PATIENCE)
-
-    async def main() -> None:
-        sleec = Sleec(parse(QUICK), clock=HastyLoop(), on_error=told.append)
-        sleec.implement({"X": waits, "Y": slow})
-        await sleec.trigger_async("A")
-        while not any(one.state == "under way" for one in sleec.pending()):
-            await asyncio.sleep(0.01)
-
-    asyncio.run(main())
-    (failure,) = told
-    assert isinstance(failure.error, asyncio.CancelledError)
-    assert str(failure).endswith("X (a): CancelledError")
-
-
-# What an interrupted dispatch leaves ----------------------------------------------------------------------
-
-CHAIN = "RULE a WHEN A THEN X\nRULE b WHEN A THEN Y\nRULE x WHEN Y THEN Z WITHIN 5 seconds OTHERWISE W"
-
-
-def test_an_interrupted_trigger_asks_for_nothing_that_was_not_called_for():
-    clock = VirtualClock()
-    sleec = Sleec(parse(CHAIN), clock=clock, chains=True)
-    sleec.implement(
-        {"X": raising(KeyboardInterrupt), "Y": slow, "Z": obligation("Z", completes=False)(slow), "W": slow}
-    )
-    with pytest.raises(KeyboardInterrupt):
-        sleec.trigger("A")
-    assert sleec.pending() == ()
-    clock.advance(10)
-    assert sleec.failures == ()
-
-
-def test_an_interrupted_asynchronous_trigger_asks_for_nothing_that_was_not_called_for():
-    clock = VirtualClock()
-    sleec = Sleec(parse(CHAIN), clock=clock, chains=True)
-    sleec.implement({"X": raising(SystemExit), "Y": slow, "Z": obligation("Z", completes=False)(slow), "W": slow})
-
-    async def main() -> None:
-        with pytest.raises(SystemExit):
-            await sleec.trigger_async("A")
-
-    asyncio.run(main())
-    assert sleec.pending() == ()
-
-
-def test_what_fails_unattended_has_its_alternative_whatever_it_raised():
-    clock = VirtualClock()
-    log: list[str] = []
-    sleec = Sleec(
-        parse("RULE a WHEN A THEN X WITHIN 1 TO 1 seconds OTHERWISE Y\nRULE b WHEN A THEN X ELSE Y"), clock=clock
-    )
-    sleec.implement({"X": raising(SystemExit), "Y": lambda: log.append("Y")})
-    with pytest.raises(SystemExit):
-        sleec.trigger("A")
-    clock.advance(2)
-    assert log == ["Y"]
-    assert [type(failure.error) for failure in sleec.failures] == [SystemExit]
