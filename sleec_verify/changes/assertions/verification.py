@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-from sleec_runtime.evaluation.formula_truth import holds
-from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import (
     Assume,
     Atom,
@@ -19,15 +17,14 @@ from sleec_runtime.model import (
     measures_of,
 )
 from sleec_verify.changes.assertions.assertion import Assertion, AssertionResult, Violation
+from sleec_verify.changes.assertions.replay import is_of, replay
 from sleec_verify.changes.assertions.vocabulary import Vocabulary
-from sleec_verify.changes.compare import DecidingClause
 from sleec_verify.changes.relations import relations_at_one_instant
 from sleec_verify.encoding.equation import conjunction, disjunction, implications
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.question import is_possible
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.query.witness import smallest_situation
-from sleec_verify.results.finding import Witness
 
 
 def verify(
@@ -89,7 +86,7 @@ def _broken(ruleset: Ruleset, assertion: Assertion, measures: Mapping[str, Measu
     if not found:
         return None
     witness = min(found, key=lambda w: len(w.triggers) + len(w.conditions))
-    return Violation(witness, _replayed(ruleset, assertion, witness, given, measures))
+    return Violation(witness, replay(ruleset, assertion, witness, given, measures))
 
 
 def _called_for(ruleset: Ruleset, literal: Obligation) -> Formula:
@@ -98,29 +95,8 @@ def _called_for(ruleset: Ruleset, literal: Obligation) -> Formula:
         [
             guard
             for rule in ruleset.rules
-            if any(_is(o, literal) for clause in rule.clauses() for o in clause.obligations)
+            if any(is_of(o, literal) for clause in rule.clauses() for o in clause.obligations)
             for _, guard, clause in implications(rule, ruleset.reading)
-            if any(_is(o, literal) for o in clause.obligations)
+            if any(is_of(o, literal) for o in clause.obligations)
         ]
     )
-
-
-def _is(one: Obligation, literal: Obligation) -> bool:
-    return one.name == literal.name and one.negated == literal.negated
-
-
-def _replayed(
-    ruleset: Ruleset, assertion: Assertion, witness: Witness, given: Iterable[Formula], measures: Mapping[str, Measure]
-) -> tuple[DecidingClause, ...]:
-    context = witness.context()
-    found = []
-    for rule in ruleset.rules:
-        decision = decide(rule, context, ruleset.reading, ruleset.measures)
-        if decision is not None:
-            span = list(rule.clauses())[decision.clause].span
-            found.append(DecidingClause(rule.label, decision.clause, decision.obligations, span))
-    due = [any(_is(o, literal) for one in found for o in one.obligations) for literal in assertion.literals]
-    broken = all(due) if assertion.kind == "never" else not all(due)
-    if not (broken and all(holds(formula, context, measures) for formula in (assertion.when, *given))):
-        raise Undecided("a situation did not replay, which is a bug in sleec-verify")
-    return tuple(found)

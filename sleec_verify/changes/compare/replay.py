@@ -11,6 +11,7 @@ from sleec_runtime.model import Context, Exclusive, Formula, Never, Obligation
 from sleec_verify.changes.compare.alternatives import here
 from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, triggered
 from sleec_verify.changes.compare.result import DecidingClause
+from sleec_verify.changes.compare.sides import Assumption
 from sleec_verify.changes.compare.timing_order import implies
 
 
@@ -74,3 +75,13 @@ def shows_change(
     return all(is_due(comparison, said["new"], o) and not is_due(comparison, said["old"], o) for o in added) and all(
         is_due(comparison, said["old"], o) and not is_due(comparison, said["new"], o) for o in removed
     )
+
+
+def satisfies(comparison: Comparison, which: SideName, given: Assumption, context: Context) -> bool:
+    """Whether a situation satisfies an assumption of one side."""
+    side = comparison.sides[which]
+    formula = given.formula if given.stated is None else given.stated
+    measures = comparison.measures if given.stated is None else side.stated.measures
+    if any(context.conditions.get(name, of[0]) not in of for name, of in side.scales.items()):
+        return False
+    return holds(formula, context, measures)

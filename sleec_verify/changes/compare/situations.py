@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Union
 
-from sleec_runtime.model import Formula, Not
+from sleec_runtime.model import Not
 from sleec_verify.changes.compare.comparison import Comparison, SideName, other
-from sleec_verify.changes.compare.replay import possible
+from sleec_verify.changes.compare.replay import possible, satisfies
 from sleec_verify.changes.compare.result import SituationChange, Undecidable, Way
 from sleec_verify.changes.compare.sides import Assumption
 from sleec_verify.changes.compare.situation_count import SituationCounter, named_in, not_counted
@@ -43,7 +43,7 @@ def _allowed(comparison: Comparison, by: SideName, given: Assumption, way: Way) 
     if witness is None or not is_possible(comparison.situations_of(by)):
         return None
     context = witness.context()
-    if not possible(comparison, by, context) or _keeps(comparison, other(by), given, context):
+    if not possible(comparison, by, context) or satisfies(comparison, other(by), given, context):
         raise Undecided("a situation did not replay, which is a bug in sleec-verify")
     named = named_in([given.formula])
     assumed = [assumption.formula for assumption in index.assumptions_about(named)]
@@ -55,19 +55,6 @@ def _allowed(comparison: Comparison, by: SideName, given: Assumption, way: Way) 
     except TooLarge as error:
         extent = not_counted((), str(error))
     return SituationChange(way, given.words, witness, extent)
-
-
-def _keeps(comparison: Comparison, which: SideName, given: Assumption, context: object) -> bool:
-    from sleec_runtime.evaluation.formula_truth import holds
-    from sleec_runtime.model import Context
-
-    assert isinstance(context, Context)
-    formula: Formula = given.formula if given.stated is None else given.stated
-    measures = comparison.measures if given.stated is None else comparison.sides[which].stated.measures
-    values = {name: comparison.sides[which].scales[name] for name in comparison.sides[which].scales}
-    if any(context.conditions.get(name, of[0]) not in of for name, of in values.items()):
-        return False
-    return holds(formula, context, measures)
 
 
 def _fractions(comparison: Comparison) -> Iterator[SituationChange]:

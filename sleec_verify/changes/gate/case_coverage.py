@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from sleec_runtime.errors import SleecError, UnsupportedTimes
-from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import Ruleset
 from sleec_verify.changes.gate.result import Coverage
+from sleec_verify.conformance.cases.coverage import reached_clauses
 from sleec_verify.conformance.cases.goals import clause_name
 from sleec_verify.conformance.cases.reader import SUFFIX, read_cases
 
@@ -29,11 +29,6 @@ def coverage(ruleset: Ruleset, errors: list[SleecError]) -> Coverage | None:
         except SleecError as error:
             errors.append(error)
             return None
-        for case in found:
-            part = ruleset if case.domain is None else ruleset.in_domain(case.domain)
-            for rule in part.rules:
-                decision = decide(rule, case.context(), ruleset.reading, ruleset.measures)
-                if decision is not None:
-                    reached.add((rule.label, decision.clause))
+        reached = reached_clauses(ruleset, found)
     missed = tuple(clause_name(rule, place[1]) for place, rule in every.items() if place not in reached)
     return Coverage(len(reached), len(every), missed)

@@ -29,10 +29,31 @@ RUNTIME_LAYERS = (
     "predicates",
 )
 """The rooms of the runtime. Each imports only rooms before it."""
+VERIFIER_LAYERS = (
+    "files",
+    "results",
+    "encoding",
+    "query",
+    "traces",
+    "games",
+    "replay",
+    "checks",
+    "entailment",
+    "exchange",
+    "certificates",
+    "conformance",
+    "changes",
+    "report",
+    "pytest_plugin",
+    "cli",
+    "__main__",
+)
+"""The rooms of the verifier. Each imports only rooms before it."""
 EVALUATOR = ("evaluation", "dispatch", "monitor", "timed", "facade")
 """The rooms of the runtime that evaluate rules directly."""
-SOLVER = ("encoding", "query", "traces", "games", "entailment", "certificates")
-"""The rooms of the verifier that answer with clauses and a solver."""
+MEETINGS = ("replay", "conformance", "pytest_plugin")
+"""The rooms of the verifier in which evaluator and solver meet: replays, and tests of robots. Elsewhere, a module
+`replay` does."""
 
 
 def imports() -> dict[str, set[str]]:
@@ -88,14 +109,18 @@ def test_the_runtime_does_not_import_the_verifier() -> None:
             assert not [one for one in imported if one.startswith("sleec_verify")], module
 
 
-def test_the_layers_of_the_runtime() -> None:
-    found = {one.partition(".")[2]: imported for one, imported in rooms().items() if one.startswith("sleec_runtime.")}
-    assert found.keys() == set(RUNTIME_LAYERS)
-    for number, layer in enumerate(RUNTIME_LAYERS):
-        assert {one.partition(".")[2] for one in found[layer]} <= set(RUNTIME_LAYERS[:number]), layer
+@pytest.mark.parametrize(("package", "layers"), [("sleec_runtime", RUNTIME_LAYERS), ("sleec_verify", VERIFIER_LAYERS)])
+def test_rooms_import_lower_rooms_only(package: str, layers: tuple[str, ...]) -> None:
+    found = {one.partition(".")[2]: imported for one, imported in rooms().items() if one.startswith(f"{package}.")}
+    assert found.keys() == set(layers)
+    for number, layer in enumerate(layers):
+        own = {one.partition(".")[2] for one in found[layer] if one.startswith(f"{package}.")}
+        assert own <= set(layers[:number]), layer
 
 
-def test_the_solver_and_the_evaluator_share_only_the_model() -> None:
-    evaluator = {f"sleec_runtime.{one}" for one in EVALUATOR}
-    for name in SOLVER:
-        assert not rooms()[f"sleec_verify.{name}"] & evaluator, name
+def test_the_evaluator_and_the_solver_meet_only_in_replays_and_tests_of_robots() -> None:
+    evaluator = tuple(f"sleec_runtime.{one}" for one in EVALUATOR)
+    meetings = tuple(f"sleec_verify.{one}" for one in MEETINGS)
+    for module, imported in IMPORTS.items():
+        if module.startswith("sleec_verify") and not (module.startswith(meetings) or module.endswith(".replay")):
+            assert not [one for one in imported if one.startswith(evaluator)], module
