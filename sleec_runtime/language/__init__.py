@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from sleec_runtime.language.common.formula_printer import print_formula
 from sleec_runtime.language.common.source import read_source, tidy
 from sleec_runtime.language.english.parser import parse_english
-from sleec_runtime.language.english.printer import print_rule, print_ruleset
+from sleec_runtime.language.english.printer import print_english, print_rule
 from sleec_runtime.model import Ruleset, Source
 
 if TYPE_CHECKING:
@@ -52,3 +52,16 @@ def parse_source(source: Source) -> Ruleset:
 
         return parse_dsl(source)
     return parse_english(source)
+
+
+def print_ruleset(ruleset: Ruleset) -> str:
+    """`ruleset` as a text in its own syntax, with its comments, ending in a line break (or empty).
+
+    Raises:
+        Unsayable: that syntax cannot express something in it.
+    """
+    if ruleset.syntax == "dsl":
+        from sleec_runtime.language.dsl.printer import print_dsl
+
+        return print_dsl(ruleset)
+    return print_english(ruleset)

@@ -27,16 +27,8 @@ from sleec_runtime.model import (
 )
 
 
-def print_ruleset(ruleset: Ruleset) -> str:
-    """`ruleset` as a text in its own syntax, with its comments, ending in a line break (or empty).
-
-    Raises:
-        Unsayable: that syntax cannot express something in it.
-    """
-    if ruleset.syntax == "dsl":
-        from sleec_runtime.language.dsl.printer import print_dsl
-
-        return print_dsl(ruleset)
+def print_english(ruleset: Ruleset) -> str:
+    """`ruleset` as a text in structured English, with its comments, ending in a line break (or empty)."""
     return "".join(f"{line}\n" for line in _Printer(comments=True).ruleset(ruleset))
 
 
