@@ -1,6 +1,6 @@
-"""What a robot carries: reads SLEEC rules, decides which clause of each is active, and runs the right code.
+"""The runtime on a robot: it reads SLEEC rules, decides which clause of each rule is active, and runs its code.
 
-``load`` gives a ruleset at work; see docs/runtime.md. Everything here is imported when it is first used.
+`load` is the entry point; see docs/runtime.md. All names are imported when they are first used.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 # The version of both distributions.
 __version__ = "0.1.0"
 
-# As `typing` has it; importing that would take longer than the rest.
+# As in `typing`, whose import would take longer than the rest.
 TYPE_CHECKING = False
 
 if TYPE_CHECKING:
@@ -80,17 +80,18 @@ def load(
     require_proved: bool = False,
     require_tied: bool = False,
 ) -> Sleec:
-    """Reads the rules of a file and sets them to work.
+    """Reads the rules of a file, and puts them in force.
 
-    `domain` leaves out the rules of other domains. `reading`, ``cascade`` or ``priority``, goes before the file's own.
-    `strict` makes a decision that depends on unreported conditions an error; without it they count as false, as
-    Definition 1 of the paper has it. `clock`, `chains`, `on_error` and `strict_times` are for rules with times: see
-    `Sleec`. `certificate` is the folder of one that must prove that these rules are free of conflict as they are used
-    here: in this reading and domain, with or without `chains`. With `key`, the file of a public key, it must be signed;
-    with `require_proved` or `require_tied`, it must have been made with `--require-proved` or `--require-tied`
+    `domain` leaves out the rules of other domains. `reading`, ``cascade`` or ``priority``, overrides that of the file.
+    In `strict` mode, a decision that depends on unreported conditions raises an error; otherwise they are false
+    (Definition 1 of the paper). `clock`, `chains`, `on_error` and `strict_times` are for rules with times: see `Sleec`.
+
+    `certificate` is the folder of a certificate, which must prove these rules free of conflict in this reading and
+    domain, with or without `chains`. With `key`, the file of a public key, it must be signed with it. With
+    `require_proved` or `require_tied`, it must be made with `--require-proved` or `--require-tied`
     (docs/certificates.md).
 
-    Raises UnreadableFile, LanguageError and UnknownDomain, UnsupportedTimes with `strict_times`, and CertificateRefused
+    Raises UnreadableFile, LanguageError and UnknownDomain; UnsupportedTimes with `strict_times`; CertificateRefused
     with `certificate`.
     """
     from sleec_runtime import language

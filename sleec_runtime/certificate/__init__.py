@@ -1,1 +1,1 @@
-"""Certificates on the robot: reading a manifest, and whether it covers the use at hand (docs/certificates.md)."""
+"""Certificates on the robot: manifests, signatures, and whether they cover the use of rules (docs/certificates.md)."""

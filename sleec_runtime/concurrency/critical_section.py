@@ -40,7 +40,7 @@ class CriticalSection:
                 self._changing = False
 
     def refuse_reentry(self) -> None:
-        """Raises Reentrant within a change of this thread."""
+        """Raises Reentrant within a change by this thread."""
         with self._lock:
             if self._changing:
                 raise Reentrant

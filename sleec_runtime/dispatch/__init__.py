@@ -1,1 +1,1 @@
-"""Dispatch: from a trigger to one snapshot of the context, to layers, to the variants that run (docs/runtime.md)."""
+"""Dispatch: from a trigger to a snapshot of the context, to layers, and to the variants that run (docs/runtime.md)."""

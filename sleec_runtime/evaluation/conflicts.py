@@ -94,7 +94,7 @@ def _opposed(literals: Sequence[Obligation]) -> str | None:
 
 
 def _possible(literals: Iterable[Obligation], constraints: Sequence[Forbidding], situation: Situation) -> bool:
-    """Whether some choice of the obligations that are not due satisfies every constraint."""
+    """Whether some choice of the other obligations satisfies every constraint."""
     fixed = {literal.name: not literal.negated for literal in literals}
     by_never = {name for c in constraints if isinstance(c, Never) for name in mentioned(c)}
     for constraint in constraints:

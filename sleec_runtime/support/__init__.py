@@ -1,1 +1,1 @@
-"""Support: files, messages, forks and critical sections. Nothing here knows of rules."""
+"""Support: files, messages, places in a text, and suggestions. Nothing here depends on rules."""

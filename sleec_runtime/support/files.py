@@ -1,7 +1,7 @@
-"""Reading regular files, with a limit on their size.
+"""Reading of regular files, with a limit on their size.
 
-Every file that a user names is read here, so that no command waits for ever on a pipe or a device, and none runs out of
-memory on a file that is no ruleset.
+All files that users name are read here, so that no command waits forever on a pipe or a device, or runs out of memory
+on a huge file.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _max_size: ContextVar[int] = ContextVar("max_size", default=DEFAULT_MAX_SIZE)
 
 @contextmanager
 def size_limit(max_size: int) -> Iterator[None]:
-    """Within it, `read_file` and `read_stream` accept up to `max_size` bytes."""
+    """Within the block, `read_file` and `read_stream` accept up to `max_size` bytes."""
     token = _max_size.set(max_size)
     try:
         yield
@@ -39,7 +39,7 @@ def read_file(path: str | Path) -> bytes:
     """The content of a regular file.
 
     Raises:
-        OSError: it cannot be read, is not a regular file, or is larger than the limit. `strerror` says which.
+        OSError: the file cannot be read, is not a regular file, or is larger than the limit. `strerror` says which.
         ValueError: `path` holds a NUL character.
     """
     with open(path, "rb", opener=_open_without_waiting) as file:
@@ -50,14 +50,14 @@ def read_file(path: str | Path) -> bytes:
 
 
 def read_stream(stream: BinaryIO) -> bytes:
-    """All that is left of a stream, such as standard input.
+    """The rest of a stream, such as standard input.
 
     Raises:
-        OSError: it cannot be read, or holds more than the limit.
+        OSError: the stream cannot be read, or is larger than the limit.
     """
     limit = _max_size.get()
     data = bytearray()
-    # `read(n)` reserves n bytes at once, which a large limit may not leave free.
+    # `read(n)` reserves n bytes at once, which may fail for a large limit.
     while len(data) <= limit and (chunk := stream.read(min(_CHUNK, limit + 1 - len(data)))):
         data += chunk
     check_size(len(data))
@@ -65,7 +65,7 @@ def read_stream(stream: BinaryIO) -> bytes:
 
 
 def check_size(size: int) -> None:
-    """Refuse a content of more bytes than the limit.
+    """Raises an error for a content of more bytes than the limit.
 
     Raises:
         OSError: with the limit.
@@ -76,7 +76,7 @@ def check_size(size: int) -> None:
 
 
 def _open_without_waiting(path: str, flags: int) -> int:
-    # To open a pipe for reading waits for a writer.
+    # Without this flag, opening a pipe for reading waits for a writer.
     return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 

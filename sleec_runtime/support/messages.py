@@ -1,4 +1,4 @@
-"""Text for messages, whatever the values are that it speaks of: of bounded length, and without control characters."""
+"""Text for messages: of bounded length, and without control characters, for any values."""
 
 from __future__ import annotations
 
@@ -6,29 +6,29 @@ from collections.abc import Iterable
 from reprlib import Repr
 
 LONGEST = 2_000
-"""The most characters of a message, and of a hint."""
+"""The maximal length of a message, and of a hint, in characters."""
 
 SHOWN = 5
-"""How many items of a list a message names."""
+"""The number of items of a list that a message names."""
 
 _JOINERS = "\u200c\u200d"
 """Zero-width characters that spell words of several languages."""
 
 
 def bounded(text: str, longest: int = LONGEST) -> str:
-    """`text`, cut in its middle to `longest` characters."""
+    """`text`, shortened in the middle to `longest` characters."""
     return text if len(text) <= longest else f"{text[: longest - 501]}…{text[-500:]}"
 
 
 def listed(items: Iterable[str], separator: str = ", ") -> str:
-    """The first items, and how many more there are."""
+    """The first items, and the number of the others."""
     items = tuple(items)
     more = f" and {len(items) - SHOWN:,} more" if len(items) > SHOWN else ""
     return separator.join(items[:SHOWN]) + more
 
 
 def represent(value: object) -> str:
-    """`repr(value)` of bounded length. Where that fails, or takes long because of the digits of a number, the type."""
+    """`repr(value)` of bounded length; the type if `repr` fails, or is slow because of a long number."""
     try:
         return _SHORT.repr(value)
     except Exception:  # noqa: BLE001 - the repr of a user's object
@@ -36,7 +36,7 @@ def represent(value: object) -> str:
 
 
 def text_of(value: object) -> str:
-    """`str(value)` of bounded length. Where that fails, the type."""
+    """`str(value)` of bounded length; the type if `str` fails."""
     try:
         return bounded(str(value))
     except Exception:  # noqa: BLE001 - the str of a user's object
@@ -44,8 +44,9 @@ def text_of(value: object) -> str:
 
 
 def escaped(text: str, keep: str = "") -> str:
-    r"""`text` with escapes such as ``\n``, ``\x1b`` and ``\u202e`` for what is not printable, except what is in `keep`:
-    control characters, line separators, bidirectional and other invisible controls, and lone surrogates."""
+    r"""`text` with escapes such as ``\n``, ``\x1b`` and ``\u202e`` for characters that are not printable: control
+    characters, line separators, bidirectional and other invisible controls, and lone surrogates. Those in `keep`
+    stay."""
     if text.isprintable():
         return text
     from unicodedata import category

@@ -1,1 +1,1 @@
-"""Rules with times at work: clocks, what is pending, and what the clock starts. Imported by rulesets that need it."""
+"""Rules with times: clocks, pending obligations, and timer events. Only rulesets with times import this room."""

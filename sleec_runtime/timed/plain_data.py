@@ -1,4 +1,4 @@
-"""Values as plain data that JSON can carry, and back, without loss."""
+"""Conversion of values to plain data for JSON, and back, without loss."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Number = Union[int, float, str]
 
 
 def is_plain(value: object, depth: int = _DEEPEST) -> bool:
-    """Whether `value` is the same after it has been written as JSON and read again. Tuples and subclasses are not."""
+    """Whether `value` is unchanged after it is written as JSON and read again. Tuples and subclasses are not."""
     kind = type(value)
     if kind is int or kind is float:
         return _is_number(value)
@@ -31,21 +31,21 @@ def is_plain(value: object, depth: int = _DEEPEST) -> bool:
 
 
 def copied(value: Any) -> Any:
-    """A copy of plain data, which later changes of `value` do not reach."""
+    """A deep copy of plain data."""
     if type(value) is list:
         return [copied(one) for one in value]
     return {key: copied(one) for key, one in value.items()} if type(value) is dict else value
 
 
 def number_to_plain(number: Time) -> Number:
-    """A number, as a text "1/3" if it is a fraction."""
+    """A number as plain data: a fraction becomes a text such as "1/3"."""
     if isinstance(number, (int, float)):
         return number
     return f"{number.numerator}/{number.denominator}"
 
 
 def number_from_plain(value: object) -> Time | None:
-    """The number that `number_to_plain` wrote; None if `value` is not one."""
+    """The inverse of `number_to_plain`; None if `value` is not its result."""
     if type(value) is str and _FRACTION.fullmatch(value):
         from fractions import Fraction
 

@@ -10,13 +10,13 @@ from sleec_runtime.timed.task import Task
 
 
 def duration_in_words(length: Time, more: str = "") -> str:
-    """A length of time, as "3.2 seconds", to the millisecond. `more` goes before the unit, as in "3.2 more seconds"."""
+    """A length of time to the millisecond, such as "3.2 seconds". `more` is put before the unit: "3.2 more seconds"."""
     number = f"{max(float(length), 0.001):,.3f}".rstrip("0").rstrip(".")
     return f"{number} {more}second{'' if number == '1' else 's'}"
 
 
 def window_in_words(task: Task, now: Time) -> str:
-    """When the window of `task` opens and closes, as seen at `now`."""
+    """When the window of `task` opens and closes, relative to `now`."""
     opens = f"opens in {duration_in_words(task.first - now)}, " if now < task.first else ""
     if task.last is None:
         return f"{opens}never closes"
@@ -26,7 +26,7 @@ def window_in_words(task: Task, now: Time) -> str:
 
 
 def prohibitions_in_words(prohibitions: Iterable[Task], now: Time) -> str:
-    """Which rules forbid it, and for how long from `now` on."""
+    """The rules that forbid something, each with the remaining time from `now` on."""
     return listed(
         [f"rule `{task.origin.rule.label}` forbids it {_for_how_long(task, now)}" for task in prohibitions], " and "
     )
