@@ -30,9 +30,10 @@ def plan(snapshot: Snapshot, triggers: tuple[str, ...], instance: Instance) -> P
 
 
 def run(plan: Plan, args: Args, kwargs: Kwargs) -> list[object]:
-    """Runs the variants of a plan in order, and returns their results. Raises their errors after all have run."""
-    plan.refuse_misfits(args, kwargs)
-    plan.refuse_coroutines()
+    """Runs the variants of a plan in order, and returns their results. Raises their errors after all have run.
+
+    To be called after `Plan.refuse_misfits` and `Plan.refuse_coroutines`.
+    """
     results, errors = run_all(plan.variants, args, kwargs)
     for result in results:
         if type(result) is CoroutineType or type(result) is Unfinished:
@@ -47,7 +48,6 @@ def run(plan: Plan, args: Args, kwargs: Kwargs) -> list[object]:
 
 async def run_async(plan: Plan, args: Args, kwargs: Kwargs) -> list[object]:
     """Runs the variants of a plan as `run` does, and awaits coroutines."""
-    plan.refuse_misfits(args, kwargs)
     results: list[object] = []
     errors: list[tuple[str, Exception]] = []
     for variant in plan.variants:

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 State = Callable[[], tuple[Snapshot, Instance]]
 """Returns the current context and code."""
 
-_UNOBSERVED = nullcontext()
-
 
 class Dispatcher:
     """Answers the triggers of an instance. The methods are those of `Sleec`, with checked arguments.
@@ -60,7 +58,9 @@ class Dispatcher:
         ready = self.plan(snapshot, names)
         ready.refuse_misfits(args, kwargs)
         ready.refuse_coroutines()
-        with _UNOBSERVED if monitor is None else monitor.observe(names, snapshot):
+        if monitor is None:
+            return Done(ready, snapshot, run(ready, args, kwargs))
+        with monitor.observe(names, snapshot):
             return Done(ready, snapshot, run(ready, args, kwargs))
 
     async def trigger_async(
@@ -68,7 +68,7 @@ class Dispatcher:
     ) -> Done:
         ready = self.plan(snapshot, names)
         ready.refuse_misfits(args, kwargs)
-        with _UNOBSERVED if monitor is None else monitor.observe(names, snapshot):
+        with nullcontext() if monitor is None else monitor.observe(names, snapshot):
             return Done(ready, snapshot, await run_async(ready, args, kwargs))
 
     def due(self, snapshot: Snapshot, names: tuple[str, ...]) -> Due:

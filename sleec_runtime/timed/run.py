@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from types import CoroutineType
 
 from sleec_runtime.dispatch.plan import Plan
@@ -63,7 +62,7 @@ class Run:
 
         An exception that is not an `Exception`, such as SystemExit, interrupts the run, unless it is `unattended`.
         """
-        with self._interruptible():
+        try:
             for unit in self._units():
                 variant = self._begin(unit)
                 result: object = None
@@ -82,10 +81,13 @@ class Run:
                         "await trigger_async(…) instead; what the clock starts needs an AsyncioClock",
                     )
                 self._ended(unit, variant, result, error)
+        except BaseException:
+            self._abandon()
+            raise
 
     async def go_async(self, unattended: bool = False) -> None:
         """Runs all units as `go` does, and awaits coroutines. A cancellation interrupts the run."""
-        with self._interruptible():
+        try:
             for unit in self._units():
                 variant = self._begin(unit)
                 result: object = None
@@ -97,17 +99,15 @@ class Run:
                         raise
                     error = raised
                 self._ended(unit, variant, result, error)
-
-    @contextmanager
-    def _interruptible(self) -> Iterator[None]:
-        """Withdraws the stages whose events no longer happen if the block is interrupted."""
-        try:
-            yield
         except BaseException:
-            for stage in self._stages:
-                if stage.event is not None and stage.event not in self._happened:
-                    self._progress.withdraw(stage.tasks)
+            self._abandon()
             raise
+
+    def _abandon(self) -> None:
+        """The run is interrupted: withdraws the stages whose events no longer happen."""
+        for stage in self._stages:
+            if stage.event is not None and stage.event not in self._happened:
+                self._progress.withdraw(stage.tasks)
 
     def _units(self) -> Iterator[Unit]:
         """The units to run, in order."""
