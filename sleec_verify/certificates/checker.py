@@ -36,7 +36,7 @@ def _in_python(formula: bytes, proof: bytes) -> str | None:
     except lrat.InvalidProof as refusal:
         return refusal.message
     except UnicodeDecodeError:
-        return "the file is not in its format"
+        return "the file has an invalid format"
     return None
 
 
@@ -53,7 +53,7 @@ def checker(path: str | None = None) -> Checker:
             return IN_PYTHON
         path = str(BUILT)
     elif not (os.path.isfile(path) and os.access(path, os.X_OK)):
-        raise SleecError(f"{path} is not a program", "make -C proofs/checker builds one: proofs/checker/check-lrat")
+        raise SleecError(f"{path} is not a program", "build one with make -C proofs/checker: proofs/checker/check-lrat")
     program = os.path.abspath(path)
     proved = os.path.realpath(path) == os.path.realpath(BUILT)
     return Checker(path, proved, lambda formula, proof: judge_by_program(program, formula, proof))
@@ -81,4 +81,4 @@ def judge_by_program(program: str, formula: bytes, proof: bytes) -> str | None:
     if done.returncode == 0 and done.stdout == "VERIFIED\n":
         return None
     _, _, reason = done.stdout.strip().partition(": ")
-    return reason or f"the checker ended with {done.returncode} and no verdict"
+    return reason or f"the checker exited with {done.returncode} and without a verdict"

@@ -74,13 +74,15 @@ def check_certificate(
     examined = _Examined(read, claimed, Path(folder), judge)
     problems = [*examined.files(), *examined.contents(progress)]
     if (required.proved or claimed.required.proved) and not judge.proved:
-        problems.append(Problem("not-proved", f"the proofs are judged by {judge.name}, which is not proved correct"))
+        problems.append(Problem("not-proved", f"the proofs are checked by {judge.name}, which is not proved correct"))
     tied: list[VerdictBinding] = []
     for one in () if problems else tie(examined.shown, read, claimed.domain, oracle, claimed.chains):
         if isinstance(one, UnboundVerdict):
             problems.append(Problem("theory", str(one)))
         elif not one.proved and (required.tied or claimed.required.tied):
-            problems.append(Problem("not-tied", f"the verdict of {one.check} is not tied to the rules: {one.reason}"))
+            problems.append(
+                Problem("not-tied", f"the verdict of {one.check} is not proved for the rules: {one.reason}")
+            )
         else:
             tied.append(one)
     if problems:
@@ -96,9 +98,9 @@ def _check_use(ruleset: Ruleset, claimed: Manifest, use: Use) -> None:
     problems = [Problem(one.reason, one.message) for one in not_covered]
     if not problems or problems[0].reason != "ruleset-changed":
         if claimed.domain is not None and claimed.domain not in ruleset.domains:
-            problems.append(Problem("manifest", f"the {MANIFEST} names a domain that the rules do not have"))
+            problems.append(Problem("manifest", f"{MANIFEST} names a domain that the rules do not have"))
         if (claimed.untimed is None) == speaks_of_traces(ruleset):
-            problems.append(Problem("manifest", f"the {MANIFEST} does not say what a response without a window means"))
+            problems.append(Problem("manifest", f"{MANIFEST} does not define what a response without a window means"))
     if problems:
         raise CertificateRefused(problems, not_covered[0].hint if not_covered else None)
 
@@ -106,10 +108,10 @@ def _check_use(ruleset: Ruleset, claimed: Manifest, use: Use) -> None:
 def _hint(claimed: Manifest, problems: Sequence[Problem]) -> str | None:
     version = claimed.whole["tool"]["version"]
     if version != __version__:
-        return f"it was made by version {version}, and this is {__version__}; certify the rules again with this one"
+        return f"version {version} wrote it, and this is version {__version__}; certify the rules again"
     built = {"not-proved": "make -C proofs/checker", "not-tied": "make proofs"}
     needed = [command for reason, command in built.items() if any(one.reason == reason for one in problems)]
-    return f"`{'` and `'.join(needed)}`, in a copy of the sources, builds what is required" if needed else None
+    return f"`{'` and `'.join(needed)}`, in a checkout of the sources, builds what is missing" if needed else None
 
 
 class _Examined:
@@ -133,7 +135,7 @@ class _Examined:
             yield Problem("file-missing", f"the files in {self._folder} cannot be listed: {error.strerror}")
             return
         for name in sorted(there - {MANIFEST, SIGNATURE, *self._claimed.files}):
-            yield Problem("file-added", f"{name} is not in the {MANIFEST}")
+            yield Problem("file-added", f"{name} is not in {MANIFEST}")
 
     def _read(self, name: str) -> bytes | Problem:
         """What is in a file, which is read only once: what is compared is what is judged."""
@@ -156,7 +158,7 @@ class _Examined:
             yield from self._formulas(rebuilt)
             entry = said.get(one.result.name)
             if entry is None:
-                yield Problem("verdict", f"the {MANIFEST} has no verdict of the check {one.result.name}")
+                yield Problem("verdict", f"{MANIFEST} has no verdict of the check {one.result.name}")
             else:
                 yield from self._entry(one, entry)
         digests = {name: claimed.files.get(name, "") for one in self.shown for name in one.files}
@@ -164,9 +166,9 @@ class _Examined:
         expected = manifest(ruleset, *use, claimed.required, self.shown, digests)
         for key in expected:
             if key not in ("checks", "tool") and not same(expected[key], claimed.whole[key]):
-                yield Problem("manifest", f"what the {MANIFEST} says under {key!r} is not what the rules give")
+                yield Problem("manifest", f"the value of {key!r} in {MANIFEST} does not match the rules")
         if list(said) != [one.result.name for one in self.shown if one.result.name in said]:
-            yield Problem("manifest", f"the {MANIFEST} has checks that there are not, or in another order")
+            yield Problem("manifest", f"{MANIFEST} has unknown checks, or checks in another order")
 
     def _formulas(self, rebuilt: CheckEvidence) -> Iterator[Problem]:
         for name in rebuilt.formulas:
@@ -182,11 +184,11 @@ class _Examined:
                 else:
                     data.append(found)
                     if sha256(found).hexdigest() != self._claimed.files[file]:
-                        yield Problem("file-changed", f"{file} has other bytes than the {MANIFEST} says")
+                        yield Problem("file-changed", f"the hash of {file} does not match {MANIFEST}")
             if len(data) < 2:
                 continue
             if data[0] != rebuilt.dimacs(name).encode():
-                yield Problem("clauses", f"{formula} is not the formula that the rules give")
+                yield Problem("clauses", f"{formula} is not the formula of the rules")
             else:
                 reason = self._judge.refuses(*data)
                 if reason is not None:
@@ -199,18 +201,21 @@ class _Examined:
         expected: Mapping[str, Any] = check_json(one, self._ruleset)
         if entry["verdict"] != expected["verdict"]:
             yield Problem(
-                "verdict", f"the check {name} is {expected['verdict']}, and the {MANIFEST} says {entry['verdict']}"
+                "verdict",
+                f"the verdict of the check {name} is {expected['verdict']}, but {MANIFEST} says {entry['verdict']}",
             )
             return
         found, claims = expected["findings"], entry["findings"]
         if not same([_but_witness(c) for c in claims], [_but_witness(f) for f in found]):
-            yield Problem("findings", f"the findings of the check {name} are not those that the rules give")
+            yield Problem("findings", f"the findings of the check {name} do not match the rules")
         else:
             for finding, computed, claim in zip(one.result.findings, found, claims):
                 if not self._replay.shows(finding, computed, claim):
-                    yield Problem("witness", f"a witness of the check {name} does not show it: {finding.message}")
+                    yield Problem(
+                        "witness", f"a witness of the check {name} does not show the finding: {finding.message}"
+                    )
         if not same({**entry, "findings": None}, {**expected, "findings": None}):
-            yield Problem("manifest", f"what the {MANIFEST} says of the check {name} is not what the rules give")
+            yield Problem("manifest", f"the entry of the check {name} in {MANIFEST} does not match the rules")
 
 
 def _but_witness(finding: Mapping[str, Any]) -> Mapping[str, Any]:

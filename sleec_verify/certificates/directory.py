@@ -25,7 +25,7 @@ def check_free(folder: str, force: bool) -> None:
     if not os.path.lexists(path):
         return
     if path.is_symlink() or not path.is_dir():
-        raise FolderExists(f"{folder} exists and is no folder", "choose another name")
+        raise FolderExists(f"{folder} exists and is not a folder", "choose another name")
     try:
         names = set(os.listdir(path))
     except OSError as error:
@@ -37,9 +37,12 @@ def check_free(folder: str, force: bool) -> None:
     except CertificateRefused:
         ours = set()
     if not names <= ours:
-        raise FolderExists(f"{folder} exists and holds what no certificate has", "choose another folder, or a new one")
+        raise FolderExists(
+            f"{folder} exists and contains files that are not part of a certificate",
+            "choose another folder, or a new one",
+        )
     if not force:
-        raise FolderExists(f"{folder} holds a certificate already", "certify with --force to replace it")
+        raise FolderExists(f"{folder} already contains a certificate", "use --force to overwrite it")
 
 
 def write_folder(

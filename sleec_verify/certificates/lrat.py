@@ -13,7 +13,7 @@ from time import monotonic
 
 from sleec_runtime.errors import SleecError
 
-LATE = "it was not judged within {:g} s"
+LATE = "it was not checked within {:g} s"
 
 _NUMBER = re.compile(r"-?[0-9]{1,17}")
 
@@ -80,7 +80,7 @@ def _clauses(text: str) -> list[list[int]]:
     for line, words in _rows(text):
         if words[0] == "p":
             if header is not None or len(words) != 4 or words[1] != "cnf":
-                raise InvalidProof(f'line {line} of the formula is not the one header "p cnf variables clauses"')
+                raise InvalidProof(f'line {line} of the formula is not the header "p cnf variables clauses"')
             header = _numbers(words[2:], line, "formula")
             continue
         if header is None:
@@ -89,10 +89,10 @@ def _clauses(text: str) -> list[list[int]]:
         if row.count(0) != 1 or row[-1] != 0:
             raise InvalidProof(f"line {line} of the formula is not one clause that ends in 0")
         if any(abs(literal) > header[0] for literal in row):
-            raise InvalidProof(f"line {line} of the formula has a variable that the header does not count")
+            raise InvalidProof(f"line {line} of the formula has a variable beyond the number in the header")
         found.append(row[:-1])
     if header is None or header[1] != len(found):
-        raise InvalidProof("the formula does not have the clauses that its header counts")
+        raise InvalidProof("the number of clauses differs from the header of the formula")
     return found
 
 
@@ -103,8 +103,8 @@ def _steps(text: str) -> Iterator[tuple[int, list[int] | None, list[int]]]:
         row = _numbers(words[:1] + words[2:] if forgets else words, line, "proof")
         zeros = [place for place, number in enumerate(row) if number == 0]
         if len(zeros) != (1 if forgets else 2) or zeros[-1] != len(row) - 1 or row[0] <= 0:
-            raise InvalidProof(f"line {line} of the proof is not a whole step")
+            raise InvalidProof(f"line {line} of the proof is not a complete step")
         hints = row[1 if forgets else zeros[0] + 1 : -1]
         if any(hint < 0 for hint in hints):
-            raise InvalidProof(f"line {line} of the proof is a RAT step, which this checker does not know")
+            raise InvalidProof(f"line {line} of the proof is a RAT step, which this checker does not support")
         yield row[0], None if forgets else row[1 : zeros[0]], hints

@@ -23,8 +23,8 @@ def sign(data: bytes, key: str) -> bytes:
         private = None
     if not isinstance(private, ed25519.Ed25519PrivateKey):
         raise SleecError(
-            f"{key} is not a private Ed25519 key in PEM, without a password",
-            "openssl genpkey -algorithm ed25519 -out KEY.pem makes one",
+            f"{key} is not a private Ed25519 key in PEM without a password",
+            "create one with openssl genpkey -algorithm ed25519 -out KEY.pem",
         )
     signature: bytes = private.sign(data)
     return b64encode(signature) + b"\n"

@@ -36,7 +36,7 @@ class UnboundVerdict(Exception):
     """The verdict of `check` is not what is proved of the rules."""
 
     def __init__(self, check: str, reason: str) -> None:
-        super().__init__(f"the verdict of {check} is not what is proved of the rules: {reason}")
+        super().__init__(f"the verdict of {check} is not proved for the rules: {reason}")
         self.check = check
 
 
@@ -99,7 +99,7 @@ def _in_one_domain(
         for result in results:
             check = result.name
             if check not in FOUND and isinstance(result.verdict, Refuted):
-                found[check] = VerdictBinding(check, False, "the theory does not speak of parts of conditions")
+                found[check] = VerdictBinding(check, False, "the theory does not cover parts of conditions")
                 continue
             try:
                 if check in FOUND:

@@ -53,10 +53,10 @@ def justified_by_one(pair: ContextPair, observed: Observation, running: Running,
             pair.before,
             expected[0],
             observed,
-            f"{when}, did what neither the context before calls for nor the one after",
+            f"{when}, did what neither the context before nor the context after requires",
             [
                 f"a change to: {situation_text(pair.after)}",
-                f"where this is due: {', '.join(expected[1].due) or 'nothing'}",
+                f"which requires: {', '.join(expected[1].due) or 'nothing'}",
             ],
         )
 
@@ -69,7 +69,7 @@ def _in_the_midst(running: Running, pair: ContextPair) -> None:
         nonlocal looking
         if not looking:
             looking = True
-            justified_by_one(pair, running.observe(pair.triggers), running, "in the midst of a change of context")
+            justified_by_one(pair, running.observe(pair.triggers), running, "during a change of context")
             looking = False
 
     changes = running.way_to(pair.after)
@@ -86,13 +86,11 @@ def _refused(running: Running, pair: ContextPair) -> None:
     try:
         running.subject.update({**{name: changes[name] for name in good}, bad: object()})
     except Exception:  # noqa: BLE001 - whatever it raises, it refused
-        _must_be(running, pair.before, f"after a change that was refused because of {bad}")
+        _must_be(running, pair.before, f"after a change that was rejected because of {bad}")
         return
     expected = running.oracle.expected(pair.before)
     observed = Observation(())
-    raise Nonconformance(
-        pair.before, expected, observed, f"took an object() for the value of {bad}, and did not refuse"
-    )
+    raise Nonconformance(pair.before, expected, observed, f"accepted an object() as the value of {bad}")
 
 
 def _must_be(running: Running, context: Context, when: str) -> None:

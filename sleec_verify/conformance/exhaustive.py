@@ -134,5 +134,5 @@ def _with_what_led_to_it(bench: Bench, failure: Nonconformance, previous: Contex
     if alone is not None or previous is None:
         return alone or failure
     return failure.after(
-        [situation_text(previous), "(a new instance does well in this situation: something stayed behind)"]
+        [situation_text(previous), "(a new instance passes in this situation: some state was left over)"]
     )

@@ -40,26 +40,30 @@ def difference(context: Context, expected: Expectation, observed: Observation, r
         if isinstance(error, ConflictInContext) and not executed:
             return None
         if executed:
-            return f"executed {_listed(executed)} where what is due cannot all be done"
-        return f"raised {error!r} where the rules conflict" if error else "did not refuse where the rules conflict"
+            return f"executed {_listed(executed)} although the rules contradict each other"
+        return (
+            f"raised {error!r} where the rules contradict each other"
+            if error
+            else "did not refuse although the rules contradict each other"
+        )
     forbidden = [name for name in dict.fromkeys(executed) if name in expected.prohibited]
     missing = [name for name in dict.fromkeys(expected.due) if name not in executed]
     extra = [name for name in dict.fromkeys(executed) if name not in expected.due and name not in forbidden]
     parts = [
         f"{words} {_listed(names)}"
         for words, names in (
-            ("executed, though prohibited,", forbidden),
+            ("executed, although forbidden,", forbidden),
             ("did not execute", missing),
-            ("executed, though not due,", extra),
+            ("executed, although not required,", extra),
         )
         if names
     ]
     if error is not None:
         parts.append(f"raised {type(error).__name__}: {error}")
     if not parts and sorted(executed) != sorted(expected.due):
-        parts.append("executed something more, or less, often than it was due")
+        parts.append("executed an obligation more or less often than required")
     if not parts and executed != expected.due:
-        parts.append("executed in another order than was due")
+        parts.append("executed in the wrong order")
     return "; ".join(parts) or None
 
 
@@ -77,13 +81,14 @@ def _lines(failure: Nonconformance) -> Iterator[str]:
     yield failure.what
     yield f"  situation: {situation_text(failure.context)}"
     yield f"  executed:  {_listed(failure.observed.executed)}"
-    yield f"  due:       {'a refusal, because the rules conflict' if expected.conflict else _listed(expected.due)}"
+    required = "a refusal, because the rules contradict each other" if expected.conflict else _listed(expected.due)
+    yield f"  required:  {required}"
     for active in expected.active:
         layer = f"layer {active.layer}" if active.layer else "the rule's base, no layer"
         says = " AND ".join(map(str, active.obligations)) or "nothing"
         yield f"    by rule {active.rule}, clause {active.clause}, {layer}: {says}"
     if not expected.active:
-        yield "    no rule in force speaks of it"
+        yield "    no rule requires it"
     if failure.before:
         yield "  after:"
         yield from (f"    {step}" for step in failure.before)

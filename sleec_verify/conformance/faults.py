@@ -51,12 +51,12 @@ def _provoke(running: Running, context: Context, expected: Expectation, place: i
     if not _came_out(provoked, observed.error):
         what = f"swallowed an exception of {expected.due[place]}, or raised another: {observed.error!r}"
     elif observed.executed != due:
-        what = f"when {expected.due[place]} raised, executed something else than what was still to be done"
+        what = f"after {expected.due[place]} raised, did not execute exactly the remaining obligations"
     if what is not None:
         raise Nonconformance(context, replace(expected, due=due), observed, what)
     failure = tried(running, context, expected)
     if failure is not None:
-        raise failure.after([f"the same, where {expected.due[place]} raised an exception"])
+        raise failure.after([f"the same, but {expected.due[place]} raises an exception"])
 
 
 def _came_out(provoked: InjectedFault, error: BaseException | None) -> bool:

@@ -48,7 +48,7 @@ class Oracle:
     """
 
     def __init__(self, whole: Ruleset, domain: str | None = None) -> None:
-        require_untimed(whole, "a test of what is executed")
+        require_untimed(whole, "a test of the executed obligations")
         self.whole = whole
         self.domain = domain
         self.ruleset = whole if domain is None else whole.in_domain(domain)
@@ -116,7 +116,7 @@ class _Compiled:
             return Expectation(active, (), (), True, possible)
         due = tuple(o.name for one in active for o in one.obligations if not o.negated)
         if set(due) != {o.name for o in entailed if not o.negated}:
-            raise AssertionError(f"the guards and Equation 1 disagree in {context}: a bug in sleec-verify")
+            raise AssertionError(f"the guards and Equation 1 disagree in {context}; this is a bug in sleec-verify")
         return Expectation(active, due, tuple(sorted(o.name for o in entailed if o.negated)), False, possible)
 
     def _clash(self, entailed: frozenset[Obligation], truths: Iterator[bool]) -> bool:

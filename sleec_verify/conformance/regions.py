@@ -119,7 +119,7 @@ def givens(
     """
     calculated = list(dict.fromkeys(one for formula in formulas for one in calculations_in(formula)))
     if calculated:
-        raise unsupported(calculated, "a test of every context that rules tell apart")
+        raise unsupported(calculated, "a test of every context that the rules distinguish")
     atoms = {(leaf.kind, leaf.name) for f in formulas for leaf in leaves(f) if isinstance(leaf, Atom)}
     compared = sorted({name for comparison in _comparisons(formulas) for name in measures_of(comparison)})
     none: tuple[None, ...] = (None,) if unreported else ()

@@ -48,7 +48,7 @@ def replaced(bench: Bench) -> int:
             running.observe(context.triggers)
             for now in (other, oracle):
                 put_in_force(now.whole)
-                _compare(running, context, now, "right after other rules were put in force, with no change of context")
+                _compare(running, context, now, "right after a change of the rules, without a change of context")
                 count += 1
     return count
 

@@ -86,8 +86,8 @@ class Bench:
         made = self.make()
         if not isinstance(made, Subject):
             raise NotASubject(
-                f"the factory made {_described(made)}, which takes no triggers",
-                "return the Sleec that the robot is bound to, as sleec_runtime.load gives it",
+                f"the factory returned {_described(made)}, which is not a Sleec",
+                "return the Sleec of the robot, as made by sleec_runtime.load",
             )
         return made
 

@@ -167,9 +167,9 @@ def _repeatable() -> Iterator[None]:
     except Flaky as flaky:
         for error in getattr(flaky, "exceptions", ()):
             if isinstance(error, Nonconformance):
-                raise error.after([*error.before, "(not every time: repeated, it did well)"]) from None
+                raise error.after([*error.before, "(not every time: a repetition passed)"]) from None
         raise NondeterministicSubject(
-            "the robot does not always do the same in the same situation", str(flaky)
+            "the robot does not always behave the same in the same situation", str(flaky)
         ) from None
 
 

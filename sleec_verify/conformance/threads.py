@@ -95,7 +95,7 @@ def _fought_over(running: Running, pair: ContextPair) -> None:
     finished.set()
     changer.join()
     for observed in unjustified:
-        justified_by_one(pair, observed, running, "while another thread changed the context to and fro")
+        justified_by_one(pair, observed, running, "while another thread changed the context repeatedly")
 
 
 def _all_run(threads: Sequence[threading.Thread]) -> None:

@@ -41,7 +41,7 @@ def unproved(calculations: Iterable[Calculation]) -> NotCalculated:
     """The error for an answer that must be proved and rests on what z3 says about these calculations."""
     calculations = list(calculations)
     return NotCalculated(
-        f"the answer rests on what z3 says of {named(calculations)}, which a certificate does not prove",
+        f"the answer depends on the result of z3 for {named(calculations)}, which a certificate cannot prove",
         [one.line for one in calculations],
     )
 
@@ -69,9 +69,9 @@ def values_for(
         budget = current()
         found = answer("\n".join((*sorts, *assumed)), len(formulas), None if budget is None else budget.whole)
     except ImportError:
-        raise _unknown(compared, "what {} can be is for z3, which is not installed (" + INSTALL + ")") from None
+        raise _unknown(compared, "the values of {} need z3, which is not installed (" + INSTALL + ")") from None
     if found is None:
-        raise _unknown(compared, "z3 does not decide what {} can be")
+        raise _unknown(compared, "z3 could not decide the values of {}")
     if isinstance(found, dict):
         return {name: found.get(called, 0) for name, called in names.items()}
     literals = [*(cut[3] for cut in cuts), *(order[2] for order in orders), *(one[3] for one in compared)]

@@ -117,7 +117,7 @@ def for_file(characters: int) -> Iterator[None]:
         yield
 
 
-_FILE_SPENT = "the budget for one file is spent; use --timeout SECONDS to give it more time"
+_FILE_SPENT = "the limit of steps for one file is reached; use --timeout SECONDS to allow more"
 
 
 def begin() -> None:

@@ -64,4 +64,4 @@ def refuse_unsayable_calculations(ruleset: Ruleset, language: str, hint: str) ->
     found = calculations(ruleset) + calculated_lengths(ruleset)
     if found:
         place = f"{ruleset.source.path}:{found[0].line}: " if found[0].line else ""
-        raise Unsayable(f"{place}{language} has no calculations, as `{found[0]}` is", hint)
+        raise Unsayable(f"{place}{language} has no calculations such as `{found[0]}`", hint)

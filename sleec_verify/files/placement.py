@@ -26,7 +26,7 @@ def write_whole(path: str, content: bytes) -> None:
         else:
             put_in_place(target, content)
     except OSError as error:
-        raise SleecError(f"{path} cannot be written: {error.strerror}", "nothing of it was changed") from None
+        raise SleecError(f"{path} cannot be written: {error.strerror}", "the file was not changed") from None
 
 
 def write_new(path: str, content: bytes) -> None:
@@ -48,10 +48,10 @@ def require_writable(output: str, inputs: Iterable[str]) -> None:
         click.UsageError: with what to do.
     """
     if os.path.isdir(output):
-        raise click.UsageError(f"{output} is a folder; name a file in it")
+        raise click.UsageError(f"{output} is a folder; name a file")
     folder = os.path.dirname(output) or "."
     if not os.path.isdir(folder):
-        raise click.UsageError(f"there is no folder {folder} to write {os.path.basename(output)} to")
+        raise click.UsageError(f"the folder {folder} for {os.path.basename(output)} does not exist")
     for path in inputs:
         if os.path.exists(output) and os.path.exists(path) and os.path.samefile(output, path):
-            raise click.UsageError(f"{output} is what is checked; name another file to write to")
+            raise click.UsageError(f"{output} is an input; name another file for the output")

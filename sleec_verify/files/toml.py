@@ -25,7 +25,7 @@ def read_toml(
     try:
         return parse_toml(read_file(path), shown, error, parse_float)
     except FileNotFoundError:
-        raise error(f"there is no file {shown}", "check the spelling of its name and folder") from None
+        raise error(f"there is no file {shown}", "check its name and folder") from None
     except OSError as problem:
         raise error(f"{shown} cannot be read: {problem.strerror}") from None
 

@@ -48,7 +48,7 @@ class Circuit:
         node = self._known.get((a, b))
         if node is None:
             if len(self._parts) > MOST_NODES:
-                raise Undecided(f"no answer with {MOST_NODES:,} parts of a formula")
+                raise Undecided(f"the formula would need more than {MOST_NODES:,} nodes")
             self._parts.append((a, b))
             node = self._known[a, b] = len(self._parts) - 1
         return node

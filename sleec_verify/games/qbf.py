@@ -148,7 +148,7 @@ class _Goals:
         """Values of some variables that satisfy all goals with the given values of others, or None."""
         found = self._solver.solve([variable * value for variable, value in settled.items()])
         if found is None:
-            raise Undecided("the solver gave up after its budget of conflicts")
+            raise Undecided("the solver reached its limit of conflicts")
         if not found:
             return None
         return {variable: 1 if self._solver.holds(variable) else -1 for variable in variables}

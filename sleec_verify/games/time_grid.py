@@ -42,7 +42,7 @@ class TimeGrid:
         self.times = [time + unit * part // fine for time in self.wholes for part in range(fine)]
         if len(self.times) > MOST_SLOTS:
             raise Undecided(
-                f"windows of lengths from {found[0]:,} to {found[-1]:,} seconds have more than {MOST_SLOTS} distinct "
+                f"windows with lengths from {found[0]:,} to {found[-1]:,} seconds have more than {MOST_SLOTS} distinct "
                 f"times with up to {instants} instants"
             )
 

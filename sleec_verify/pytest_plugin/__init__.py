@@ -29,22 +29,26 @@ _SENT = "sleec_coverage"
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("sleec", "SLEEC rules")
-    group.addoption("--sleec-ruleset", metavar="FILE", help="The ruleset that the target and the fixtures are about.")
+    group.addoption("--sleec-ruleset", metavar="FILE", help="The ruleset of the target and the fixtures.")
     group.addoption(
         "--sleec-target",
         metavar="MODULE:NAME",
-        help="What makes the robot to test, a function that returns its Sleec; also file.py:name.",
+        help="The function that returns the Sleec of the robot to test: module:function or file.py:name.",
     )
-    group.addoption("--sleec-cov", action="store_true", help="Tell which clauses the tests made active.")
-    group.addoption("--sleec-cov-mcdc", action="store_true", help="Tell also which conditions they showed to decide.")
+    group.addoption("--sleec-cov", action="store_true", help="Report which clauses the tests activate.")
     group.addoption(
-        "--sleec-cov-fail-under", metavar="PERCENT", help="Fail if less than this of the goals is reached, 0 to 100."
+        "--sleec-cov-mcdc", action="store_true", help="Also report which conditions the tests show to decide (MC/DC)."
     )
-    parser.addini("sleec_ruleset", "As --sleec-ruleset, from the root folder.", default="")
-    parser.addini("sleec_target", "As --sleec-target, from the root folder.", default="")
-    parser.addini("sleec_domain", "Test the rules of this domain only.", default="")
-    parser.addini("sleec_reading", "Read chains of hedges so, whatever the files say.", default="")
-    parser.addini("sleec_fail_level", "A check fails with findings as grave as this.", default="error")
+    group.addoption(
+        "--sleec-cov-fail-under",
+        metavar="PERCENT",
+        help="Fail if less than this percentage of the goals is covered (0 to 100).",
+    )
+    parser.addini("sleec_ruleset", "Like --sleec-ruleset, relative to the root folder.", default="")
+    parser.addini("sleec_target", "Like --sleec-target, relative to the root folder.", default="")
+    parser.addini("sleec_domain", "Test only the rules of this domain.", default="")
+    parser.addini("sleec_reading", "The reading of several exceptions, whatever the files say.", default="")
+    parser.addini("sleec_fail_level", "A check fails if it has findings of at least this severity.", default="error")
     parser.addini("sleec_cov", "As --sleec-cov.", type="bool", default=False)
     parser.addini("sleec_cov_mcdc", "As --sleec-cov-mcdc.", type="bool", default=False)
     parser.addini("sleec_cov_fail_under", "As --sleec-cov-fail-under.", default="")
@@ -114,7 +118,7 @@ def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> Non
             terminalreporter.write_line(line)
     least = _fail_under(config)
     if least is not None and not found:
-        terminalreporter.write_line(f"FAIL: {least:g} % of all goals is asked for, and there are none", red=True)
+        terminalreporter.write_line(f"FAIL: {least:g} % of all goals are required, but there are no goals", red=True)
     elif least is not None and _share(found) < least:
         terminalreporter.write_line(f"FAIL: {_share(found):.1f} % of all goals is less than {least:g} %", red=True)
 
@@ -130,7 +134,7 @@ def sleec_ruleset(pytestconfig: pytest.Config) -> Ruleset:
     except SleecError as error:
         pytest.fail(str(error), pytrace=False)
     if found is None:
-        pytest.fail("there is no ruleset: say --sleec-ruleset FILE, or set sleec_ruleset", pytrace=False)
+        pytest.fail("no ruleset: use --sleec-ruleset FILE, or set sleec_ruleset", pytrace=False)
     return found
 
 
@@ -167,7 +171,7 @@ def _fail_under(config: pytest.Config) -> float | None:
     except ValueError:
         percent = math.nan
     if not 0 <= percent <= 100:
-        raise pytest.UsageError(f"sleec_cov_fail_under is {written!r}, and no number from 0 to 100")
+        raise pytest.UsageError(f"sleec_cov_fail_under is {written!r}, not a number from 0 to 100")
     return percent
 
 

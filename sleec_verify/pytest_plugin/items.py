@@ -99,7 +99,7 @@ class RuleItem(_Item):
 
     def runtest(self) -> None:
         if self.target is None and self.ruleset.is_timed and any(constructs(self.ruleset)):
-            pytest.skip("rules with time are not tested one by one; the checks are about all courses of events")
+            pytest.skip("rules with time have no tests for single rules; use the checks")
         with not_counted():
             for bench in self._benches():
                 each_rule(bench, frozenset({self.rule.label}))
@@ -144,10 +144,10 @@ class CaseItem(_Item):
         expected = bench.oracle().expected(context)
         where = situation_text(context)
         if not expected.possible:
-            raise CaseFailure(f"{where}: this situation breaks an ASSUME, so nothing is said of it")
+            raise CaseFailure(f"{where}: this situation is excluded by an ASSUME, so the rules say nothing about it")
         if expected.conflict != case.conflict:
-            found = "the rules conflict" if expected.conflict else "the rules do not conflict"
-            raise CaseFailure(f"{where}: {found}, and the case says otherwise")
+            found = "the rules contradict each other" if expected.conflict else "the rules do not contradict each other"
+            raise CaseFailure(f"{where}: {found}, but the case expects the opposite")
         self._same(where, "obligations", case.obligations, expected.due)
         if case.prohibitions is not None:
             self._same(where, "prohibitions", case.prohibitions, expected.prohibited)

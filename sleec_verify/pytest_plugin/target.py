@@ -23,7 +23,7 @@ def load_target(target: str, folder: Path) -> Factory:
     """
     where, colon, attribute = target.rpartition(":")
     if not colon or not where or not attribute:
-        raise TargetError(f"the target {target!r} names nothing", "write module:function, or file.py:function")
+        raise TargetError(f"the target {target!r} is invalid", "write module:function, or file.py:function")
     try:
         found: object = _module(where, folder)
         for name in attribute.split("."):
@@ -33,8 +33,12 @@ def load_target(target: str, folder: Path) -> Factory:
     except Exception as error:  # noqa: BLE001 - a robot's module may raise anything
         raise TargetError(f"the target {target} cannot be imported: {type(error).__name__}: {error}") from None
     if not callable(found):
-        hint = "name what makes it" if isinstance(found, Subject) else "name a function that returns a Sleec"
-        raise TargetError(f"the target {target} is a {type(found).__name__}, which cannot be called", hint)
+        hint = (
+            "name the function that returns it"
+            if isinstance(found, Subject)
+            else "name a function that returns a Sleec"
+        )
+        raise TargetError(f"the target {target} is a {type(found).__name__}, not a function", hint)
     try:
         Bench(found).subject()
     except NotASubject as error:
@@ -54,7 +58,7 @@ def _module(where: str, folder: Path) -> ModuleType:
     path = folder / where
     spec = importlib.util.spec_from_file_location(path.stem, path)
     if not path.is_file() or spec is None or spec.loader is None:
-        raise TargetError(f"there is no file {path}", "name it from the folder that pytest runs in")
+        raise TargetError(f"there is no file {path}", "use a path relative to the folder in which pytest runs")
     module = importlib.util.module_from_spec(spec)
     # Classes of the module, dataclasses for one, look it up there.
     sys.modules.setdefault(path.stem, module)

@@ -87,7 +87,7 @@ class Question:
         while True:
             answer = self._solver.solve(literals)
             if answer is None:
-                raise Undecided("the solver gave up after its budget of conflicts")
+                raise Undecided("the solver reached its limit of conflicts")
             recorder, clauses = self.index.recorder, self.encoder.clauses
             if not answer:
                 if recorder is not None:

@@ -161,7 +161,7 @@ class _Rails:
         while True:
             answer = solver.solve()
             if answer is None:
-                raise Undecided("the solver gave up while looking for a smallest situation")
+                raise Undecided("the solver reached its limit in the search for a smallest situation")
             if not answer:
                 return None
             values = self.encoder.measures.decode(solver.holds)

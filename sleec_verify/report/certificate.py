@@ -1,4 +1,4 @@
-"""What people, or programs, are told of a certificate."""
+"""The output of `certify`, for people and for programs."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from sleec_verify.results.finding import Verdict
 
 SHOWN_BY = {
-    "trivial": "no question to refute, so the formula says nothing",
+    "trivial": "no question to refute",
     "witnesses": "witnesses",
-    "situations": "a situation for each, found again by --check",
-    "text": "read off the text",
-    "none": "no proof, as there is no verdict",
+    "situations": "a situation for each finding, recomputed by --check",
+    "text": "from the text of the rules",
+    "none": "no proof, because there is no verdict",
 }
 
 
@@ -54,7 +54,7 @@ def _in_words(
     judge: Checker | None,
     tied: Sequence[VerdictBinding],
 ) -> Iterator[str]:
-    made = "a certificate" if judge is None else "the certificate holds"
+    made = "a certificate" if judge is None else "valid certificate"
     yield f"{folder}: {made} of {ruleset.source.path} ({covered(manifest)})"
     widest = max(len(one.result.name) for one in shown)
     for one in shown:
@@ -90,14 +90,14 @@ def covered(manifest: Mapping[str, Any]) -> str:
 
 def _tied(tied: VerdictBinding, verdict: Verdict) -> str:
     if not tied.proved:
-        return f"{tied.check}: that the formula is that of the rules is not proved: {tied.reason}"
+        return f"{tied.check}: not proved that the formula is the one of the rules: {tied.reason}"
     if isinstance(verdict, Refuted):
         what = f"{counted(len(verdict.findings), 'finding')} proved"
     elif tied.check == "vacuous-conflict":
-        what = "that the other rules are never triggered is proved"
+        what = "proved that the other rules are never triggered"
     else:
         what = "proved"
-    return f"{tied.check}: {what} of the rules as they were read, by what is extracted from the theory in Coq"
+    return f"{tied.check}: {what} for the parsed rules, by the program extracted from the theory in Coq"
 
 
 def _shown_by(one: Evidence) -> str:

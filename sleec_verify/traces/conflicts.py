@@ -86,7 +86,7 @@ class ConflictSearch:
         """
         named = sorted({event for rule in self._index.ruleset.rules for event in named_atoms(rule)})
         if named:
-            raise Undecided(f"a condition names {named[0]}, which is also a response: not analysed")
+            raise Undecided(f"a condition names `{named[0]}`, which is also a response; this is not supported")
         try:
             while self._refinement.propose():
                 self._examine()

@@ -172,7 +172,7 @@ def seconds(length: Length) -> Rational:
     """A length of time in seconds. Raises `Undecided` if it is a measure."""
     value = length.seconds
     if value is None:
-        raise Undecided(f"the length of time {length} is that of a measure: not analysed")
+        raise Undecided(f"the duration {length} is a measure; this is not supported")
     return value
 
 

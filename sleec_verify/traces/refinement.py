@@ -61,7 +61,7 @@ class Refinement:
             if -s.more not in s.core:
                 return False
             if self._copies >= copies:
-                raise Undecided(f"no conflict with {self._copies} more pending triggerings of each response")
+                raise Undecided(f"no conflict found with {self._copies} more pending triggers of each response")
             self._copies += 1
             s.add_copies(1)
         return True

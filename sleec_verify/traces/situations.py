@@ -280,7 +280,7 @@ class Situations:
             recorder = self.index.recorder
             answer = self._solver.solve(assumed)
             if answer is None:
-                raise Undecided("the solver gave up after its budget of conflicts")
+                raise Undecided("the solver reached its limit of conflicts")
             if not answer:
                 self.core = set(self._solver.core())
                 if recorder is not None:

@@ -211,7 +211,7 @@ class Unrolling(ABC):
             assumed = [*required, *(self._in_force[key] for key in keys), *here]
             answer = self._solver.solve(assumed)
             if answer is None:
-                raise Undecided("the solver gave up after its budget of conflicts")
+                raise Undecided("the solver reached its limit of conflicts")
             if not answer:
                 self._core = set(self._solver.core())
                 if recorder is not None:

@@ -68,7 +68,7 @@ class Oracle:
             raise NoAnswer(f"the oracle did not answer in {self._seconds:g} s")
         if answer.endswith("\n") and not answer.startswith("UNREADABLE: "):
             return answer[:-1]
-        said = answer.strip() or f"it ended with {self._process.wait()}"
+        said = answer.strip() or f"it exited with {self._process.wait()}"
         raise NoAnswer(f"the oracle did not answer: {said}")
 
     def _give_up(self) -> None:

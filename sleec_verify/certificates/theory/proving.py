@@ -28,12 +28,12 @@ ProofStep = tuple[int, tuple[int, ...], tuple[int, ...]]
 def not_modelled(ruleset: Ruleset, chains: bool = True) -> str | None:
     """Why the theory does not speak of a ruleset, or None. `chains` is whether what is done triggers rules."""
     if speaks_of_traces(ruleset) or (chains and has_chains(ruleset)):
-        return "the theory has no times, and nothing that is done happens in it"
+        return "the theory covers neither time nor consequences of responses"
     if calculated := calculations(ruleset):
-        return f"the theory does not calculate, as in {named(calculated)}"
+        return f"the theory does not cover calculations such as {named(calculated)}"
     whole = {name for name, measure in ruleset.measures.items() if measure.kind == "integer"}
     compared = sorted(whole & Boolean(ruleset).compared) if whole else []
-    return f"whole numbers are compared with one another ({', '.join(compared)})" if compared else None
+    return f"whole numbers are compared with each other ({', '.join(compared)})" if compared else None
 
 
 class Theory:

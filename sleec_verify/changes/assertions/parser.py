@@ -70,7 +70,7 @@ def parse_assertions(source: Source, known: Vocabulary) -> list[Assertion]:
                 found.append(assertion)
         start += len(line)
     if not found and not problems:
-        problems = [Problem("there is no assertion in this file", Span(0, 0), _EXAMPLE)]
+        problems = [Problem("this file contains no assertion", Span(0, 0), _EXAMPLE)]
     if problems:
         raise LanguageError(source, problems)
     return found
@@ -114,7 +114,7 @@ class _AssertionParser(FormulaParser):
         """The assertion that the tokens are; `span` is its span."""
         word = self.kinds[0]
         if word not in ("never", "always"):
-            self._refuse("an assertion begins with never or always", _EXAMPLE)
+            self._refuse("an assertion must begin with never or always", _EXAMPLE)
         self.at = 1
         literals = [self._obligation()]
         while self.kinds[self.at] in ("and", ","):

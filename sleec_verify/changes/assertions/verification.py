@@ -61,14 +61,14 @@ def _read_otherwise(ruleset: Ruleset, assertion: Assertion, known: Vocabulary) -
         for name in (leaf.name,) if isinstance(leaf, Atom) else measures_of(leaf):
             mine, theirs = ([kind for kind, *names in kinds if name in names[side]] for side in (0, 1))
             if mine and mine != theirs:
-                yield f"{name} is {mine[0]} in these rules, and {theirs[0]} where the assertion was read"
+                yield f"`{name}` is {mine[0]} in these rules, but {theirs[0]} in the rules of the assertion"
             elif name in ruleset.measures and ruleset.measures[name].values != known.measures[name].values:
-                yield f"{name} has another scale in these rules than where the assertion was read"
+                yield f"`{name}` has a different scale in the rules of the assertion"
         for side in () if isinstance(leaf, Atom) else (leaf.left, leaf.right):
             if not isinstance(side, Number) or side.constant is None or side.constant not in ruleset.constants:
                 continue
             if ruleset.constants[side.constant].value != side.value:
-                yield f"{side.constant} is another number in these rules than where the assertion was read"
+                yield f"`{side.constant}` has a different value in the rules of the assertion"
 
 
 def _broken(ruleset: Ruleset, assertion: Assertion, measures: Mapping[str, Measure]) -> Violation | None:

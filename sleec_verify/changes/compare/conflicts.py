@@ -42,7 +42,9 @@ def _on(comparison: Comparison, which: SideName, way: Way) -> Iterator[Union[Con
     most = MOST + MOST_PER_RULE * len(comparison.rows)
     for tried, (clash, rows) in enumerate(_causes(comparison, which)):
         if tried >= most:
-            yield Undecidable("conflicts", f"only the first {most:,} sets of rules that might clash were tried")
+            yield Undecidable(
+                "conflicts", f"only the first {most:,} sets of rules with possible conflicts were examined"
+            )
             return
         within = [region for smaller, region in seen.get(clash.literals, ()) if smaller < rows]
         region = _region(comparison, which, clash, rows)
@@ -151,7 +153,7 @@ def _found(
         conflicting(comparison, one, context, said[one]) == (one == which) for one in SIDES
     )
     if not replayed:
-        raise Undecided("a situation did not replay, which is a bug in sleec-verify")
+        raise Undecided("the replay rejected a situation; this is a bug in sleec-verify")
     return ConflictChange(
         way,
         tuple(sorted(clash.literals, key=str)),

@@ -58,7 +58,7 @@ def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed
     )
     calculated = list(dict.fromkeys(one for ruleset in (old, new) for one in calculations(ruleset)))
     if calculated and (old.statements, old.reading) != (new.statements, new.reading):
-        why = "comparisons of what is calculated from several measures are not compared"
+        why = "calculations with several measures are not compared"
         return shared._replace(undecided=(*shared.undecided, Undecidable(named(calculated), why)))
     if domain is not None:
         domains: Sequence[str] = (domain,)
@@ -89,7 +89,7 @@ def _compared(comparison: Comparison, domain: str | None) -> list[_Any]:
             found += conflict_changes(comparison)
             found += changes(comparison)
         elif all(is_possible(comparison.situations_of(which)) for which in comparison.sides):
-            why = "the assumptions of the two sides leave no situation that both allow"
+            why = "no situation is allowed by the assumptions of both versions"
             found.append(Undecidable("the obligations", why))
     except Undecided as error:
         found.append(Undecidable("the rest of the comparison", error.message))
@@ -103,7 +103,7 @@ def _conditions_that_are_measures(comparison: Comparison) -> Iterator[Undecidabl
     for which in SIDES:
         measures = comparison.sides[other(which)].stated.measures
         for name in sorted(condition_names(_formulas(comparison, which)) & measures.keys()):
-            yield Undecidable(name, f"{name} is true or false in the one text and a measure in the other")
+            yield Undecidable(name, f"`{name}` is true or false in one version and a measure in the other")
 
 
 def _formulas(comparison: Comparison, which: SideName) -> Iterator[Formula]:
@@ -157,7 +157,7 @@ def _not_comparable(old: Ruleset, new: Ruleset) -> Iterator[Undecidable]:
             if relation_ not in others:
                 name = relation_name(relation_)
                 yield Undecidable(
-                    f"the relation {name}", f"it is {word}, and what it says of the course of events is not compared"
+                    f"the relation {name}", f"it is {word}, but its meaning over several moments is not compared"
                 )
 
 
@@ -165,15 +165,15 @@ def _notes(comparison: Comparison) -> Iterator[str]:
     old, new = comparison.sides["old"].stated, comparison.sides["new"].stated
     if comparison.vocabulary.whole and old.syntax != new.syntax:
         names = ", ".join(comparison.vocabulary.whole)
-        yield f"the numbers of the DSL are whole, so that only whole values of {names} are compared"
+        yield f"the DSL has only whole numbers, so only whole values of {names} are compared"
     if speaks_of_traces(old) or speaks_of_traces(new):
         yield (
-            "what the rules call for is compared moment by moment; conflicts that take time to come about, and what is "
-            "triggered by what is done, are for `sleec-verify check`"
+            "the comparison covers single moments; `sleec-verify check` finds conflicts between "
+            "several moments, and consequences of responses"
         )
     if old.is_timed or new.is_timed:
         from sleec_runtime.model import Claim
 
         one, other = ([s for s in ruleset.statements if isinstance(s, Claim)] for ruleset in (old, new))
         if any(claim not in other for claim in one) or any(claim not in one for claim in other):
-            yield "concerns or purposes changed; they ask about the rules and oblige nothing"
+            yield "concerns or purposes changed; they do not change what the rules require"

@@ -120,7 +120,7 @@ def _change(comparison: Comparison, pair: RulePair, group: _Group, witness: Witn
     context = witness.context()
     said = {which: deciding(comparison, which, context) for which in SIDES}
     if not shows_change(comparison, context, said, added, removed):
-        raise Undecided("a situation did not replay, which is a bug in sleec-verify")
+        raise Undecided("the replay rejected a situation; this is a bug in sleec-verify")
     labels = [None if rule is None else rule.label for rule in pair]
     return Change(labels[0], labels[1], added, removed, witness, said["old"], said["new"], group.extent)
 
@@ -134,5 +134,5 @@ def _incomparable(comparison: Comparison, rows: list[int], which: SideName, lite
         return None
     for one in against:
         if one.negated == literal.negated and implies(one, literal, comparison.untimed) is None:
-            return f"what {literal.name} calls for cannot be compared by its form: {why_not(one, literal)}"
+            return f"the windows of `{literal.name}` cannot be compared: {why_not(one, literal)}"
     return None

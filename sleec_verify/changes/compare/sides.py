@@ -138,7 +138,7 @@ def common(old: Ruleset, new: Ruleset) -> Vocabulary:
             continue
         if (one.kind == "scale") != (other.kind == "scale"):
             found.clashes.append(
-                Undecidable(name, f"{name} is {_kind(one)} in the one text, {_kind(other)} in the other")
+                Undecidable(name, f"`{name}` is {_kind(one)} in one version and {_kind(other)} in the other")
             )
         elif one.kind == "scale":
             values = (*other.values, *(value for value in one.values if value not in other.values))

@@ -44,7 +44,7 @@ def _allowed(comparison: Comparison, by: SideName, given: Assumption, way: Way) 
         return None
     context = witness.context()
     if not possible(comparison, by, context) or satisfies(comparison, other(by), given, context):
-        raise Undecided("a situation did not replay, which is a bug in sleec-verify")
+        raise Undecided("the replay rejected a situation; this is a bug in sleec-verify")
     named = named_in([given.formula])
     assumed = [assumption.formula for assumption in index.assumptions_about(named)]
     try:
@@ -64,4 +64,4 @@ def _fractions(comparison: Comparison) -> Iterator[SituationChange]:
     for name in comparison.vocabulary.whole:
         old = comparison.sides["old"].stated.measures[name].kind
         way: Way = "added" if old == "integer" else "removed"
-        yield SituationChange(way, f"{name} is a whole number", None, None)
+        yield SituationChange(way, f"`{name}` is a whole number", None, None)

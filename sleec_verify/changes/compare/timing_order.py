@@ -53,8 +53,8 @@ def why_not(one: Obligation, other: Obligation) -> str:
         _demand(one, "at")
         _demand(other, "at")
     except Undecided:
-        return "a window whose length is a measure's"
-    return "there are too many ways to keep it"
+        return "the length of a window depends on a measure"
+    return "there are too many ways to meet it"
 
 
 def _has_alternatives(obligation: Obligation) -> bool:

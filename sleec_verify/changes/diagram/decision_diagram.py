@@ -37,7 +37,7 @@ class DecisionDiagram:
         node = self._unique.get(key)
         if node is None:
             if len(self._nodes) >= MOST_NODES:
-                raise TooLarge(f"a decision diagram of more than {MOST_NODES:,} nodes would be needed")
+                raise TooLarge(f"the decision diagram would need more than {MOST_NODES:,} nodes")
             node = self._unique[key] = len(self._nodes)
             self._nodes.append(key)
         return node

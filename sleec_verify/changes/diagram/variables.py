@@ -79,7 +79,7 @@ class Variables:
             if name not in self._place:
                 self._add(name, cuts, clusters, pairs)
                 if len(self.all) > MOST_NAMES:
-                    raise TooLarge(f"it concerns more than {MOST_NAMES:,} names")
+                    raise TooLarge(f"it depends on more than {MOST_NAMES:,} names")
 
     def _add(
         self,
@@ -113,7 +113,7 @@ class Variables:
         for _, cuts in bounds:
             tried *= len(cuts) + 1
         if tried > MOST_CELLS:
-            raise TooLarge(f"numbers that are compared with one another have more than {MOST_CELLS:,} orders")
+            raise TooLarge(f"measures that are compared with each other have more than {MOST_CELLS:,} orders")
         integral = {name: self._measures[name].kind == "integer" for name, _ in bounds}
         found = []
         for regions in product(*(range(len(cuts) + 1) for _, cuts in bounds)):

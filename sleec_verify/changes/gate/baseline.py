@@ -48,10 +48,10 @@ def read_baseline(data: bytes, called: str) -> frozenset[Key]:
             raise ConfigError(f"{called} is a baseline of version {shortened(repr(table['version']))}", _RENEW)
         return frozenset(map(_key, _list(table["findings"])))
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        raise ConfigError(f"{called} is no baseline", _RENEW) from None
+        raise ConfigError(f"{called} is not a baseline", _RENEW) from None
 
 
-_RENEW = "make it anew: sleec-verify gate --write-baseline …"
+_RENEW = "write it again: sleec-verify gate --write-baseline …"
 
 
 def _key(entry: Mapping[str, Any]) -> Key:

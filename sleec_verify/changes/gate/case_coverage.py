@@ -19,7 +19,7 @@ def coverage(ruleset: Ruleset, errors: list[SleecError]) -> Coverage | None:
     path = Path(ruleset.source.path)
     cases = path.with_name(path.name.removesuffix(".sleec") + SUFFIX)
     if ruleset.is_timed:
-        return Coverage(0, len(every), why="cases are not for rules with times yet")
+        return Coverage(0, len(every), why="cases do not support rules with time yet")
     reached: set[tuple[str, int]] = set()
     if cases.exists():
         try:

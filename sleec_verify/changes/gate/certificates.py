@@ -24,7 +24,7 @@ def certificate(ruleset: Ruleset, untimed: Untimed, policy: Policy) -> Manifest 
     path = Path(ruleset.source.path)
     folder = path.with_name(path.name.removesuffix(".sleec") + SUFFIX)
     if not folder.exists():
-        return f"there is no {folder.name} beside it (sleec-verify certify {path.name} -o {folder.name})"
+        return f"the certificate {folder.name} is missing (write it: sleec-verify certify {path.name} -o {folder.name})"
     try:
         use = Use(ruleset.reading, untimed=untimed)
         required = Required(policy.require_proved, policy.require_tied)

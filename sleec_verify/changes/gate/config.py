@@ -62,7 +62,7 @@ def read_config(data: bytes, path: str, called: str) -> Config:
         for key in ("tool", TABLE):
             table = table.get(key) if isinstance(table, dict) else None
         if table is None:
-            raise ConfigError(f"{called} has no table [tool.{TABLE}]", f"write one, or name a {OWN}")
+            raise ConfigError(f"{called} has no [tool.{TABLE}] table", f"add the table, or use a {OWN}")
     folder = posixpath.dirname(path) or "."
     return Config(path=path, folder=folder, **settings(table, called, where, folder))
 

@@ -101,8 +101,8 @@ class _Reader:
                 from sleec_runtime.support.suggestions import nearest
 
                 near = nearest(key, sorted(keys))
-                hint = f"did you mean {near}?" if near else f"there are {', '.join(sorted(keys))}"
-                raise ConfigError(f"{self._path}: {self._where}has an unknown key {name}", hint)
+                hint = f"did you mean `{near}`?" if near else f"the keys are {', '.join(sorted(keys))}"
+                raise ConfigError(f"{self._path}: {self._where}the key `{name}` is unknown", hint)
             found[key.replace("-", "_")] = keys[key](self, name, value)
         return found
 
@@ -165,7 +165,9 @@ def _targets(reader: _Reader, name: str, value: object) -> tuple[Target, ...]:
         settings = reader.read(table, {"code": _path, "rules": _path, "domain": _text}, at)
         for key in ("code", "rules"):
             if key not in settings:
-                raise ConfigError(f"{reader._path}: {reader._where}{at} has no {key}", "code and rules belong together")
+                raise ConfigError(
+                    f"{reader._path}: {reader._where}{at} has no {key}", "a target needs both code and rules"
+                )
         found.append(Target(folder=reader.folder, **settings))
     return tuple(found)
 

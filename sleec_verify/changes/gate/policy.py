@@ -32,17 +32,17 @@ DEAD_HEDGE = CHECKS["dead-hedge"].kinds[0].code
 CONFLICT = CHECKS["conflict"].kinds[0].code
 
 POLICIES: Mapping[str, str] = {
-    POLICY_CHANGES: "what decides about changes is changed",
-    NEW_SUPPRESSIONS: "a suppression that the base does not have",
-    "suppressions": "a suppression without a reason, or of a finding that there is not",
-    "unused-suppressions": "a suppression that no finding needs",
-    "new-conflicts": "situations conflict now that did not before",
-    "lost-obligations": "some situation loses an obligation",
-    "ruled-out-situations": "situations that counted before are assumed away",
-    "certificates": "there is no certificate that holds",
-    "clause-coverage": "the cases reach too few clauses",
+    POLICY_CHANGES: "the policy of the gate changes",
+    NEW_SUPPRESSIONS: "a new suppression",
+    "suppressions": "a suppression without a reason, or of an unknown finding",
+    "unused-suppressions": "a suppression without a finding",
+    "new-conflicts": "new conflicts",
+    "lost-obligations": "a lost obligation in some situation",
+    "ruled-out-situations": "new assumptions exclude situations",
+    "certificates": "a certificate is missing or invalid",
+    "clause-coverage": "the cases cover too few clauses",
     "assertions": "an assertion does not hold",
-    "comparison": "what changes is not decided",
+    "comparison": "the comparison is inconclusive",
 }
 """What blocks, or is unknown, besides the findings of checks, by the name that it has in reports."""
 
@@ -71,7 +71,7 @@ def judge(found: GateResult, policy: Policy) -> None:
     found.heeded = policy.unknown
 
 
-_HELP = "the base decides about this change all the same; let an owner of the file approve it"
+_HELP = "this change is still judged by the policy of the base; an owner of the file must approve it"
 
 
 def _heeded(changes: Iterable[Block], blocking: bool) -> Iterator[Block]:
@@ -94,7 +94,7 @@ def _on_ruleset(one: RulesetExamination, policy: Policy) -> Iterator[Block]:
         yield _block("suppressions", one.path, what, problem.span)
     if policy.unused_suppressions:
         for unused in one.unused:
-            what = f"line {one.line(unused.span)} allows {unused.allowed}, and there is no such finding"
+            what = f"line {one.line(unused.span)} allows {unused.allowed}, but there is no such finding"
             yield _block("unused-suppressions", one.path, what, unused.span)
     for finding in deduplicate(one.findings):
         if _grave(finding, policy):
@@ -107,7 +107,7 @@ def _on_ruleset(one: RulesetExamination, policy: Policy) -> Iterator[Block]:
     if policy.ruled_out_situations and one.difference is not None:
         for change in one.difference.situations:
             if change.way == "removed":
-                what = f"situations that counted before are ruled out: {change.what}"
+                what = f"a new assumption excludes situations: {change.what}"
                 yield _block("ruled-out-situations", one.path, what, witness=change.witness, domains=change.domains)
     if isinstance(one.certificate, str):
         yield _block("certificates", one.path, one.certificate)
@@ -115,8 +115,8 @@ def _on_ruleset(one: RulesetExamination, policy: Policy) -> Iterator[Block]:
         reached = one.coverage
         if reached.percent < policy.clause_coverage:
             most = [*reached.missed[:5], *(["…"] if len(reached.missed) > 5 else [])]
-            what = f"the cases reach {reached.reached} of {reached.clauses} clauses, and {policy.clause_coverage:g} %"
-            what += f" is asked for; not reached: {', '.join(most)}"
+            what = f"the cases cover {reached.reached} of {reached.clauses} clauses; "
+            what += f"the policy requires {policy.clause_coverage:g} %; not covered: {', '.join(most)}"
             yield _block("clause-coverage", one.path, what)
 
 
@@ -155,7 +155,7 @@ def _places(
     """Where clauses stand that decide now: the first, the others, and all by their rules."""
     if not deciding:
         return NOWHERE, (), ()
-    others = tuple((one.span, f"{one.rule} decides here, too") for one in deciding[1:])
+    others = tuple((one.span, f"rule `{one.rule}` also applies here") for one in deciding[1:])
     return deciding[0].span, others, tuple(ClauseRef(one.rule, one.clause) for one in deciding)
 
 
@@ -172,7 +172,7 @@ def _new_conflicts(one: RulesetExamination) -> Iterator[Block]:
         if conflict.way == "added" and frozenset(conflict.rules) not in kept:
             rules = listed(conflict.rules) if conflict.rules else "the constraints"
             names = tuple(sorted({o.name for o in conflict.literals}))
-            what = f"{rules} now conflict over {listed(names) if names else 'the situation'}"
+            what = f"{rules} now contradict each other about {listed(names) if names else 'the situation'}"
             span, related, clauses = _places(conflict.after)
             yield _block(
                 "new-conflicts", one.path, what, span, related, clauses, names, conflict.witness, conflict.domains
@@ -185,7 +185,7 @@ def _lost(one: RulesetExamination, patterns: tuple[str, ...]) -> Iterator[Block]
     told = set()
     for change, obligation, way in by_obligation(one.difference.changes):
         if way == "removed" and any(fnmatchcase(str(obligation), pattern) for pattern in patterns):
-            what = f"{in_short(obligation)} is no longer called for by {listed(change.rules)} in some situation"
+            what = f"{in_short(obligation)} is no longer required by {listed(change.rules)} in some situation"
             if what not in told:
                 told.add(what)
                 span, related, clauses = _places(change.after)

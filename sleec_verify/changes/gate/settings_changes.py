@@ -35,7 +35,7 @@ def _changes(old: Settings, new: Settings) -> Iterator[tuple[str, str]]:
     for key in before:
         if before[key] != after[key]:
             where = new.config.path or old.config.path
-            assert where is not None, "without a file, all keys have their defaults"
+            assert where is not None, "without this file, all keys have their default values"
             yield where, f"{key} changes from {_shown(before[key])} to {_shown(after[key])}"
     where = new.baseline or old.baseline
     if where is not None and old.known != new.known:
@@ -43,7 +43,7 @@ def _changes(old: Settings, new: Settings) -> Iterator[tuple[str, str]]:
     for where in sorted({*old.assertions, *new.assertions}):
         said = [_lines(one.assertions.get(where)) for one in (old, new)]
         if said[0] != said[1]:
-            yield where, "; ".join(_moves("assertion", *said)) or "the assertions change their order"
+            yield where, "; ".join(_moves("assertion", *said)) or "the order of the assertions changes"
 
 
 def _keys(config: Config) -> Mapping[str, Any]:

@@ -86,16 +86,16 @@ def _identity(one: Suppression) -> tuple[object, ...]:
 
 def _wrong(said: re.Match[str] | None, known: Collection[str]) -> tuple[str, str] | None:
     if said is None:
-        return "this comment says sleec: and allows nothing", _EXAMPLE
+        return "this comment starts with sleec: but allows nothing", _EXAMPLE
     if not said.group(2):
-        return "a suppression needs a reason", "say why behind it: because …"
+        return "a suppression needs a reason", "add the reason: because …"
     for name in (part.strip() for part in said.group(1).split(",")):
         if name not in known:
             from sleec_runtime.support.suggestions import nearest
 
             near = nearest(name, sorted(known))
-            hint = f"did you mean {near}?" if near else "`sleec-verify rules` lists all of them"
-            return f"there is no finding {name}", hint
+            hint = f"did you mean `{near}`?" if near else "`sleec-verify rules` lists all codes"
+            return f"there is no finding code `{name}`", hint
     return None
 
 

@@ -27,7 +27,7 @@ def conform(target: Target, locate: Locate, known: KnownFindings) -> TargetConfo
                 raise SleecError(f"{target.rules} has no domain called `{target.domain}`", f"it has {named}")
             code = locate(target.at(target.code))
             if not os.path.lexists(code):  # what is not there might be a module from elsewhere
-                raise SleecError(f"there is no file or folder {code}", "check the spelling of its name and folder")
+                raise SleecError(f"there is no file or folder {code}", "check its name and folder")
             found.result = check_structure(found.ruleset, python_files(code), target.domain)
     except UnsupportedTimes as error:
         found.why = str(error)

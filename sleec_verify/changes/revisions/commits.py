@@ -5,7 +5,7 @@ from __future__ import annotations
 from sleec_verify.changes.revisions import git
 from sleec_verify.changes.revisions.git import GitError
 
-NOW = "the files as they are now"
+NOW = "the current files"
 
 Named = tuple[str, str]
 """What messages call a commit, and the commit."""
@@ -32,13 +32,13 @@ def _hint(revision: str) -> str:
     from sleec_runtime.support.suggestions import nearest
 
     if git.run("rev-list", "--max-count=1", "--all", "HEAD", "--").returncode:
-        return "nothing has been committed yet; a first commit has nothing to be compared with"
+        return "the repository has no commits; there is nothing to compare with"
     if not revision or revision.startswith("-") or not revision.isprintable():
         return "name a branch, a tag or a commit"
     if revision.startswith(":/"):
-        return "no commit that HEAD or a branch reaches has a message with this text"
+        return "no commit message in the history of HEAD or of a branch contains this text"
     if ":" in revision:
-        return "name a commit, and the file behind it: --git {} {}".format(*revision.split(":", 1))
+        return "name a commit and then the file: --git {} {}".format(*revision.split(":", 1))
     if any(mark in revision for mark in ("~", "^", "@{")):
         return "in CI, fetch the whole history"
     done = git.run("for-each-ref", "--format=%(refname:short)")
@@ -58,7 +58,7 @@ def merge_base(one: Named, other: Named) -> str:
     done = git.run("merge-base", one[1], other[1])
     if done.returncode:
         raise GitError(
-            f"{one[0]} and {other[0]} have no commit in common",
+            f"{one[0]} and {other[0]} have no common commit",
             "in CI, fetch the whole history: git fetch --unshallow",
         )
     return done.stdout.decode().strip()
@@ -66,7 +66,7 @@ def merge_base(one: Named, other: Named) -> str:
 
 def revision_range(written: str) -> tuple[Named, tuple[str, str | None]]:
     """What ``REV``, ``OLD..NEW`` and ``OLD...NEW`` (from what they have in common) mean: for each side how to call
-    it, and its commit; None for the files as they are now. An empty end is HEAD. Raises `GitError`."""
+    it, and its commit; None for the current files. An empty end is HEAD. Raises `GitError`."""
     dots = "..." if "..." in written else ".." if ".." in written else None
     whole = _commit(written) if dots is not None else commit(written)
     if dots is None or whole is not None:  # the text behind `:/` may have dots

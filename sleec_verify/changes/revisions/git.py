@@ -40,7 +40,7 @@ def run(*arguments: str) -> subprocess.CompletedProcess[bytes]:
     try:
         return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, check=False, env=environment)
     except FileNotFoundError:
-        raise GitError("there is no git on this machine", "install it, or name two files or folders") from None
+        raise GitError("git is not installed", "install it, or name two files or folders") from None
     except (OSError, ValueError) as error:
         raise GitError(f"git cannot be run: {error}") from None
 
@@ -48,4 +48,4 @@ def run(*arguments: str) -> subprocess.CompletedProcess[bytes]:
 def complaint(done: subprocess.CompletedProcess[bytes]) -> str:
     """The first line of what git wrote to standard error."""
     lines = done.stderr.decode("utf-8", "replace").strip().splitlines()
-    return lines[0] if lines else "it gives no reason"
+    return lines[0] if lines else "no reason given"

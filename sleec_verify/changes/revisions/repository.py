@@ -31,14 +31,16 @@ class Repository:
         kept, _, folder = os.fsdecode(done.stdout).rstrip("\n").partition("\n")
         # A bare repository in the working tree may be part of a change; git before 2.38 takes it for the current one.
         if b"safe.bareRepository" in done.stderr or (kept and leads_below(os.curdir, kept, "")):
-            raise GitError("the current folder is inside a git directory", "go to a folder of the working tree")
+            raise GitError("the current folder is inside a git directory", "change to a folder of the working tree")
         if b"dubious ownership" in done.stderr:
             raise GitError(
-                "git does not trust this repository: its folder belongs to somebody else",
-                'as in a container; if you do: git config --global --add safe.directory "$PWD"',
+                "git does not trust this repository: its folder belongs to another user",
+                'as in a container; if you trust it: git config --global --add safe.directory "$PWD"',
             )
         if done.returncode:
-            raise GitError("this folder is in no git repository", "go to the folder of the rulesets, or name two files")
+            raise GitError(
+                "this folder is not in a git repository", "change to the folder of the rulesets, or name two files"
+            )
         self.folder = os.path.realpath(folder)
 
     def position(self, path: str) -> str | None:
@@ -63,7 +65,7 @@ class Repository:
         """
         shown = os.path.relpath(os.path.join(self.folder, path))
         if not leads_below(shown, self.folder, ""):
-            raise GitError(f"{shown} leads out of the repository", "put the file itself there, not a link")
+            raise GitError(f"{shown} points outside the repository", "replace the link by the file")
         return _as_file(shown)
 
     def entry(self, commit: str, path: str) -> tuple[str, str] | None:
@@ -138,7 +140,7 @@ class Repository:
             if not before and not after:
                 raise UnreadableFile(
                     f"there is no {SUFFIX} file at or below {path}, neither in {old[0]} nor in {new[0]}",
-                    "check the spelling of its name and folder",
+                    "check its name and folder",
                 )
             add(before, after)
         for inside in sorted(also):
@@ -155,7 +157,7 @@ class Repository:
         for path in paths:
             there = self._now(path, self._inside(path)[-1])
             if not there:
-                raise UnreadableFile(f"there is no {SUFFIX} file at or below {path}", "check the spelling of its name")
+                raise UnreadableFile(f"there is no {SUFFIX} file at or below {path}", "check its name")
             found |= there
         return found
 

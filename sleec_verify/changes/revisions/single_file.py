@@ -33,7 +33,7 @@ class Tree(NamedTuple):
         """The content of a path of the repository; None if there is no file. Links inside the repository are followed.
 
         Raises:
-            GitError: a link leads out of the repository.
+            GitError: a link points outside the repository.
             UnreadableFile: the file cannot be read.
         """
         return self._read_now(path) if self.commit is None else self._read_committed(path, self.commit)
@@ -70,4 +70,4 @@ class Tree(NamedTuple):
         return UnreadableFile(f"{self.called(path)} cannot be read: {error.strerror}")
 
     def _leads_out(self, path: str) -> GitError:
-        return GitError(f"{self.called(path)} leads out of the repository", "put the file itself there, not a link")
+        return GitError(f"{self.called(path)} points outside the repository", "replace the link by the file")

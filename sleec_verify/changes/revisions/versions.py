@@ -57,13 +57,13 @@ class Versions(NamedTuple):
         """What to say where only one of the sides, called `old` and `new`, has it."""
         if self.old is None:
             return MissingSide(
-                f"{self.path} is not in {old}: it was added, and there is nothing to compare it with",
-                "--missing-as-empty compares it with no rules at all",
+                f"{self.path} was added: it is not in {old}",
+                "use --missing-as-empty to compare it with an empty ruleset",
             )
         if self.new is None:
             return MissingSide(
-                f"{self.path} is not in {new}: it was deleted, and there is nothing to compare it with",
-                "--missing-as-empty compares it with no rules at all",
+                f"{self.path} was deleted: it is not in {new}",
+                "use --missing-as-empty to compare it with an empty ruleset",
             )
         return None
 
@@ -78,12 +78,12 @@ def of_paths(old: str, new: str, skipped: Callable[[str], None]) -> list[Version
     if os.path.isdir(old) != os.path.isdir(new):
         for path in (old, new):
             if path != "-" and not os.path.lexists(path):
-                raise UnreadableFile(f"there is no folder {path}", "check the spelling of its name")
+                raise UnreadableFile(f"there is no folder {path}", "check its name")
         folder, file = (old, new) if os.path.isdir(old) else (new, old)
-        raise UnreadableFile(f"{folder} is a folder, and {file} is not", "name two files, or two folders")
+        raise UnreadableFile(f"{folder} is a folder, but {file} is not", "name two files, or two folders")
     if not os.path.isdir(old):
         if old == new == "-":
-            raise UnreadableFile("standard input cannot be both sides", "name a file for one of them")
+            raise UnreadableFile("standard input cannot be both sides", "use a file for one of them")
         return [Versions(new, Version(old), Version(new))]
     sides = [_below(old, skipped), _below(new, skipped)]
     paths = sorted({*sides[0], *sides[1]})

@@ -65,9 +65,9 @@ def read_cases(path: Path, ruleset: Ruleset | None = None) -> CaseFile:
         ruleset = ruleset.read_as(reading)
     entries = table.get("case", [])
     if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
-        raise CasesError(f"{path}: case is no list of tables", "begin each case with [[case]]")
+        raise CasesError(f"{path}: case is not a list of tables", "begin each case with [[case]]")
     if not entries:
-        raise CasesError(f"{path} has no case", "begin each with [[case]]")
+        raise CasesError(f"{path} contains no case", "begin each with [[case]]")
     return CaseFile(ruleset, tuple(_case(path, n, entry, ruleset) for n, entry in enumerate(entries, 1)))
 
 
@@ -79,7 +79,7 @@ def _known(path: Path, where: str, table: Mapping[str, object], keys: set[str]) 
     for key in table:
         if key not in keys:
             near = nearest(key, sorted(keys))
-            hint = f"did you mean {near}?" if near else f"there are {', '.join(sorted(keys))}"
+            hint = f"did you mean `{near}`?" if near else f"the keys are {', '.join(sorted(keys))}"
             raise CasesError(f"{path}: {where} has an unknown key {shortened(repr(key))}", hint)
 
 
@@ -88,7 +88,7 @@ def _case(path: Path, number: int, entry: dict[str, Any], ruleset: Ruleset) -> C
     where = f"case {number} ({name})"
     _known(path, where, entry, _CASE_KEYS)
     if "obligations" not in entry and not entry.get("conflict"):
-        raise CasesError(f"{path}: {where} does not say what is due", "give obligations = [], or conflict = true")
+        raise CasesError(f"{path}: {where} does not say what is required", "give obligations = [], or conflict = true")
     try:
         triggers, conditions = _situation(entry, ruleset)
         domain = entry.get("domain")
@@ -103,7 +103,7 @@ def _case(path: Path, number: int, entry: dict[str, Any], ruleset: Ruleset) -> C
         raise CasesError(f"{path}: {where}: {error.message}", error.hint) from None
     conflict = entry.get("conflict", False)
     if not isinstance(conflict, bool) or (conflict and obligations):
-        raise CasesError(f"{path}: {where}: conflict is true or false, and nothing is due in one")
+        raise CasesError(f"{path}: {where}: conflict must be true or false; a conflict has no obligations")
     reaches = entry.get("reaches", [])
     if not isinstance(reaches, list) or not all(isinstance(goal, str) for goal in reaches):
         raise CasesError(f"{path}: {where}: reaches is {shortened(repr(reaches))}", "give a list of texts")
@@ -153,7 +153,9 @@ def _obligations(names: object, ruleset: Ruleset) -> tuple[str, ...]:
     for name in names:
         if name not in ruleset.obligations:
             near = nearest(name, sorted(ruleset.obligations))
-            raise SituationError(f"there is no obligation {shortened(name)}", f"did you mean {near}?" if near else None)
+            raise SituationError(
+                f"there is no obligation called `{shortened(name)}`", f"did you mean `{near}`?" if near else None
+            )
     return tuple(names)
 
 

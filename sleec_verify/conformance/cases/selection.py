@@ -100,7 +100,7 @@ def _greedily(world: AllowedSituations, wanted: Iterable[Goal]) -> tuple[list[li
 def _case(oracle: Oracle, found: _Found, number: int, done: set[str]) -> Case:
     expected = oracle.expected(found.context)
     if expected.conflict or not expected.possible:
-        raise AssertionError(f"chose the situation {found.context}, which does not count: a bug in sleec-verify")
+        raise AssertionError(f"chose the situation {found.context}, which is excluded; this is a bug in sleec-verify")
     names = tuple(goal.name for goal in found.goals if goal.name not in done)
     more = f" and {len(names) - 1} more" if len(names) > 1 else ""
     return Case(
@@ -128,8 +128,8 @@ def _reasons(index: RulesetIndex, criterion: str, unreached: Sequence[Goal], sin
     at_all = reachable(AllowedSituations(index, peaceful=False))
     for goal in unreached:
         if goal.name in together:
-            yield UnreachedGoal(goal.name, "only when other triggers occur as well")
+            yield UnreachedGoal(goal.name, "only if other triggers also occur")
         elif goal.name in at_all:
-            yield UnreachedGoal(goal.name, "only where the rules conflict")
+            yield UnreachedGoal(goal.name, "only if the rules contradict each other")
         else:
             yield UnreachedGoal(goal.name, "in no situation")

@@ -31,7 +31,7 @@ __all__ = [
     "python_files",
 ]
 
-QUESTION = "Does the code do exactly what the rules say, clause by clause?"
+QUESTION = "Does the code do exactly what each clause of the rules requires?"
 UNDECIDED = KINDS["undecided"].code
 
 
@@ -45,7 +45,7 @@ def check_structure(ruleset: Ruleset, files: tuple[PythonFile, ...], domain: str
     try:
         findings = findings_on(ruleset, files, domain)
     except RecursionError:
-        return CheckResult(NAME, Unknown("the code is nested too deeply to be followed"), perf_counter() - started)
+        return CheckResult(NAME, Unknown("the code is nested too deeply to be analysed"), perf_counter() - started)
     seconds = perf_counter() - started
     undecided = sum(finding.code == UNDECIDED for finding in findings)
     if undecided:

@@ -96,10 +96,10 @@ class _Run:
         self.entered += 1
         if self.entered > _MOST_CALLS:
             if self.entered == _MOST_CALLS + 1:
-                self.doubt(function.node, function.file, "the calls from here are too many to follow")
+                self.doubt(function.node, function.file, "there are too many calls to analyse from here")
             return None
         if is_generator(function.node):
-            why = why or "in a generator, which runs only as far as it is asked to"
+            why = why or "in a generator, which may not run to its end"
         before = len(self.trace.calls)
         self.stack.append(function)
         self.tracer.followed.setdefault(function, set())
@@ -181,7 +181,7 @@ class _Body(Flow):
         self.run.stack.append(inner)
         before = self.run.trace
         self.run.trace = Execution()
-        _Body(self.run, inner, self.given).statements(node.body, "in a function that is defined here, not run")
+        _Body(self.run, inner, self.given).statements(node.body, "in a function that is defined but not called here")
         found, self.run.trace = self.run.trace, before
         self.run.stack.pop()
         if found.calls:
@@ -192,7 +192,7 @@ class _Body(Flow):
         value = self.value(node)
         name = self._obligation(node, value)
         if name is not None:
-            self.run.doubt(node, self.file, f"what implements {name} is handed on here, not called")
+            self.run.doubt(node, self.file, f"the implementation of `{name}` is passed on here, not called")
 
     def call(self, node: ast.Call, why: str | None, awaited: bool) -> None:
         value = self.value(node.func)
@@ -267,7 +267,7 @@ class _Body(Flow):
             self.run.doubt(node, self.file, f"which definition of {function.name} this calls is known only at run time")
             return
         if isinstance(function.node, ast.AsyncFunctionDef) and not awaited:
-            why = why or "not awaited here, so that it may never be run"
+            why = why or "not awaited here, so it may never run"
         name = self.lookup.obligation_of(function, value.receiver)
         if name is not None:
             self.run.tracer.implementations[function] = name
@@ -276,7 +276,7 @@ class _Body(Flow):
         before = len(self.run.trace.calls)
         self._enter(function, value, node, why)
         if len(self.run.trace.calls) > before and self._replaced(function):
-            self.run.doubt(node, self.file, f"a decorator of {function.name} may run something else in its place")
+            self.run.doubt(node, self.file, f"a decorator of {function.name} may replace it")
 
     def _enter(self, function: Function, value: Code, node: ast.Call, why: str | None) -> None:
         given = self.run.arguments(function, value.receiver, node, self.scopes[-1], self.given)
@@ -301,7 +301,7 @@ class _Body(Flow):
             return
         if value.name in REPLACERS:
             self.run.doubt(
-                node, self.file, f"what {value.name.removeprefix('builtins.')} does is known only at run time"
+                node, self.file, f"the effect of {value.name.removeprefix('builtins.')} is known only at run time"
             )
             return
         module, _, last = value.name.rpartition(".")
@@ -319,7 +319,7 @@ class _Body(Flow):
                 if own or not self.lookup.robot_implements(name):
                     self._by_name(node, name, why)
                 elif isinstance(receiver, UnknownValue):
-                    self.run.doubt(node, self.file, f"whether this is what implements {name} is known only at run time")
+                    self.run.doubt(node, self.file, f"whether this implements `{name}` is known only at run time")
             elif isinstance(receiver, (Object, ClassOf)):
                 self.run.trace.unfollowed.append(f"{ast.unparse(func)}()")
         elif isinstance(value, UnknownValue):

@@ -22,21 +22,21 @@ def compare(findings: Findings, rule: Rule, number: int, variant: Variant, trace
     for node, file in trace.proceeds:
         findings.add(
             "proceed",
-            f"proceed() in a variant of {where} runs the base as well",
+            f"proceed() in a variant of {where} also runs the base",
             (file, node),
             clause=reference,
             note=note,
-            help="call what implements the obligations of the clause",
+            help="call the implementations of the obligations of the clause",
         )
     for trigger, at_node, file in trace.triggers:
         if trigger == rule.trigger:
             findings.add(
                 "endless-trigger",
-                f"this triggers {trigger} again in the same context, and so this variant, without end",
+                f"this triggers {trigger} again in the same context, and so the same variant, without end",
                 (file, at_node),
                 clause=reference,
                 note=note,
-                help="update() the context first, or trigger it once this one is served",
+                help="update() the context first, or trigger it after this variant has finished",
             )
     for doubt in trace.doubts:
         findings.undecided(doubt.file, doubt.node, doubt.why)
@@ -48,13 +48,13 @@ def compare(findings: Findings, rule: Rule, number: int, variant: Variant, trace
         name = call.obligation
         at = (call.file, call.node)
         if name in prohibited:
-            message = f"{name} is executed, and {where} prohibits it"
+            message = f"{name} is executed, but {where} forbids it"
             findings.add("prohibited-obligation", message, at, clause=reference, obligations=(name,), note=note)
         elif name not in due:
-            message = f"{name} is executed, and {where} does not oblige it"
+            message = f"{name} is executed, but {where} does not require it"
             findings.add("extra-obligation", message, at, clause=reference, obligations=(name,), note=note)
         elif name not in left:
-            message = f"{name} is executed once more than {where} obliges it"
+            message = f"{name} is executed once more than {where} requires"
             findings.add("extra-obligation", message, at, clause=reference, obligations=(name,), note=note)
         else:
             left.remove(name)
@@ -67,20 +67,20 @@ def compare(findings: Findings, rule: Rule, number: int, variant: Variant, trace
                     clause=reference,
                     obligations=(name,),
                     note=note,
-                    help="call it unconditionally; what decides is the rule's to say",
+                    help="call it unconditionally; conditions belong in the rule",
                 )
     _order(findings, rule, number, in_order, due)
     if left and not trace.doubts:
         unfollowed = ", ".join(dict.fromkeys(trace.unfollowed))
         findings.add(
             "missing-obligation",
-            f"{listed(left)} {'is' if len(left) == 1 else 'are'} not executed, and {where} obliges "
+            f"{listed(left)} {'is' if len(left) == 1 else 'are'} not executed, but {where} requires "
             f"{'it' if len(left) == 1 else 'them'}",
             (variant.function.file, variant.function.node),
             clause=reference,
             obligations=tuple(left),
             note=note,
-            help=f"if {unfollowed} executes it, name the folder that holds its code as the target"
+            help=f"if {unfollowed} executes it, use the folder with its code as the target"
             if unfollowed
             else f"call {listed(f'{snake_case(name)}()' for name in left)}",
         )
@@ -92,7 +92,7 @@ def _order(findings: Findings, rule: Rule, number: int, calls: list[Call], due: 
         if after < before:
             findings.add(
                 "obligation-order",
-                f"{call.obligation} is executed after {due[before]}, and {clause_name(rule, number)} has it before",
+                f"{call.obligation} is executed after {due[before]}, but before it in {clause_name(rule, number)}",
                 (call.file, call.node),
                 clause=ClauseRef(rule.label, number),
                 obligations=(call.obligation, due[before]),

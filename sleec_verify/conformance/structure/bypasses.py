@@ -99,7 +99,7 @@ class BypassCheck:
             self._handmade(use)
 
     def _handmade(self, use: Use) -> None:
-        why = "a decorator that is used otherwise than above a definition makes methods as the program runs"
+        why = "a decorator that is called as a function creates methods at run time"
         self.findings.undecided(use.scope.file, use.node, why)
 
     def _code(self, use: Use, node: ast.Call, value: Code) -> None:
@@ -109,7 +109,7 @@ class BypassCheck:
                 if not self.globally and not self._is_super(use, node):
                     self.findings.add(
                         "method-around",
-                        f"{group.name} is the method of a rule, and is called here without a trigger",
+                        f"{group.name} is the method of a rule, but is called here without a trigger",
                         (use.scope.file, node),
                         help="call sleec.trigger(…)",
                     )
@@ -125,10 +125,10 @@ class BypassCheck:
             verb, it = ("is", "it") if len(names) == 1 else ("are", "them")
             self.findings.add(
                 "obligation-around",
-                f"{listed(names)} {verb} executed here whatever the rules say: this is no variant of a rule's method",
+                f"{listed(names)} {verb} executed here whatever the rules say: this is not a variant of a rule",
                 (use.scope.file, node),
                 obligations=tuple(names),
-                help=f"trigger the rule that obliges {it}",
+                help=f"trigger the rule that requires {it}",
             )
 
     def _in_table(self, use: Use, func: ast.Attribute) -> None:
@@ -141,7 +141,7 @@ class BypassCheck:
                 if set(self.resolver.order(receiver.class_)[0]) & set(self.resolver.order(held.class_)[0]):
                     self._obligations(use, func, [name])
             elif not isinstance(receiver, Object) and not isinstance(held, Object):
-                why = f"this executes {name} around the dispatch, if {ast.unparse(func.value)} is what implements it"
+                why = f"this executes {name} outside the dispatch if {ast.unparse(func.value)} implements it"
                 self.findings.undecided(use.scope.file, func, why)
 
     def _unresolved(self, use: Use, func: ast.Attribute) -> None:
@@ -154,10 +154,10 @@ class BypassCheck:
         if not isinstance(receiver, UnknownValue):
             return
         if name is not None and name in self._implementations and not self._may_execute(use, name):
-            why = f"this executes {name} around the dispatch, if {ast.unparse(func.value)} is what implements it"
+            why = f"this executes {name} outside the dispatch if {ast.unparse(func.value)} implements it"
             self.findings.undecided(use.scope.file, func, why)
         elif func.attr in self._method_names and not self.globally and not self._within_variant(use):
-            why = f"this calls a rule's method without a trigger, if {ast.unparse(func.value)} is the robot"
+            why = f"this calls a rule's method without a trigger if {ast.unparse(func.value)} is the robot"
             self.findings.undecided(use.scope.file, func, why)
 
     def _api(self, use: Use, node: ast.Call, value: Api) -> None:
@@ -169,7 +169,7 @@ class BypassCheck:
         elif self._followed(use):
             return  # reported where the variant is followed
         elif value.name in _CODE_AS_IT_RUNS or (value.name in REPLACERS and isinstance(use.parent, ast.Subscript)):
-            self.findings.undecided(file, node, "code is made, or names are bound, as the program runs")
+            self.findings.undecided(file, node, "this generates code or binds names at run time")
         elif value.name in ("builtins.setattr", "builtins.delattr") and len(node.args) > 1:
             name = self.resolver.of(node.args[1], use.scope)
             text = getattr(name, "value", None)
@@ -179,7 +179,7 @@ class BypassCheck:
             receiver = self.resolver.of(node.args[0], use.scope)
             name = self.resolver.of(node.args[1], use.scope)
             if isinstance(name, UnknownValue) and self._is_robot(receiver):
-                self.findings.undecided(file, node, "which attribute of the robot this is, is known only at run time")
+                self.findings.undecided(file, node, "the name of the attribute is known only at run time")
 
     def _activation(self, use: Use, node: ast.Call) -> None:
         for argument in node.args:
@@ -188,9 +188,9 @@ class BypassCheck:
             if isinstance(value, Layer) and value.name in self.layers:
                 self.findings.add(
                     "layer-by-hand",
-                    f"{value.name} is a layer of a rule, and is activated or deactivated here by hand",
+                    f"{value.name} is a layer of a rule, but is activated or deactivated here by the code",
                     (use.scope.file, node),
-                    help="update() the context and trigger(), or use activate_globally()",
+                    help="use update() and trigger(), or activate_globally()",
                 )
             elif not isinstance(value, (OwnLayer, Layer)):
                 why = "this activates or deactivates a layer that is known only at run time"
@@ -213,14 +213,14 @@ class BypassCheck:
                 if not self.globally and value.receiver is not None:
                     self.findings.add(
                         "method-around",
-                        f"{group.name} is the method of a rule, and is handed on here to be called without a trigger",
+                        f"{group.name} is the method of a rule, but is passed on here to be called without a trigger",
                         (use.scope.file, node),
-                        help="hand on a function that calls sleec.trigger(…)",
+                        help="pass on a function that calls sleec.trigger(…)",
                     )
                 return
             name = self._implemented(function)
             if name is not None and not self._may_execute(use, name):
-                why = f"what implements {name} is handed on here, and may be called around the dispatch"
+                why = f"the implementation of {name} is passed on here, and may be called outside the dispatch"
                 self.findings.undecided(use.scope.file, node, why)
 
     @staticmethod
@@ -240,7 +240,7 @@ class BypassCheck:
         receiver = self.resolver.of(node.value, use.scope)
         of_robot = isinstance(receiver, UnknownValue) or getattr(receiver, "class_", None) in self._robots
         if of_robot and (node.attr in self._method_names or self._replaces(node.attr)):
-            self.findings.undecided(use.scope.file, node, f"{node.attr} is replaced here as the program runs")
+            self.findings.undecided(use.scope.file, node, f"{node.attr} is replaced here at run time")
 
     def _replaces(self, attribute: str) -> bool:
         """Whether a robot has an implementation of that name in its class."""

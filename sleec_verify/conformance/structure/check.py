@@ -87,7 +87,7 @@ class StructureCheck:
         for rule in self.tables.check(without):
             self.findings.add(
                 "missing-method",
-                f"no method of the target is that of {rule.label}",
+                f"rule `{rule.label}` has no method in the target",
                 None,
                 span=rule.heading_span,
                 rules=(rule.label,),
@@ -124,10 +124,10 @@ class StructureCheck:
                 line = earlier.node.lineno
                 self.findings.add(
                     "second-method",
-                    f"{rule.label} has another method, {first.name} ({earlier.file.source.path}:{line})",
+                    f"{rule.label} has a second method, {first.name} ({earlier.file.source.path}:{line})",
                     (at.file, at.node),
                     rules=(rule.label,),
-                    help="mark one of them only, unless only one is ever bound",
+                    help="mark only one of them, unless only one is ever bound",
                 )
 
     def _definitions(self, group: Group) -> None:
@@ -139,17 +139,17 @@ class StructureCheck:
                 self.findings.undecided(file, node, "the label of the rule is known only at run time")
             elif mark.label not in self.ruleset.by_label:
                 near = nearest(mark.label, self.ruleset.by_label)
-                hint = f"did you mean {near}?" if near else f"the rules are {', '.join(self.ruleset.by_label)}"
-                self.findings.add("unknown-rule", f"there is no rule {mark.label}", (file, node), help=hint)
+                hint = f"did you mean `{near}`?" if near else f"the rules are {', '.join(self.ruleset.by_label)}"
+                self.findings.add("unknown-rule", f"there is no rule called `{mark.label}`", (file, node), help=hint)
         for variant in group.variants:
             file = variant.function.file
             if variant.guarded:
-                message = f"this variant of {name} has a guard, so that something besides the rule chooses it"
+                message = f"this variant of {name} has a guard, so not only the rule decides whether it runs"
                 self.findings.add(
-                    "guarded-variant", message, (file, variant.at), help="make it a condition of the rule"
+                    "guarded-variant", message, (file, variant.at), help="add it as a condition to the rule"
                 )
             for decorator in variant.foreign:
-                why = f"this decorator may put something else in the place of {name}"
+                why = f"this decorator may replace {name}"
                 self.findings.undecided(file, decorator, why)
             if not variant.function.certain:
                 self.findings.undecided(file, variant.function.node, f"this variant of {name} is defined conditionally")
@@ -160,7 +160,7 @@ class StructureCheck:
                 "lost-variant",
                 f"the {name} on line {new.function.node.lineno} replaces this variant",
                 (old.function.file, old.at),
-                help="put @cop.base above the later one, or give it another name",
+                help="add @cop.base above the later one, or give it another name",
             )
         self._unmarked(group)
 
@@ -171,7 +171,7 @@ class StructureCheck:
             for binding in class_.inner.bindings.get(method.name, ()):
                 if not isinstance(binding, Function):
                     node = binding.value if isinstance(binding, Assignment) else class_.node
-                    why = f"{method.name} is bound otherwise than by `def`, and that may replace the method of a rule"
+                    why = f"{method.name} is bound without `def`, which may replace the method of a rule"
                     self.findings.undecided(class_.scope.file, node, why)
 
     def _unmarked(self, group: Group) -> None:
@@ -182,7 +182,7 @@ class StructureCheck:
             first = group.variants[0].function
             self.findings.add(
                 "unmarked",
-                f"{group.name} is bound to layers of {labels[0]}, and not marked as its method: no trigger runs it",
+                f"{group.name} is bound to layers of {labels[0]} but not marked as its method, so no trigger runs it",
                 (first.file, first.node),
                 rules=(labels[0],),
                 help=f'put @sleec.rule("{labels[0]}") above it, unless its layers are globally active',

@@ -89,9 +89,9 @@ class Flow(ABC):
         for statement in body:
             how = self.statement(statement, why)
             if how == LEAVES:
-                leaves, why = LEAVES, "after this function has been left, so that it is never run"
+                leaves, why = LEAVES, "after the function returns, so it never runs"
             elif how == MAY_LEAVE and leaves == STAYS:
-                leaves, why = MAY_LEAVE, why or "after a place where this function may be left"
+                leaves, why = MAY_LEAVE, why or "after a possible return"
         return leaves
 
     def statement(self, node: ast.stmt, why: str | None) -> int:
@@ -139,16 +139,14 @@ class Flow(ABC):
         catching = [handler for handler in node.handlers if not always_raises(handler.body)]
         caught = "under `try`" if catching else None
         if any(isinstance(inner, ast.Return) for part in node.finalbody for inner in (part, *own_nodes(part))):
-            caught = "under a `try` whose `finally` returns, whatever was raised"
+            caught = "under a `try` whose `finally` returns"
         body = self.statements(node.body, why or caught)
         ways = []
         for handler in node.handlers:
             way = self.statements(handler.body, why or "under `except`")
             if handler in catching:
                 ways.append(way)
-        after = (
-            "in the `else` of a `try`" if caught else "after a place where this function may be left" if body else None
-        )
+        after = "in the `else` of a `try`" if caught else "after a possible return" if body else None
         ways.append(self.statements(node.orelse, why or after))
         final = self.statements(node.finalbody, why)
         if LEAVES in (final, body) and (final == LEAVES or not catching):
@@ -204,7 +202,7 @@ class Flow(ABC):
             self.expression(node.values[0], why)
             word = "and" if isinstance(node.op, ast.And) else "or"
             for value in node.values[1:]:
-                self.expression(value, why or f"behind `{word}`")
+                self.expression(value, why or f"after `{word}`")
         elif isinstance(node, ast.IfExp):
             self.expression(node.test, why)
             for value in (node.body, node.orelse):
@@ -223,7 +221,7 @@ class Flow(ABC):
         followed = self.follows(node)
         outside = self.outside(node.func)
         gathered = awaited and outside in _GATHERERS
-        inside = why or ("one of those in `gather()`, which keeps no order" if gathered else None)
+        inside = why or ("one of those in `gather()`, which has no order" if gathered else None)
         passed_on = gathered or outside in _RUNNERS or (awaited and outside in _AWAITERS)
         for argument in (*node.args, *(keyword.value for keyword in node.keywords)):
             if not (followed and isinstance(argument, (ast.Name, ast.Attribute))):

@@ -96,12 +96,12 @@ class MethodCheck:
                 done = unit.trace.executed
                 if len(units) > 1 and done != expected[number] and any(done == expected[m] for m in missing):
                     units.remove(unit)
-                    word = f"this variant is bound to {clause_name(self.rule, number)}, which has another"
+                    word = f"{clause_name(self.rule, number)} already has a variant"
                     unit.wrong = ("wrong-layer", word)
                     self.strays.append(unit)
             kept = units[0].variant.function.node.lineno
             for unit in units[1:]:
-                word = f"has another variant, on line {kept}, and that is the one that runs"
+                word = f"also has a variant on line {kept}, which runs instead"
                 unit.wrong = ("duplicate-variant", f"{clause_name(self.rule, number)} {word}")
                 self.strays.append(unit)
             del units[1:]
@@ -112,10 +112,10 @@ class MethodCheck:
         if variant.is_base:
             return 0, None, None
         if layer is None:
-            word = "is bound to no layer" if not variant.bare else f"has an @{variant.kind} that was not called"
+            word = "has no layer" if not variant.bare else f"has @{variant.kind} without a call"
             return None, ("no-layer", f"this variant of {self.method.name} {word}"), None
         if isinstance(layer, OwnLayer):
-            word = "is bound to a layer that is no rule's"
+            word = "is bound to a layer that is not a layer of a rule"
             return None, ("unknown-layer", f"this variant of {self.method.name} {word}"), None
         if not isinstance(layer, Layer):
             self.unknown_layers = True
@@ -123,15 +123,17 @@ class MethodCheck:
         if layer.name not in self.layers:
             near = nearest(layer.name, [*(n for n in self._own_layers()), *self.layers])
             hint = (
-                f"did you mean {near}?" if near else f"{self.rule.label} has {', '.join(self._own_layers()) or 'none'}"
+                f"did you mean `{near}`?"
+                if near
+                else f"{self.rule.label} has {', '.join(self._own_layers()) or 'none'}"
             )
-            return None, ("unknown-layer", f"the rules have no layer {layer.name}"), hint
+            return None, ("unknown-layer", f"the rules have no layer `{layer.name}`"), hint
         label, number = self.layers[layer.name]
         if label == self.rule.label:
             return number, None, None
         if label in self.labels:
             return None, None, None  # of another rule that this method is for too
-        word = f"{layer.name} is a layer of rule {label}, and this is the method of {self.rule.label}"
+        word = f"{layer.name} is a layer of rule {label}, but this is the method of {self.rule.label}"
         return None, ("foreign-layer", word), None
 
     def _own_layers(self) -> list[str]:
@@ -191,7 +193,7 @@ class MethodCheck:
             note = self.findings.obliged(self.rule, meant)
             layer = self.rule.layer(meant)
             unknown = kind == "unknown-layer" and layer is not None
-            hint = f"did you mean {layer}?" if unknown else f"bind it by {expression(self.rule, meant)}"
+            hint = f"did you mean {layer}?" if unknown else f"bind it with {expression(self.rule, meant)}"
         clause = None if meant is None else ClauseRef(self.rule.label, meant)
         self.findings.add(kind, message, (file, at), rules=(self.rule.label,), clause=clause, note=note, help=hint)
 
@@ -205,7 +207,7 @@ class MethodCheck:
             self.findings.undecided(
                 first.function.file,
                 first.function.node,
-                f"the other variants of {self.method.name} may be inherited from a class that is not in the target",
+                f"the other variants of {self.method.name} may be inherited from a class outside the target",
             )
             return
         for number in missing:
@@ -235,7 +237,7 @@ class MethodCheck:
                     f"{listed(dict.fromkeys(lost))} where layers are globally active",
                     (bases[0].file, bases[0].node),
                     rules=(self.rule.label,),
-                    help=f"call super().{group.name}(…) in it, or leave it to trigger() to run the method",
+                    help=f"call super().{group.name}(…) in it, or run the method with trigger()",
                 )
 
     def _clause_of(self, unit: TracedVariant, number: int, expected: dict[int, list[str]]) -> int | None:
@@ -252,10 +254,10 @@ class MethodCheck:
     def _wrong_layer(self, unit: TracedVariant, number: int, other: int) -> None:
         self.findings.add(
             "wrong-layer",
-            f"this variant is bound to {clause_name(self.rule, number)}, and does what "
-            f"{clause_name(self.rule, other)} obliges",
+            f"this variant is bound to {clause_name(self.rule, number)}, but does what "
+            f"{clause_name(self.rule, other)} requires",
             (unit.variant.function.file, unit.variant.at),
             clause=ClauseRef(self.rule.label, number),
             note=self.findings.obliged(self.rule, number),
-            help=f"bind it by {expression(self.rule, other)}",
+            help=f"bind it with {expression(self.rule, other)}",
         )

@@ -59,7 +59,7 @@ class Findings:
 
     def undecided(self, file: PythonFile, node: ast.AST, why: str) -> None:
         """A place that only running the program would decide."""
-        self.add("undecided", f"this cannot be decided without running it: {why}", (file, node))
+        self.add("undecided", f"this cannot be decided without running the code: {why}", (file, node))
 
     @property
     def found(self) -> tuple[Finding, ...]:
@@ -73,12 +73,12 @@ class Findings:
         clause = tuple(rule.clauses())[number]
         names = [str(literal) for literal in clause.obligations]
         source = self.ruleset.source
-        what = f"obliges {listed(names)}" if names else "obliges nothing"
+        what = f"requires {listed(names)}" if names else "requires nothing"
         return f"{clause_name(rule, number)} {what} ({source.path}:{source.place(clause.span).line})"
 
 
 def clause_name(rule: Rule, number: int) -> str:
-    """A clause as code names it: by its layer."""
+    """The layer of a clause, which is its name in the code."""
     return rule.layer(number) or f"the default of {rule.label}"
 
 

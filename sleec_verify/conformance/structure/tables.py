@@ -68,7 +68,7 @@ class Tables:
             self.modules.add(value.scope)
             self._members(self._functions(value.scope), value.scope.node)
         else:
-            self._unknown(node, scope, "which obligations this implements is known only at run time")
+            self._unknown(node, scope, "the obligations that this implements are known only at run time")
 
     def _unknown(self, node: ast.AST, scope: Scope, why: str) -> None:
         self.undecided = True
@@ -81,23 +81,25 @@ class Tables:
                 if isinstance(merged, Table):
                     self._table(merged)
                 else:
-                    self._unknown(value, table.scope, "which obligations this adds is known only at run time")
+                    self._unknown(value, table.scope, "the obligations that this adds are known only at run time")
                 continue
             name = Text(key) if isinstance(key, str) else self.resolver.of(key, table.scope)
             if not isinstance(name, Text):
                 assert isinstance(key, ast.expr), "a key that is no text is an expression"
-                self._unknown(key, table.scope, "which obligation this is for is known only at run time")
+                self._unknown(key, table.scope, "the obligation of this entry is known only at run time")
                 continue
             self._entry(name.value, key if isinstance(key, ast.expr) else value, value, table.scope)
 
     def _entry(self, name: str, at: ast.expr, value: ast.expr, scope: Scope) -> None:
         if name not in self.names.obligations:
             near = nearest(name, sorted(self.names.obligations))
-            hint = f"did you mean {near}?" if near else f"the rules have {listed(sorted(self.names.obligations))}"
-            self.findings.add("unknown-obligation", f"the rules have no obligation {name}", (scope.file, at), help=hint)
+            hint = f"did you mean `{near}`?" if near else f"the rules have {listed(sorted(self.names.obligations))}"
+            self.findings.add(
+                "unknown-obligation", f"the rules have no obligation called `{name}`", (scope.file, at), help=hint
+            )
             return
         if isinstance(value, ast.Constant):
-            message = f"{ast.unparse(value)} is not callable, and {name} needs what is"
+            message = f"{ast.unparse(value)} is not callable, but {name} needs a callable"
             self.findings.add("missing-callable", message, (scope.file, value), obligations=(name,))
         self.given[name] = at
         for inner in ast.walk(value):
@@ -131,7 +133,7 @@ class Tables:
             for obligation in self.names.by_method[name]:
                 self.given.setdefault(obligation, node)
         if open_ and set(self.names.obligations) - set(self.given):
-            self._unknown(node, scope, "it inherits from a class that is not in the target, which may implement more")
+            self._unknown(node, scope, "it inherits from a class outside the target, which may implement more")
 
     def _members(self, functions: list[Function], at: ast.AST) -> None:
         for function in functions:
@@ -163,11 +165,11 @@ class Tables:
             labels = list(dict.fromkeys(labels))
             self.findings.add(
                 "missing-callable",
-                f"{name} has no callable, and {listed(labels)} {'needs' if len(labels) == 1 else 'need'} it",
+                f"{name} has no callable, but {listed(labels)} {'needs' if len(labels) == 1 else 'need'} it",
                 (scope.file, call.func),
                 rules=tuple(labels),
                 obligations=(name,),
-                help=f"give it one: implement({{{name!r}: …}})",
+                help=f"add one: implement({{{name!r}: …}})",
             )
         return []
 

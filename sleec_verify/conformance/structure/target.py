@@ -75,7 +75,7 @@ def python_files(target: str) -> tuple[PythonFile, ...]:
     """
     paths = list(_paths(target))
     if not paths:
-        raise NoTarget(f"there is no {SUFFIX} file below {target}", "name the folder that holds the robot's code")
+        raise NoTarget(f"there is no {SUFFIX} file below {target}", "name the folder with the robot's code")
     files = []
     for path in paths:
         with internal_errors_of(path):
@@ -112,7 +112,7 @@ def _below(folder: str) -> Iterator[str]:
                 # To skip it might hide what reaches around the dispatch.
                 raise UnreadableFile(
                     f"the link {path} does not lead to a Python file below {folder}",
-                    "name the folder that holds the code, or remove the link",
+                    "name the folder with the code, or remove the link",
                 )
             yield path
 
@@ -132,7 +132,7 @@ def _module(name: str) -> Iterator[str]:
             missing = ".".join(name.split(".")[:done])
             raise NoTarget(
                 f"there is no file or folder {name}, and no module {missing} on sys.path",
-                "name a Python file or a folder, or set PYTHONPATH so that the module is found",
+                "name a Python file or a folder, or add the module to PYTHONPATH",
             )
         where = list(spec.submodule_search_locations or ())
     assert spec is not None, "a name has at least one part"
@@ -175,7 +175,7 @@ def _problem(source: Source, error: SyntaxError) -> Problem:
     start = sum(len(before) + 1 for before in lines[: line - 1])
     column = min(max((error.offset or 1) - 1, 0), len(lines[line - 1]))
     span = Span(start + column, min(start + column + 1, len(source.text)))
-    return Problem(f"this is no Python: {error.msg}", span)
+    return Problem(f"this is not valid Python: {error.msg}", span)
 
 
 def _bytes(path: str) -> tuple[str, bytes]:
@@ -185,7 +185,7 @@ def _bytes(path: str) -> tuple[str, bytes]:
     try:
         return path, read_file(path)
     except FileNotFoundError:
-        raise NoTarget(f"there is no file {path}", "check the spelling of its name and folder") from None
+        raise NoTarget(f"there is no file {path}", "check its name and folder") from None
     except (OSError, ValueError) as error:
         raise UnreadableFile(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from None
 
@@ -199,7 +199,7 @@ def _source(path: str) -> Source:
     if found is not None:
         line = text.count("\n", 0, found.start()) + 1
         what = "a NUL byte" if found[0] == "\0" else f"the lone surrogate U+{ord(found[0]):04X}"
-        raise UnreadableFile(f"{path} is not a text of Python: line {line} holds {what}")
+        raise UnreadableFile(f"{path} is not valid Python: line {line} contains {what}")
     return Source(path, tidy(text), sha256(data).hexdigest())
 
 
@@ -214,12 +214,12 @@ def _decoded(path: str, data: bytes) -> str:
             warnings.simplefilter("ignore")  # of escapes in a text that is all escapes
             return data.decode(encoding)
     except SyntaxError as error:  # a cookie that names no encoding, or bytes that are not UTF-8 in the first lines
-        raise UnreadableFile(f"{path} cannot be read: {error.msg}", "mend its `# -*- coding` line") from None
+        raise UnreadableFile(f"{path} cannot be read: {error.msg}", "correct its `# -*- coding` line") from None
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise UnreadableFile(
-            f"{path} is not {error.encoding} text: line {line} holds the byte 0x{error.object[error.start]:02x}",
-            "save it as UTF-8, or say its encoding in the first line: # -*- coding: latin-1 -*-",
+            f"{path} is not {error.encoding} text: line {line} contains the byte 0x{error.object[error.start]:02x}",
+            "save it as UTF-8, or declare its encoding in the first line: # -*- coding: latin-1 -*-",
         ) from None
     except (LookupError, UnicodeError):  # not an encoding of texts, such as `hex`, or one that does not say where
         raise UnreadableFile(

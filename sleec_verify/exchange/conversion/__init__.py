@@ -58,7 +58,7 @@ def of_domain(ruleset: Ruleset, domain: str) -> Ruleset:
         else:
             statements.append(statement)
     if not rules:
-        raise Unsayable(f"no rule is in force in the domain {domain}", "choose a domain with rules")
+        raise Unsayable(f"no rule applies in the domain `{domain}`", "choose another domain")
     part = replace(ruleset, statements=tuple(statements))
     compared = names_used(part)["condition"]
     return _declared(replace(part, inferred=tuple(measure for measure in part.inferred if measure.name in compared)))
@@ -96,7 +96,7 @@ def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Con
         converted, notes = in_english(reread(ruleset, reading or ruleset.reading))
     else:
         if reading == "cascade":
-            raise Unsayable("the DSL reads hedges by priority only", "leave --reading out")
+            raise Unsayable("the DSL has only the reading priority", "omit --reading")
         from sleec_verify.exchange.conversion.to_dsl import in_dsl
 
         converted, notes = in_dsl(reread(ruleset, "priority"), _DIALECTS[to])
@@ -105,7 +105,7 @@ def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Con
         again = parse(text)
     except LanguageError as error:
         first = error.problems[0]
-        raise Unsayable(f"this cannot be said in the other language: {first.message}", first.hint) from None
+        raise Unsayable(f"the other language cannot express this: {first.message}", first.hint) from None
     if replace(again, dialect=converted.dialect) != converted:
-        raise AssertionError("the converted text would not say the same, which is a bug in sleec-verify")
+        raise AssertionError("the converted text would have another meaning; this is a bug in sleec-verify")
     return Conversion(text, again, notes)

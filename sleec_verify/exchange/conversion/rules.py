@@ -57,8 +57,8 @@ def _wide(clause: Clause, label: str) -> Clause:
     obligations = list(islice(narrowed, MAX_RULES + 1))
     if len(obligations) > MAX_RULES:
         raise Unsayable(
-            f"{label} offers so many alternatives that it would be more than {MAX_RULES:,} rules in the DSL",
-            "offer fewer obligations in each OTHERWISE and ELSE",
+            f"rule `{label}` has so many alternatives that the DSL would need more than {MAX_RULES:,} rules",
+            "use fewer obligations in each OTHERWISE and ELSE",
         )
     return replace(clause, obligations=tuple(obligations), hedges=tuple(_wide(hedge, label) for hedge in clause.hedges))
 

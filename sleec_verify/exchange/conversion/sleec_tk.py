@@ -49,7 +49,7 @@ def taken_names(statements: Iterable[Statement]) -> list[str]:
 
 
 _TAKEN = {"STOP", "P", "Q", "c", "d"}
-_HINT = "write --to legos"
+_HINT = "use --to legos"
 
 
 def _unsayable(clause: Clause) -> Iterator[tuple[str, Span]]:
@@ -63,7 +63,7 @@ def _of_literal(literal: Obligation) -> str | None:
     timing = literal.timing
     window = timing.window if timing is not None else None
     if literal.negated and (window is None or window.end is None):
-        return f"SLEEC-TK has no prohibition without a window, as of {literal.name}"
+        return f"SLEEC-TK has no prohibition without a window, such as that of `{literal.name}`"
     if timing is None:
         return None
     if timing.instead is not None:
@@ -73,7 +73,7 @@ def _of_literal(literal: Obligation) -> str | None:
     if window is not None and window.end is None:
         return "SLEEC-TK has no eventually"
     if window is not None and window.start is not None:
-        return "SLEEC-TK has no windows that begin later"
+        return "SLEEC-TK has no windows with a start"
     if window is not None and window.end is not None and window.end.measures:
-        return "SLEEC-TK has no windows as long as a measure says"
+        return "SLEEC-TK has no windows whose length is a measure"
     return None

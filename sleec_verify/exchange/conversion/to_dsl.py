@@ -38,7 +38,7 @@ from sleec_verify.exchange.conversion.rules import narrow, split
 from sleec_verify.exchange.conversion.sleec_tk import has_untimed, refuse_unsayable, taken_names
 from sleec_verify.results.phrases import listed
 
-_RENAME = "rename it first, everywhere in the rules"
+_RENAME = "rename it everywhere in the rules first"
 _NAME = re.compile(r"[^\W\d]\w*")
 
 
@@ -57,9 +57,9 @@ def in_dsl(ruleset: Ruleset, dialect: Dialect) -> tuple[Ruleset, list[str]]:
         refuse_unsayable(ruleset, statements)
         taken = taken_names(statements)
         if taken:
-            notes.append(f"the editor of SLEEC-TK refuses {listed(taken)} as {'names' if len(taken) > 1 else 'a name'}")
+            notes.append(f"the editor of SLEEC-TK rejects {listed(taken)} as {'names' if len(taken) > 1 else 'a name'}")
         if ruleset.dialect != "sleec-tk" and has_untimed(statements):
-            notes.append("a response without a window is due at once here, and for SLEEC-TK at some time from then on")
+            notes.append("a response without a window is immediate here, but SLEEC-TK requires it at any later time")
     else:
         _refuse_keywords_of_legos(ruleset, statements)
         statements = [with_formulas(s, _in_pairs) for s in statements]
@@ -93,13 +93,13 @@ def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
             yield _measure(ruleset, statement, notes)
         elif isinstance(statement, Constant):
             if statement.value.denominator != 1:
-                refuse(ruleset, f"{statement.name} is no whole number", statement.span, "choose a smaller unit")
+                refuse(ruleset, f"`{statement.name}` is not a whole number", statement.span, "choose a smaller unit")
             _name(ruleset, statement.name)
             yield statement
         elif isinstance(statement, Rule):
             if statement.domains is not None:
-                said = f"the DSL has no domains, and {statement.label} has one"
-                refuse(ruleset, said, statement.span, "pick one with --domain")
+                said = f"the DSL has no domains, but rule `{statement.label}` has one"
+                refuse(ruleset, said, statement.span, "choose one with --domain")
             _label(ruleset, statement.label, statement.label_span)
             yield from split(replace(statement, comments=_comments(statement), labelled=True), labels)
         elif isinstance(statement, Claim):
@@ -109,7 +109,7 @@ def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
             yield statement
         else:
             word = type(statement).__name__.upper()
-            refuse(ruleset, f"the DSL has nothing that means what {word} does", statement.span)
+            refuse(ruleset, f"the DSL has no equivalent of {word}", statement.span)
 
 
 def _of_events_in_conditions(ruleset: Ruleset) -> Iterator[str]:
@@ -118,7 +118,7 @@ def _of_events_in_conditions(ruleset: Ruleset) -> Iterator[str]:
     named = sorted({atom.name for atom in atoms if atom.kind == "trigger"})
     if named:
         names = f"{listed(named)} {'stands in a condition' if len(named) == 1 else 'stand in conditions'}"
-        yield f"{names}, where SLEEC-TK and LEGOS-SLEEC read measures alone"
+        yield f"{names}, but SLEEC-TK and LEGOS-SLEEC allow only measures there"
 
 
 def _undeclared(names: Iterable[str], declared: set[str]) -> list[str]:
@@ -137,14 +137,16 @@ def _declarations(
             yield Declaration(kind, (name,), span, (span,), comments, agents.get(name))
             comments = NO_COMMENTS
     if comments != NO_COMMENTS:
-        refuse(ruleset, "a comment stands at a declaration that the DSL does not need", statement.span, "move it")
+        refuse(
+            ruleset, "a comment belongs to a declaration that the DSL does not have", statement.span, "move the comment"
+        )
 
 
 def _measure(ruleset: Ruleset, measure: Measure, notes: list[str]) -> Measure:
     for name in (measure.name, *measure.values):
         _name(ruleset, name, measure.span)
     if measure.kind == "number":
-        notes.append(f"{measure.name} is any number here, and numeric, a whole number, in the DSL")
+        notes.append(f"`{measure.name}` is a number here, but a whole number (numeric) in the DSL")
         return replace(measure, kind="integer")
     return measure
 
@@ -162,12 +164,12 @@ def _refuse_keywords_of_legos(ruleset: Ruleset, statements: Iterable[Statement])
         for name in (*defined_names(statement), *values):
             if name in LEGOS_KEYWORDS:
                 span = statement.span if statement.span != NOWHERE else None
-                refuse(ruleset, f"\u201c{name}\u201d is a keyword of LEGOS", span, _RENAME)
+                refuse(ruleset, f"`{name}` is a keyword of LEGOS", span, _RENAME)
 
 
 def _label(ruleset: Ruleset, label: str, span: Span) -> None:
     if label in LEGOS_KEYWORDS:
-        refuse(ruleset, f"\u201c{label}\u201d is a keyword of the DSL", span, _RENAME)
+        refuse(ruleset, f"`{label}` is a keyword of the DSL", span, _RENAME)
     _name(ruleset, label, span)
 
 
@@ -175,8 +177,8 @@ def _name(ruleset: Ruleset, name: str, span: Span | None = None) -> str:
     """A name that SLEEC-TK can say; LEGOS has more keywords."""
     is_keyword = name in KEYWORDS - LEGOS_KEYWORDS
     if _NAME.fullmatch(name) is None or is_keyword:
-        what = "is a keyword of the DSL" if is_keyword else "is no name of the DSL: letters, digits and _ only"
-        refuse(ruleset, f"\u201c{name}\u201d {what}", span, _RENAME)
+        what = "is a keyword of the DSL" if is_keyword else "is not a name of the DSL: use only letters, digits and _"
+        refuse(ruleset, f"`{name}` {what}", span, _RENAME)
     return name
 
 

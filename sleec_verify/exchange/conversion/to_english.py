@@ -27,7 +27,7 @@ from sleec_verify.encoding.calculations import refuse_unsayable_calculations
 from sleec_verify.encoding.measures import MIRRORED
 from sleec_verify.encoding.statement_parts import with_formulas
 
-_HINT = "compare one measure with a number, or two measures with each other"
+_HINT = "compare a measure with a number or with another measure"
 
 
 def in_english(ruleset: Ruleset) -> tuple[Ruleset, list[str]]:
@@ -46,7 +46,7 @@ def in_english(ruleset: Ruleset) -> tuple[Ruleset, list[str]]:
     for statement in _defined_once(ruleset.statements):
         if isinstance(statement, (Rule, Claim)) and "#" in statement.label:
             new = _new_label(statement.label, labels)
-            notes.append(_at_line(statement.label_span, f"{statement.label} is called {new} here", ruleset))
+            notes.append(_at_line(statement.label_span, f"rule `{statement.label}` is renamed to `{new}`", ruleset))
             statement = replace(statement, label=new)
         statements.append(with_formulas(statement, lambda formula: _own_values(formula, ruleset)))
     english = replace(

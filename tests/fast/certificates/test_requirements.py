@@ -61,13 +61,13 @@ def test_check_requires_what_is_asked_and_what_was(build: Build, tmp_path: Path,
     for asked, proved, tied in itertools.product(REQUIREMENTS, (False, True), (False, True)):
         build(proved, tied)
         expected = unmet(Required(made.proved or asked.proved, made.tied or asked.tied), proved, tied)
-        reasons, hint = set(), "builds what is required"
+        reasons, hint = set(), "builds what is missing"
         try:
             check_certificate(ruleset, str(tmp_path / "c"), checker(), None, asked, oracle=built())
         except CertificateRefused as refusal:
             reasons, hint = {reason for reason, _ in refusal.problems}, str(refusal.hint)
         assert reasons == expected, (asked, proved, tied)
-        assert "builds what is required" in hint
+        assert "builds what is missing" in hint
 
 
 @pytest.mark.parametrize("made", REQUIREMENTS, ids=str)
@@ -116,7 +116,7 @@ def test_nothing_is_written_unless_it_is_so(cli: Cli, build: Build, flag: str, c
     build(not required.proved, not required.tied)
     name, option = command
     ran = cli(name, "rules.sleec", option, "c", flag, files={"rules.sleec": RULES})
-    assert (ran.code, "builds what is required" in ran.err) == (2, True)
+    assert (ran.code, "builds what is missing" in ran.err) == (2, True)
     assert not Path("c").exists()
     build(required.proved, required.tied)
     assert cli(name, "rules.sleec", option, "c", flag).code == 0
@@ -162,7 +162,7 @@ def test_another_program_is_not_the_proved_checker(cli: Cli, build: Build, tmp_p
 def test_what_the_theory_does_not_speak_of_is_not_tied(cli: Cli, build: Build) -> None:
     build(True, True)
     ran = cli("certify", "rules.sleec", "-o", "c", "--require-tied", files={"rules.sleec": TIMED})
-    assert (ran.code, "the theory has no times" in ran.err) == (2, True)
+    assert (ran.code, "the theory covers neither time" in ran.err) == (2, True)
     assert cli("certify", "rules.sleec", "-o", "c", "--require-proved").code == 0
 
 
@@ -175,7 +175,7 @@ SETTINGS = [(f"{flag.removeprefix('--')} = true", ()) for flag in FLAGS] + [("",
 """The ways to require something of the gate: in the configuration, and on the command line."""
 
 
-@pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
+@pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 @pytest.mark.parametrize(("block", "flags"), SETTINGS)
 def test_the_gate_can_require_it(cli: Cli, build: Build, tmp_path: Path, block: str, flags: tuple[str, ...]) -> None:
     repository = Repository(tmp_path)
@@ -192,10 +192,10 @@ def test_the_gate_can_require_it(cli: Cli, build: Build, tmp_path: Path, block: 
 
     build(True, True)
     # Whoever requires something of certificates asks for one.
-    assert "there is no a.certificate beside it" in gated()[1]
+    assert "the certificate a.certificate is missing" in gated()[1]
     cli("certify", "a.sleec", "-o", "a.certificate")
     assert gated() == (0, "")
     build(False, False)
     code, what = gated()
     assert code == 1
-    assert "is not proved correct" in what or "is not tied to the rules" in what
+    assert "is not proved correct" in what or "is not proved for the rules" in what

@@ -108,8 +108,8 @@ def brute_names(ruleset, when):
 @pytest.mark.parametrize(
     ("text", "column", "message", "hint"),
     [
-        ("", 1, "begins with never or always", "for example"),
-        ("mostly Open", 1, "begins with never or always", "for example"),
+        ("", 1, "must begin with never or always", "for example"),
+        ("mostly Open", 1, "must begin with never or always", "for example"),
         ("never", 6, "an obligation is missing", "must not do"),
         ("never Opn when Request", 7, "`Opn` is not in the rules", "did you mean `Open`?"),
         ("never Request", 7, "`Request` is a trigger", "obligations after never and always"),
@@ -163,12 +163,12 @@ BESIDE = "MEASURE Age: integer\nMEASURE Risk: low < high\nCONSTANT Grown = 18\nW
 @pytest.mark.parametrize(
     ("when", "other", "why"),
     [
-        ("c", MEASURING, "c is a measure in these rules, and a condition"),
-        ("c", "WHEN c THEN o\n", "c is a trigger in these rules, and a condition"),
-        ("t", "WHEN c THEN o UNLESS t IN WHICH CASE p\n", "t is a condition in these rules, and a trigger"),
-        ("Age > 3", "WHEN t THEN o UNLESS Age IN WHICH CASE p\n", "Age is a condition in these rules, and a measure"),
-        ("Risk > low", BESIDE.replace("low < high", "high < low"), "Risk has another scale in these rules"),
-        ("Age < Grown", BESIDE.replace("18", "21"), "Grown is another number in these rules"),
+        ("c", MEASURING, "`c` is a measure in these rules, but a condition"),
+        ("c", "WHEN c THEN o\n", "`c` is a trigger in these rules, but a condition"),
+        ("t", "WHEN c THEN o UNLESS t IN WHICH CASE p\n", "`t` is a condition in these rules, but a trigger"),
+        ("Age > 3", "WHEN t THEN o UNLESS Age IN WHICH CASE p\n", "`Age` is a condition in these rules, but a measure"),
+        ("Risk > low", BESIDE.replace("low < high", "high < low"), "`Risk` has a different scale"),
+        ("Age < Grown", BESIDE.replace("18", "21"), "`Grown` has a different value"),
     ],
 )
 def test_rules_that_take_a_name_otherwise_are_not_asked(when: str, other: str, why: str) -> None:

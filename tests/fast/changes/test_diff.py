@@ -90,8 +90,8 @@ def test_a_file_that_only_one_folder_has_is_told(cli: Cli) -> None:
     files = {"one/a.sleec": OLD, "one/gone.sleec": OLD, "two/a.sleec": OLD, "two/new.sleec": MORE}
     ran = cli("diff", "one", "two", files=files)
     assert ran.code == 2
-    assert "gone.sleec is not in two: it was deleted" in ran.err
-    assert "new.sleec is not in one: it was added" in ran.err
+    assert "gone.sleec was deleted: it is not in two" in ran.err
+    assert "new.sleec was added: it is not in one" in ran.err
     assert "two/a.sleec: equivalent" in ran.out
 
 
@@ -151,7 +151,9 @@ def test_an_assertion_is_read_as_the_new_rules_take_its_names(cli: Cli) -> None:
     assert several.code == 2
     several = cli("diff", "one", "two", "--assert", "never o when c")
     assert several.code == 3
-    assert "(two/b.sleec): c is a measure in these rules, and a condition where the assertion was read" in several.out
+    assert (
+        "(two/b.sleec): `c` is a measure in these rules, but a condition in the rules of the assertion" in several.out
+    )
 
 
 def test_a_file_of_assertions(cli: Cli) -> None:
@@ -171,10 +173,10 @@ def test_a_file_of_assertions(cli: Cli) -> None:
         (["a.sleec"], "two files, two folders"),
         (["a.sleec", "a.sleec", "a.sleec"], "two files, two folders"),
         (["a.sleec", "nothing.sleec"], "there is no file nothing.sleec"),
-        (["a.sleec", "."], ". is a folder, and a.sleec is not"),
+        (["a.sleec", "."], ". is a folder, but a.sleec is not"),
         (["empty", "nothing"], "there is no folder nothing"),
         (["nothing", "empty"], "there is no folder nothing"),
-        (["-", "empty"], "empty is a folder, and - is not"),
+        (["-", "empty"], "empty is a folder, but - is not"),
         (["-", "-"], "standard input cannot be both sides"),
         (["-", "a.sleec", "--assertions", "-"], "standard input cannot be both rules and assertions"),
         (["empty", "empty"], "there is no .sleec file below"),

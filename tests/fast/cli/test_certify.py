@@ -27,7 +27,7 @@ def test_exit_codes_are_those_of_check(cli: Cli, monkeypatch: pytest.MonkeyPatch
     never = "NEVER A AND NOT B\nNEVER B AND C\nRULE a WHEN T THEN A AND C\n"
     monkeypatch.setattr("sleec_verify.query.prime_implicates.STEPS", 0)
     ran = cli("certify", "unknown.sleec", "-o", "c", files={"unknown.sleec": never})
-    assert (ran.code, "unknown   no proof, as there is no verdict" in ran.out) == (3, True)
+    assert (ran.code, "unknown   no proof, because there is no verdict" in ran.out) == (3, True)
     assert cli("certify", "--check", "c", "unknown.sleec").code == 3
 
 
@@ -46,7 +46,7 @@ def test_what_is_told(cli: Cli) -> None:
     out = cli("certify", "clean.sleec", "-o", "new/place", files=FILES).out
     assert "conflict            proved    1 question refuted: conflict.cnf, conflict.lrat\n" in out
     held = cli("certify", "--check", "new/place", "clean.sleec").out
-    assert held.startswith("new/place: the certificate holds of clean.sleec (reading cascade; with chains)\n")
+    assert held.startswith("new/place: valid certificate of clean.sleec (reading cascade; with chains)\n")
     *_, judged, tied = held.splitlines()
     assert judged.startswith("proofs checked by ")
     assert tied.startswith("conflict: ")
@@ -76,7 +76,7 @@ def test_it_is_told_what_ties_the_verdict_to_the_rules(
     ran = cli("certify", "--check", "a", "clean.sleec")
     assert ran.code == 0
     unbuilt = "the oracle is not built (make proofs)"
-    untied = "that the formula is that of the rules is not proved"
+    untied = "not proved that the formula is the one of the rules"
     assert ran.out.splitlines()[-1] == f"conflict: {untied}: {unbuilt}"
     told = json.loads(cli("certify", "--check", "a", "clean.sleec", "--format", "json").out)
     assert told["theory"] == {"conflict": {"proved": False, "reason": unbuilt}}

@@ -51,7 +51,7 @@ def test_what_fails_leaves_all_as_it_was(
     ran = cli(*LINE, files={"a.sleec": CLASH})
     assert ran.code == 2
     assert "report.sarif cannot be written: No space left on device" in ran.err
-    assert "nothing of it was changed" in ran.err
+    assert "the file was not changed" in ran.err
     assert sorted(os.listdir(tmp_path)) == (["a.sleec"] if old is None else ["a.sleec", "report.sarif"])
     assert old is None or (tmp_path / "report.sarif").read_text() == old
 
@@ -88,11 +88,11 @@ def test_what_is_no_file_is_written_to(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("output", "message"),
     [
-        ("a.sleec", "a.sleec is what is checked; name another file to write to"),
-        ("rules/b.sleec", "rules/b.sleec is what is checked; name another file to write to"),
-        ("./rules/../a.sleec", "./rules/../a.sleec is what is checked"),
-        ("rules", "rules is a folder; name a file in it"),
-        ("there/report.sarif", "there is no folder there to write report.sarif to"),
+        ("a.sleec", "a.sleec is an input; name another file for the output"),
+        ("rules/b.sleec", "rules/b.sleec is an input; name another file for the output"),
+        ("./rules/../a.sleec", "./rules/../a.sleec is an input"),
+        ("rules", "rules is a folder; name a file"),
+        ("there/report.sarif", "the folder there for report.sarif does not exist"),
     ],
 )
 def test_what_the_output_may_not_be(
@@ -110,7 +110,7 @@ def test_conform_overwrites_neither_code_nor_rules(output: str, cli: Cli, tmp_pa
     files = {"robot.py": "x = 1\n", "a.sleec": CLASH}
     ran = cli("conform", "robot.py", "--ruleset", "a.sleec", "-o", output, files=files)
     assert ran.code == 2
-    assert f"{output} is what is checked" in ran.err
+    assert f"{output} is an input" in ran.err
     assert (tmp_path / output).read_text() == files[output]
 
 

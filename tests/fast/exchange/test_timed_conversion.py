@@ -215,10 +215,10 @@ def test_too_many_choices_are_refused():
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        ("MEASURE waiting time: integer\nWHEN t THEN a WITHIN waiting time minutes", "no name of the DSL"),
-        ("CONCERN c.1 EXISTS a", "no name of the DSL"),
-        ("CONCERN c1 EXISTS the bell rings", "no name of the DSL"),
-        ("RELATION ALWAYS the bell is broken", "no name of the DSL"),
+        ("MEASURE waiting time: integer\nWHEN t THEN a WITHIN waiting time minutes", "not a name of the DSL"),
+        ("CONCERN c.1 EXISTS a", "not a name of the DSL"),
+        ("CONCERN c1 EXISTS the bell rings", "not a name of the DSL"),
+        ("RELATION ALWAYS the bell is broken", "not a name of the DSL"),
         ("NEVER a AND b\nWHEN t THEN a OTHERWISE b", "NEVER"),
     ],
 )

@@ -12,7 +12,7 @@ from tests.support.cli import Cli
 from tests.support.repository import Repository
 
 pytestmark = [
-    pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine"),
+    pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed"),
     pytest.mark.skipif(os.name != "posix", reason="links need no rights"),
 ]
 

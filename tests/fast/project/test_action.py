@@ -134,7 +134,7 @@ def test_a_wrong_input_of_the_action_is_told(runner: Runner) -> None:
     assert "'xml' is not one of" in ran.err
 
 
-@pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
+@pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 def test_with_a_base_the_action_is_the_gate(runner: Runner) -> None:
     repository = Repository(runner.checkout)
     repository.put("sleec-verify.toml", 'rulesets = ["rules"]\n')

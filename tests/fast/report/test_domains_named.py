@@ -53,13 +53,16 @@ def test_diff_names_the_domains_of_each_change(cli: Cli) -> None:
     assert "+ conflict LockDoor, OpenDoor [a/b] when Bell, Ding=true (1/2); domain home\n" in ran.out
 
 
-@pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
+@pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 def test_gate_names_the_domains_of_what_blocks(cli: Cli, tmp_path: Path) -> None:
     repository = Repository(tmp_path)
     repository.commit(a_sleec=OLD)
     repository.put("a.sleec", NEW)
     ran = cli("gate", "--base", "main", "--summary", "summary.md")
-    assert "blocks: new-conflicts: a.sleec: a and b now conflict over LockDoor and OpenDoor; domain home\n" in ran.out
+    assert (
+        "blocks: new-conflicts: a.sleec: a and b now contradict each other about LockDoor and OpenDoor; domain home\n"
+        in ran.out
+    )
     blocks = [line for line in ran.out.splitlines() if line.startswith("blocks: ")]
     assert len(set(blocks)) == len(blocks)
     assert "; domain home" in (tmp_path / "summary.md").read_text(encoding="utf-8")

@@ -237,7 +237,7 @@ def test_differences_that_are_not_counted_fit_the_schema(cli: Cli, monkeypatch: 
     said = json.loads(cli("diff", "old.sleec", "new.sleec", "--format", "json", files=files).out)
     jsonschema.validate(said, DIFFERENCE)
     (change,) = said["changes"]
-    assert change["situations"]["reason"] == "it concerns more than 1 names"
+    assert change["situations"]["reason"] == "it depends on more than 1 names"
 
 
 def test_assertions_fit_the_schema(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -199,7 +199,7 @@ def again_only_after_a_change() -> Sleec:
 
 @mutant
 def conflict_half_executed() -> Sleec:
-    """Where the rules conflict, one of the things is done before it is refused."""
+    """Where the rules contradict each other, one of the things is done before it is refused."""
 
     class Mutant(Instance):
         def occur(self, names: tuple[str, ...]) -> Any:

@@ -105,7 +105,7 @@ def test_a_file_is_refused_in_every_role(role: str, kind: str, folder: Path, cli
         assert "X.sleec" in ran.err
     elif kind == "device" and role in IN_REPOSITORY:
         assert ran.code == 2
-        assert "leads out of the repository" in ran.err
+        assert "points outside the repository" in ran.err
     else:
         assert ran.code == 2
         assert why in ran.err
@@ -126,7 +126,7 @@ def test_a_file_that_the_configuration_names_is_refused(setting: str, kind: str,
     ran = cli("gate", "--max-size", str(LIMIT))
     assert ran.code == 2
     # The device is outside the repository.
-    assert (f"{name} leads out of the repository" if kind == "device" else why) in ran.err
+    assert (f"{name} points outside the repository" if kind == "device" else why) in ran.err
 
 
 @pytest.mark.parametrize("command", ["diff --git HEAD", "diff --git HEAD..HEAD rules", "gate"])

@@ -25,7 +25,7 @@ def test_a_mutant_is_caught(name: str) -> None:
     report = str(caught.value)
     assert "situation:" in report
     assert "executed:" in report
-    assert "due:" in report
+    assert "required:" in report or "requires:" in report
 
 
 def test_there_are_enough_of_them() -> None:

@@ -156,10 +156,10 @@ def test_the_report_says_what_was_due_and_by_which_clause() -> None:
     with pytest.raises(Nonconformance) as caught:
         check_conformance(make)
     assert str(caught.value).splitlines() == [
-        "executed, though not due, OpenCurtains",
+        "executed, although not required, OpenCurtains",
         "  situation: When `Request` occurs, `Undressed` is true (and nothing else holds)",
         "  executed:  RefuseRequest, ExplainWhy, OpenCurtains",
-        "  due:       RefuseRequest, ExplainWhy",
+        "  required:  RefuseRequest, ExplainWhy",
         "    by rule curtains, clause 1, layer curtains.hc1: RefuseRequest AND ExplainWhy",
     ]
 
@@ -223,7 +223,7 @@ def test_the_machine_makes_steps_in_other_threads() -> None:
 
 @pytest.mark.parametrize(("made", "named"), [(None, "nothing"), (5, "a int"), (Log(), "a Log")])
 def test_a_factory_must_make_an_instance(made, named: str) -> None:
-    with pytest.raises(NotASubject, match=f"the factory made {named}, which takes no triggers"):
+    with pytest.raises(NotASubject, match=f"the factory returned {named}, which is not a Sleec"):
         check_conformance(lambda: made)
 
 

@@ -53,7 +53,7 @@ def test_comparing_rulesets_says_that_they_are_not_compared():
 def test_games_say_that_they_do_not_calculate():
     (verdict,) = results(*BOTH, only=["realizability"]).values()
     assert isinstance(verdict, Unknown)
-    assert "games with calculations are not analysed, as with `x + y` in line 11" in verdict.why
+    assert "games with calculations are not supported: `x + y` in line 11" in verdict.why
 
 
 def test_a_test_of_every_context_refuses():

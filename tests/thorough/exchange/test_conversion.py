@@ -83,10 +83,10 @@ REFUSED = {
     "EXCLUSIVE a, b\nWHEN t THEN a": "EXCLUSIVE",
     "ASSUME c\nWHEN t THEN a UNLESS c": "ASSUME",
     "DOMAIN home\nWHEN t THEN a": "no domains",
-    "WHEN t THEN a UNLESS the user sleeps": "no name of the DSL",
-    "RULE a.b WHEN t THEN a": "no name of the DSL",
+    "WHEN t THEN a UNLESS the user sleeps": "not a name of the DSL",
+    "RULE a.b WHEN t THEN a": "not a name of the DSL",
     "WHEN event THEN a": "keyword of the DSL",
-    "CONSTANT k = 1.5\nWHEN t AND x > k THEN a": "no whole number",
+    "CONSTANT k = 1.5\nWHEN t AND x > k THEN a": "not a whole number",
     "WHEN t AND x > 1.5 THEN a": "not a whole number",
 }
 
@@ -151,7 +151,7 @@ def test_what_is_only_read_because_others_read_it_is_put_right():
         assert note.startswith("line 9: `one` is a scale, but ")
     twice = convert(dsl("then B R1 when B then A R1_2 when B then A"), "english")
     assert [rule.label for rule in twice.ruleset.rules] == ["R1", "R1_2_", "R1_2"]
-    assert twice.notes[0] == "line 9: R1#2 is called R1_2_ here"
+    assert twice.notes[0] == "line 9: rule `R1#2` is renamed to `R1_2_`"
     assert [note for note in twice.notes[1:] if "doing B and A triggers nothing" not in note] == []
 
 
@@ -180,7 +180,7 @@ def test_what_sleec_tk_cannot_say_is_refused(rest):
 
 
 def test_the_dsl_has_one_reading():
-    with pytest.raises(Unsayable, match="by priority only"):
+    with pytest.raises(Unsayable, match="only the reading priority"):
         convert(parse("WHEN t THEN a"), "legos", "cascade")
 
 

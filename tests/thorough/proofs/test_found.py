@@ -263,7 +263,7 @@ def test_an_oracle_that_does_not_answer(
 def test_parts_of_conditions_are_not_spoken_of(tmp_path: Path) -> None:
     rules = "MEASURE Heat: number\nWHEN T THEN X\nUNLESS Heat > 30 OR Heat < 40 IN WHICH CASE Y\n"
     found = {one.check: one for one in checked(tmp_path / "c", rules, tmp_path / "never run").tied}
-    assert found["constant-condition"].reason == "the theory does not speak of parts of conditions"
+    assert found["constant-condition"].reason == "the theory does not cover parts of conditions"
 
 
 def test_the_command_says_so(oracle: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -137,9 +137,9 @@ def test_a_target_is_for_its_own_ruleset_only(run) -> None:
 @pytest.mark.parametrize(
     ("target", "message"),
     [
-        ("robot", "*the target 'robot' names nothing*"),
+        ("robot", "*the target 'robot' is invalid*"),
         ("robot.py:nothing", "*is a int, which cannot be called*"),
-        ("robot.py:none", "*the factory made nothing, which takes no triggers*"),
+        ("robot.py:none", "*the factory returned nothing, which is not a Sleec*"),
         ("robot.py:broken", "*raised RuntimeError: no arm*"),
         ("robot.py:absent", "*cannot be imported: AttributeError*"),
         ("there_is_none:make", "*cannot be imported: ModuleNotFoundError*"),

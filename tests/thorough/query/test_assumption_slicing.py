@@ -166,4 +166,4 @@ def test_counting_is_given_up_past_a_number_of_names() -> None:
         parse(f"{chain}\nWHEN T THEN A\n"), parse(f"{chain}\nWHEN T THEN A UNLESS C257 IN WHICH CASE A AND B\n")
     ).changes
     assert change.extent.affected is None
-    assert change.extent.why == "it concerns more than 250 names"
+    assert change.extent.why == "it depends on more than 250 names"

@@ -23,7 +23,7 @@ from tests.support.gates import BOTH, CLASH, DEAD, LOST, OLD, TIMED, TIMED_ELSE,
 from tests.support.paths import ROOT
 from tests.support.repository import Repository
 
-pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
+pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 PROGRAMS = ("sarif", "junit", "github", "gitlab")
 
 
@@ -71,13 +71,13 @@ def one_report(cli: Cli, form: str, code: int, *arguments: str) -> list[tuple[st
 
 
 POLICIES: dict[str, tuple[str | None, str, str]] = {
-    "new-conflicts": (CLASH, "findings = 'never'", "a and b now conflict over o"),
-    "lost-obligations": (LOST, "lost-obligations = ['p']", "p is no longer called for by a"),
-    "lost-obligations of a file that is gone": (None, "lost-obligations = ['p']", "p is no longer called for by a"),
+    "new-conflicts": (CLASH, "findings = 'never'", "a and b now contradict each other about o"),
+    "lost-obligations": (LOST, "lost-obligations = ['p']", "p is no longer required by a"),
+    "lost-obligations of a file that is gone": (None, "lost-obligations = ['p']", "p is no longer required by a"),
     "SLEEC202": (DEAD, "dead-hedges = true", "the exception `UNLESS NOT c` of rule `a`"),
     "SLEEC101": (CLASH, "new-conflicts = false", "contradict each other"),
-    "clause-coverage": (LOST, "clause-coverage = 50", "the cases reach 0 of 1 clauses"),
-    "certificates": (LOST, "certificates = true", "there is no a.certificate beside it"),
+    "clause-coverage": (LOST, "clause-coverage = 50", "the cases cover 0 of 1 clauses"),
+    "certificates": (LOST, "certificates = true", "the certificate a.certificate is missing"),
     "suppressions": ("# sleec: allow SLEEC101\n" + OLD, "", "a suppression needs a reason"),
     "unused-suppressions": (
         "# sleec: allow SLEEC101 because of history\n" + OLD,
@@ -163,7 +163,7 @@ def test_what_is_not_decided_is_told(form: str, cli: Cli, repository: Repository
     repository.write(a_sleec=TIMED_ELSE)
     config(repository, block="findings = 'never'")
     found = one_report(cli, form, 3)
-    assert any("inconclusive" in words and "length is a measure" in words for _, _, words in found)
+    assert any("inconclusive" in words and "length of a window depends on a measure" in words for _, _, words in found)
 
 
 @pytest.mark.parametrize("form", PROGRAMS)
@@ -241,7 +241,7 @@ def test_where_a_report_cannot_be_written_nothing_is(
     line = ["gate", "--base", "main"] if command == "gate" else ["check", "a.sleec"]
     ran = cli(*line, "--format", form, "-o", "nowhere/report")
     assert (ran.code, ran.out) == (2, "")
-    assert "there is no folder nowhere" in ran.err
+    assert "the folder nowhere" in ran.err
     ran = cli(*line, "--format", form, "-o", "a.sleec")
     assert (ran.code, ran.out) == (2, "")
     assert (repository.folder / "a.sleec").read_text() == CLASH

@@ -50,5 +50,5 @@ def findings(text: str) -> list[str]:
     "data", [b"", b"[" * 100_000, b"\xff", b"{", b'{"version": 1}', b'{"version": 2, "findings": []}']
 )
 def test_no_baseline(data: bytes) -> None:
-    with pytest.raises(ConfigError, match=r"is no baseline|is a baseline of version 2"):
+    with pytest.raises(ConfigError, match=r"is not a baseline|is a baseline of version 2"):
         read_baseline(data, "known.json")

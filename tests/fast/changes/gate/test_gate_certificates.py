@@ -13,7 +13,7 @@ from tests.support.cli import Cli
 from tests.support.gates import GATE
 from tests.support.repository import Repository
 
-pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
+pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 
 RULES = "DOMAIN day\nRULE a WHEN A THEN X WITHIN 5 seconds\nDOMAIN night\nRULE b WHEN A THEN Y\n"
 

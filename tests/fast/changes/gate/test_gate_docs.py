@@ -24,7 +24,7 @@ BLOCK = re.compile(r"`([\w.-]+)`:\n\n```(?:sleec|toml)\n(.*?)```\n", re.DOTALL)
 SESSION = re.compile(r"```console\n\$ sleec-verify (gate.*)\n((?:.*\n)*?)```\n")
 SUPPRESSED = re.compile(r"```sleec\n((?:(?!```).*\n)*?// sleec: allow (SLEEC\d+) because (.*)\n(?:.*\n)*?)```\n")
 
-pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
+pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 
 
 def test_the_examples_print_what_is_shown(cli: Cli, tmp_path: Path) -> None:

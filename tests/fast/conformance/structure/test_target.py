@@ -107,9 +107,9 @@ def test_encodings(folder: Path) -> None:
     ("data", "message"),
     [
         (b"# -*- coding: klingon -*-\n", "unknown encoding"),
-        (b"# 1\n# 2\n# 3\nname = '\xfc'\n", "line 4 holds the byte 0xfc"),
+        (b"# 1\n# 2\n# 3\nname = '\xfc'\n", "line 4 contains the byte 0xfc"),
         (b"\xff\xfe", "cannot be read"),
-        (b"x = 1\n\0", "line 2 holds a NUL byte"),
+        (b"x = 1\n\0", "line 2 contains a NUL byte"),
     ],
 )
 def test_files_that_are_no_text(folder: Path, data: bytes, message: str) -> None:
@@ -121,7 +121,7 @@ def test_files_that_are_no_text(folder: Path, data: bytes, message: str) -> None
 def test_a_file_that_is_no_python(folder: Path) -> None:
     write(folder / "robot" / "good.py")
     write(folder / "robot" / "worse.py", "def f(:\n  pass\n")
-    with pytest.raises(NotPython, match=r"worse\.py:1:7: this is no Python") as caught:
+    with pytest.raises(NotPython, match=r"worse\.py:1:7: this is not valid Python") as caught:
         python_files("robot")
     (problem,) = caught.value.problems
     assert problem.span.start == 6
@@ -153,7 +153,7 @@ def test_a_forbidden_file_and_a_folder_with_a_files_name(folder: Path) -> None:
 
 def test_a_lone_surrogate_is_refused(folder: Path) -> None:
     write(folder / "odd.py", "# coding: raw_unicode_escape\nx = '\\ud800'\n")
-    with pytest.raises(UnreadableFile, match="line 2 holds the lone surrogate U\\+D800"):
+    with pytest.raises(UnreadableFile, match="line 2 contains the lone surrogate U\\+D800"):
         python_files("odd.py")
 
 

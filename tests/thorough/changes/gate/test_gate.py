@@ -11,7 +11,7 @@ from tests.support.gates import BOTH, CASES, CLASH, DEAD, LOST, OLD, TIMED, TIME
 from tests.support.paths import ROOT
 from tests.support.repository import Repository
 
-pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
+pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 
 
 def test_nothing_changed(cli: Cli, repository: Repository) -> None:
@@ -54,7 +54,7 @@ def test_a_certificate_beside_the_rules_can_be_asked_for(cli: Cli, repository: R
     config(repository, block="certificates = true")
     code, said = gated(cli)
     assert (code, policies(said)) == (1, {"certificates"})
-    assert "there is no a.certificate beside it" in said["blocks"][0]["what"]
+    assert "the certificate a.certificate is missing" in said["blocks"][0]["what"]
     assert cli("certify", "a.sleec", "-o", "a.certificate").code == 0
     assert gated(cli)[0] == 0
     repository.write(a_sleec=LOST + "\n")

@@ -60,7 +60,7 @@ def test_its_own_file_comes_first(cli: Cli, repository: Repository) -> None:
         (["--base", "mian"], "did you mean main?"),
         (["--base", "main", "--config", "nothing.toml"], "there is no file nothing.toml"),
         (["--base", "main", "--config", "broken.toml"], "is no TOML"),
-        (["--base", "main", "--baseline", "nothing.json"], "there is no baseline nothing.json"),
+        (["--base", "main", "--baseline", "nothing.json"], "there is not a baseline nothing.json"),
         (["--base", "main", "--summary", "a.sleec"], "exists and is not a summary"),
         (["--base", "main", "nothing.sleec"], "there is no .sleec file at or below nothing.sleec"),
         (["--write-baseline"], "name the baseline file"),
@@ -79,7 +79,7 @@ def test_a_ruleset_that_is_none_now(cli: Cli, repository: Repository) -> None:
     ran = cli("gate", "--base", "main", "--summary", "out.md")
     assert ran.code == 2
     assert "a.sleec:1:5: error" in ran.err
-    assert "a and b now conflict over o" in ran.out  # the others are examined all the same
+    assert "a and b now contradict each other about o" in ran.out  # the others are examined all the same
     assert "### Unreadable files" in (repository.folder / "out.md").read_text()
 
 

@@ -218,7 +218,7 @@ def test_files_that_cannot_be_read(cli: Cli, repository: Repository, outside: Pa
     assert (ran.code, "there is no file nothing.toml" in ran.err) == (2, True)
     (repository.folder / "known.json").symlink_to("nothing.json")
     ran = cli("gate", "--write-baseline", "--baseline", "known.json")
-    assert (ran.code, "there is no baseline known.json" in ran.err) == (2, True)
+    assert (ran.code, "there is not a baseline known.json" in ran.err) == (2, True)
     repository.put("large.json", " " * 1000)
     ran = cli("gate", "--write-baseline", "--baseline", "large.json", "--max-size", "200")
     assert (ran.code, "large.json cannot be read: it is larger than 200 bytes" in ran.err) == (2, True)

@@ -22,7 +22,7 @@ def test_the_summary(cli: Cli, repository: Repository, monkeypatch: pytest.Monke
     text = (repository.folder / "out.md").read_text(encoding="utf-8")
     assert step.read_text() == "what other steps say\n" + text
     assert text.startswith("<!-- written by sleec-verify gate -->\n## SLEEC rules: blocked\n")
-    assert "- **new-conflicts**, `a.sleec`: a and b now conflict over o" in text
+    assert "- **new-conflicts**, `a.sleec`: a and b now contradict each other about o" in text
     assert "| `a.sleec` | incomparable: " in text
     repository.write(a_sleec=OLD)
     assert cli("gate", "--base", "main", "--summary", "out.md").code == 0

@@ -15,7 +15,7 @@ from tests.support.gates import CLASH, LOST, OLD
 from tests.support.repository import Repository
 
 pytestmark = [
-    pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine"),
+    pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed"),
     pytest.mark.skipif(os.name != "posix", reason="the programs are shell scripts"),
 ]
 

@@ -157,11 +157,15 @@ def test_the_eight_rules_need_three_situations_in_each_domain() -> None:
     ("text", "single", "why"),
     [
         ("RULE r WHEN T THEN o UNLESS c AND NOT c IN WHICH CASE p", False, "in no situation"),
-        ("RULE r WHEN T THEN o UNLESS c IN WHICH CASE p AND NOT p", False, "only where the rules conflict"),
+        (
+            "RULE r WHEN T THEN o UNLESS c IN WHICH CASE p AND NOT p",
+            False,
+            "only if the rules contradict each other",
+        ),
         (
             "RULE r WHEN T THEN o\nRULE s WHEN U THEN p\nASSUME T OR NOT U",
             True,
-            "only when other triggers occur as well",
+            "only if other triggers also occur",
         ),
     ],
 )
@@ -193,7 +197,7 @@ def test_a_single_trigger_is_alone_though_a_hedge_names_another_one() -> None:
     text = "DOMAIN a WHEN T THEN o UNLESS U IN WHICH CASE p\nDOMAIN b WHEN U THEN o"
     found = choose_cases(parse(text), "clause", single=True)
     assert {case.triggers for case in found.cases} == {("T",), ("U",)}
-    assert [(u.name, u.why) for u in found.unreached] == [("rule_1.hc1", "only when other triggers occur as well")]
+    assert [(u.name, u.why) for u in found.unreached] == [("rule_1.hc1", "only if other triggers also occur")]
 
 
 def test_long_integers_are_written_and_read(tmp_path: Path) -> None:
