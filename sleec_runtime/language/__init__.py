@@ -10,7 +10,7 @@ import re
 from typing import TYPE_CHECKING
 
 from sleec_runtime.language.common.formula_printer import print_formula
-from sleec_runtime.language.common.source import read_source, tidy
+from sleec_runtime.language.common.source import normalize_line_breaks, read_source
 from sleec_runtime.language.english.parser import parse_english
 from sleec_runtime.language.english.printer import print_english, print_rule
 from sleec_runtime.model import Ruleset, Source
@@ -31,7 +31,7 @@ def parse(text: str, path: str = "<memory>", sha256: str | None = None) -> Rules
     Raises:
         LanguageError: with every problem of the text, its place and a hint.
     """
-    return parse_source(Source(path, tidy(text), sha256))
+    return parse_source(Source(path, normalize_line_breaks(text), sha256))
 
 
 def load(path: str | Path) -> Ruleset:

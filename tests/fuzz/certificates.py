@@ -12,7 +12,7 @@ from sleec_runtime.certificate.coverage import MANIFEST
 from sleec_runtime.certificate.manifest import Required, canonical
 from sleec_runtime.certificate.requirement import CertificateRequirement
 from sleec_runtime.language import parse_source
-from sleec_runtime.language.common.source import source_of
+from sleec_runtime.language.common.source import decode_source
 from sleec_runtime.model import Ruleset
 from sleec_verify.certificates import lrat
 from sleec_verify.certificates.checker import IN_PYTHON
@@ -40,7 +40,7 @@ SEPARATOR = b"--\n"
 @cache
 def certified() -> tuple[Ruleset, Certificate]:
     """Rules that are free of conflict, with findings of other checks, and their certificate."""
-    ruleset = parse_source(source_of("fuzz.sleec", RULES))
+    ruleset = parse_source(decode_source("fuzz.sleec", RULES))
     return ruleset, certify(ruleset)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from sleec_runtime.evaluation.due import due
 from sleec_runtime.language import parse_source
-from sleec_runtime.language.common.source import source_of
+from sleec_runtime.language.common.source import decode_source
 from sleec_verify.changes.gate.baseline import baseline_text, key, read_baseline
 from sleec_verify.changes.gate.config import OWN, SHARED, read_config
 from sleec_verify.changes.gate.keys import is_assertion
@@ -20,7 +20,7 @@ from sleec_verify.results.finding import CheckResult
 from tests.fuzz.property import unless_refused
 
 RULESET = parse_source(
-    source_of(
+    decode_source(
         "fuzz.sleec",
         b"""\
 MEASURE Age: number

@@ -11,12 +11,12 @@ from typing import Any
 from sleec_runtime import Sleec, VirtualClock, obligation
 from sleec_runtime.errors import NotEnforced
 from sleec_runtime.language import parse_source
-from sleec_runtime.language.common.source import source_of
+from sleec_runtime.language.common.source import decode_source
 from tests.fuzz.property import unless_refused
 
 SAVED_AT = 1_764_000_000
 RULESET = parse_source(
-    source_of(
+    decode_source(
         "fuzz.sleec",
         b"""\
 MEASURE Age: number

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from sleec_runtime.language.common.source import source_of
+from sleec_runtime.language.common.source import decode_source
 from sleec_runtime.model import Context
 from sleec_verify.changes.assertions.parser import parse_assertions
 from sleec_verify.changes.assertions.verification import verify
@@ -54,7 +54,7 @@ def situation_seeds() -> Iterator[bytes]:
 
 def assertions(data: bytes, folder: Path) -> None:
     """Each assertion that is read has an answer."""
-    source = unless_refused(source_of, "fuzz.txt", data)
+    source = unless_refused(decode_source, "fuzz.txt", data)
     found = None if source is None else unless_refused(parse_assertions, source, Vocabulary([RULESET]))
     for assertion in found or ():
         assert verify(RULESET, assertion)

@@ -12,7 +12,7 @@ from zlib import crc32
 
 from sleec_runtime.evaluation.due import due
 from sleec_runtime.language import parse, parse_source, print_ruleset
-from sleec_runtime.language.common.source import source_of
+from sleec_runtime.language.common.source import decode_source
 from sleec_runtime.language.dsl.scanner import scan as scan_dsl
 from sleec_runtime.language.english.scanner import scan
 from sleec_runtime.model import Context
@@ -38,10 +38,10 @@ def read(data: bytes) -> Ruleset | None:
     try:
         data.decode()
     except UnicodeDecodeError:
-        unless_refused(source_of, "fuzz.sleec", data)
+        unless_refused(decode_source, "fuzz.sleec", data)
         # So that one broken character does not make an input useless.
         data = data.decode(errors="replace").encode()
-    source = unless_refused(source_of, "fuzz.sleec", data)
+    source = unless_refused(decode_source, "fuzz.sleec", data)
     return None if source is None else unless_refused(parse_source, source)
 
 

@@ -86,7 +86,7 @@ class ClaimParser(FormulaParser):
         if self.kinds[opened] != "(":
             what = f"a parenthesis after {self.keyword('meanwhile')}"
             self.expected(what, f"for example: {self.meanwhile_example}")
-        self.deeper()
+        self.descend()
         self.at += 1
         claim = self.labelled_claim(kind, "", NOWHERE, self.at)
         self.close(")", opened)

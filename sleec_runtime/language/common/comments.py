@@ -20,7 +20,7 @@ INNER_GAP = "\n"
 """An empty line among comments below the start of a block."""
 
 
-class Remark(NamedTuple):
+class RawComment(NamedTuple):
     """A comment with its marker, or one line of a longer comment: ``text[start:end]``, before the token `token`."""
 
     start: int
@@ -28,8 +28,8 @@ class Remark(NamedTuple):
     token: int
 
 
-def attach(
-    remarks: Sequence[Remark],
+def attach_comments(
+    comments: Sequence[RawComment],
     text: str,
     kinds: list[str],
     starts: array[int],
@@ -67,30 +67,30 @@ def attach(
     def gap() -> str:
         return INNER_GAP if line >= 0 and kinds[line] in openings else ""
 
-    for remark in remarks:
-        while seen < remark.token:
+    for comment in comments:
+        while seen < comment.token:
             if kinds[seen] in line_starts:
                 if pending:
                     attach_pending(seen)
                 line = seen
             seen += 1
-        words = _words(text, remark)
-        behind = remark.token > 0 and "\n" not in text[max(ends[remark.token - 1], end_before) : remark.start]
-        inside = kinds[remark.token] not in line_starts and kinds[remark.token] != "end"
+        content = _content(text, comment)
+        behind = comment.token > 0 and "\n" not in text[max(ends[comment.token - 1], end_before) : comment.start]
+        inside = kinds[comment.token] not in line_starts and kinds[comment.token] != "end"
         owner = line if line >= 0 and kinds[line] not in settings and (behind or inside) else -1
         if owner >= 0:
             before = attached.get(owner, NO_COMMENTS)
             if behind and before.behind is None:
-                attached[owner] = Comments(before.above, words)
+                attached[owner] = Comments(before.above, content)
             else:
-                attached[owner] = Comments((*before.above, words), before.behind)
+                attached[owner] = Comments((*before.above, content), before.behind)
         else:
-            if pending and is_divided(remark.start):
+            if pending and is_divided(comment.start):
                 _leave_gap(pending, gap())
-            pending.append(words)
+            pending.append(content)
             if behind:
                 _leave_gap(pending)
-        end_before = remark.end
+        end_before = comment.end
     while pending and kinds[seen] != "end":
         if kinds[seen] in line_starts:
             attach_pending(seen)
@@ -98,9 +98,9 @@ def attach(
     return attached, tuple(pending)
 
 
-def _words(text: str, remark: Remark) -> str:
-    marker = 2 if text.startswith("//", remark.start) else 1 if text[remark.start] == "#" else 0
-    return text[remark.start + marker : remark.end].strip()
+def _content(text: str, comment: RawComment) -> str:
+    marker = 2 if text.startswith("//", comment.start) else 1 if text[comment.start] == "#" else 0
+    return text[comment.start + marker : comment.end].strip()
 
 
 def _leave_gap(pending: list[str], gap: str = "") -> None:

@@ -42,7 +42,7 @@ class FormulaParser(TokenCursor):
         first = self.at
         kind = self.kinds[first]
         if kind == "(":
-            self.deeper()
+            self.descend()
             self.at += 1
             formula = self.formula()
             self.close(")", first)
@@ -55,7 +55,7 @@ class FormulaParser(TokenCursor):
                 )
             return formula
         if kind == self.negation:
-            self.deeper()
+            self.descend()
             self.at += 1
             operand = self.operand()
             self.depth -= 1

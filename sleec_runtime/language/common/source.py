@@ -28,10 +28,10 @@ def read_source(path: str | Path) -> Source:
             contains a NUL byte.
     """
     name, data = _read_bytes(path)
-    return source_of(name, data)
+    return decode_source(name, data)
 
 
-def source_of(name: str, data: bytes) -> Source:
+def decode_source(name: str, data: bytes) -> Source:
     """The text in these bytes; messages call it `name`.
 
     Raises:
@@ -42,7 +42,7 @@ def source_of(name: str, data: bytes) -> Source:
     return Source(name, _decode(data, name), sha256(data).hexdigest())
 
 
-def tidy(text: str) -> str:
+def normalize_line_breaks(text: str) -> str:
     """`text` without a byte order mark and with ``\\n`` for every lone ``\\r``, to count lines as editors do.
 
     ``\\r\\n`` stays: its ``\\n`` ends the line.
@@ -104,4 +104,4 @@ def _decode(data: bytes, name: str) -> str:
             f"{name} is not a text of rules: line {line} contains a NUL byte",
             "it may be a word processor document; save it as plain text",
         )
-    return tidy(text)
+    return normalize_line_breaks(text)

@@ -1,7 +1,7 @@
 """A position in a sequence of tokens: spans, error reports and recovery, for the parsers of both languages.
 
-One mistake is reported once. After a problem, the rest of its clause is silent (`hurt`), and parsing goes on at the
-next token that starts something new.
+One mistake is reported once: after a problem, nothing more is reported of its clause (`has_failed`). Parsing goes on
+at the next token that starts something new.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ MAX_NAME = 200
 """The longest name, in characters. A longer one is a sign of missing keywords."""
 
 
-class Abandon(Exception):
-    """Gives up the clause at hand, whose problem has been reported. Parsing goes on elsewhere."""
+class ClauseError(Exception):
+    """The clause at hand cannot be parsed. Its problem has been reported; parsing goes on elsewhere."""
 
 
 class TokenCursor:
@@ -45,7 +45,7 @@ class TokenCursor:
         self.at = 0
         self.depth = 0
         self.deepest = 0
-        self.hurt = False
+        self.has_failed = False
 
     # Spans ----------------------------------------------------------------------------------------------------
 
@@ -72,20 +72,20 @@ class TokenCursor:
 
     def begin_clause(self) -> None:
         """From here on a problem is a new one."""
-        self.hurt = False
+        self.has_failed = False
         self.depth = 0
         self.deepest = 0
 
     def problem(self, message: str, span: Span, hint: str | None = None) -> None:
         """Reports a problem, unless this clause already has one."""
-        if not self.hurt:
-            self.hurt = True
+        if not self.has_failed:
+            self.has_failed = True
             self.problems.append(Problem(message, span, hint))
 
     def fail(self, message: str, span: Span, hint: str | None = None) -> NoReturn:
         """Reports a problem and gives up the clause."""
         self.problem(message, span, hint)
-        raise Abandon
+        raise ClauseError
 
     def expected(self, what: str, hint: str | None = None) -> NoReturn:
         """Gives up because the token at hand is not `what`."""
@@ -100,7 +100,7 @@ class TokenCursor:
 
     # Nesting --------------------------------------------------------------------------------------------------
 
-    def deeper(self, levels: int = 1) -> None:
+    def descend(self, levels: int = 1) -> None:
         """One bracket or negation further in, or `levels` of them."""
         self.depth += levels
         if self.depth > self.deepest:

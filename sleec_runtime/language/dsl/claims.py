@@ -57,7 +57,7 @@ class DslClaimParser(DslResponseParser, ClaimParser):
             self.expected(f"the name of {what}", f"{what} is an event; write conditions after and")
         name = self.name(f"the name of {what}", "write the name of an event, without braces or parentheses")
         span = self.token_span(at_event)
-        if not self.hurt:
+        if not self.has_failed:
             self.names.event(name, span, what)
         return name, span, self.formula() if self.accept("and") else None
 

@@ -62,7 +62,7 @@ class DslConditionParser(DslOperandParser, FormulaParser):
         self._refuse_keyword(left)
         if self.allows_events and not left.braced and self.names.kinds.get(left.written) == "event":
             return Atom("trigger", left.written, left.span)
-        if not (self.hurt or self.precedes_mistake()):
+        if not (self.has_failed or self.precedes_mistake()):
             self.names.boolean(left.written, left.span)
         return Atom("condition", left.written, left.span)
 
@@ -92,7 +92,7 @@ class DslConditionParser(DslOperandParser, FormulaParser):
                 "join two comparisons with and",
             )
         found: Formula | None = None
-        if not self.hurt:
+        if not self.has_failed:
             if isinstance(left, Side) and isinstance(right, Side):
                 found = self.names.comparison(left, operator, right, span)
             else:
@@ -106,10 +106,10 @@ class DslConditionParser(DslOperandParser, FormulaParser):
         span = self.span(first)
         if not (isinstance(left, Side) and isinstance(left.written, str)):
             self.fail("a number is neither true nor false", span, self._comparison_hint(left))
-        if not self.hurt:
+        if not self.has_failed:
             before = len(self.problems)
             self.names.boolean(left.written, left.span)
-            self.hurt = len(self.problems) > before
+            self.has_failed = len(self.problems) > before
         if operator not in ("=", "!="):
             self.fail("true and false have no order", span, f"write {left.written} alone, or not {left.written}")
         atom = Atom("condition", left.written, left.span)

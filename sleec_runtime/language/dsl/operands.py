@@ -64,7 +64,7 @@ class DslOperandParser(DslCursor):
         first = self.at
         if self.kinds[first] != "(":
             return self.side(what)
-        self.deeper()
+        self.descend()
         self.at += 1
         inner = self.calculation(what)
         self.close(")", first)

@@ -12,7 +12,7 @@ from typing import NoReturn, TypeVar, cast
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.common.gc_pause import gc_paused
 from sleec_runtime.language.common.problems import first_problems, quoted
-from sleec_runtime.language.common.token_cursor import Abandon
+from sleec_runtime.language.common.token_cursor import ClauseError
 from sleec_runtime.language.dsl.comparisons import DslComparisons
 from sleec_runtime.language.dsl.dialects import dialect_of
 from sleec_runtime.language.dsl.hints import DEFINITION_END, RULE_EXAMPLE, example_of
@@ -131,7 +131,7 @@ class DslParser(DslRuleParser):
             self.begin_clause()
             try:
                 self._refuse_outside_block()
-            except Abandon:
+            except ClauseError:
                 self.names.complete = False
                 self.at += 1
                 self.skip(BLOCKS)
@@ -178,7 +178,7 @@ class DslParser(DslRuleParser):
                 self.at += 1
                 self.expected("`when` or `exists`", example)
             self.refuse_item(what, example)
-        except Abandon:
+        except ClauseError:
             self.names.complete = self.names.complete and block != "def_start"
             if self.kinds[at] == kind:
                 self.at = at + 1
@@ -191,7 +191,7 @@ class DslParser(DslRuleParser):
         try:
             found = read()
             self.end_of_item(what)
-        except Abandon:
+        except ClauseError:
             self.skip(ITEM_STARTS)
             return None
-        return None if self.hurt else found
+        return None if self.has_failed else found

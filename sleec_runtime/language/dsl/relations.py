@@ -48,7 +48,7 @@ class DslRelationParser(DslClaimParser):
             else f"for example: {relation} A {{condition}}"
         )
         name = self.name("the name of an event", hint)
-        if not self.hurt:
+        if not self.has_failed:
             self.names.event(name, self.token_span(self.at - 1), f"what {relation} relates")
         return name
 

@@ -6,7 +6,7 @@ What follows `otherwise`, `else` and the `then` of an exception has exceptions o
 
 from __future__ import annotations
 
-from sleec_runtime.language.common.token_cursor import ALTERNATIVE_LEVELS, Abandon
+from sleec_runtime.language.common.token_cursor import ALTERNATIVE_LEVELS, ClauseError
 from sleec_runtime.language.dsl.hints import CONDITION_END
 from sleec_runtime.language.dsl.keywords import ITEM_STARTS
 from sleec_runtime.language.dsl.windows import DslTimeParser
@@ -23,7 +23,7 @@ class DslResponseParser(DslTimeParser):
             obligation = self._occurrence()
             return Clause(condition, (obligation,), (), self.span(first), comments)
         opened = self.at
-        self.deeper()
+        self.descend()
         self.at += 1
         obligation = self._occurrence()
         hedges: list[Clause] = []
@@ -51,7 +51,7 @@ class DslResponseParser(DslTimeParser):
                 found.append(self.hedge())
                 if self.kinds[self.at] != "unless":
                     self.end_of_item(what if found[-1].obligations else CONDITION_END)
-            except Abandon:
+            except ClauseError:
                 self.recover()
 
     def recover(self) -> None:
@@ -67,7 +67,7 @@ class DslResponseParser(DslTimeParser):
         if self.kinds[at_name] == "{":
             self.expected("the name of an event", "a response is an event; braces hold a measure or a whole chain")
         name = self.name("the name of an event", self._hint_at_response())
-        if not (self.hurt or self.precedes_mistake()):
+        if not (self.has_failed or self.precedes_mistake()):
             self.names.event(name, self.token_span(at_name), "a response")
         kind = self.kinds[self.at]
         if kind in ("and", "or"):
@@ -80,7 +80,7 @@ class DslResponseParser(DslTimeParser):
         alternatives: dict[str, Clause] = {}
         for word in ("otherwise", "else"):
             if self.accept(word):
-                self.deeper(ALTERNATIVE_LEVELS)
+                self.descend(ALTERNATIVE_LEVELS)
                 alternatives[word] = self.chain(None, self.at)
                 self.depth -= ALTERNATIVE_LEVELS
         if self.kinds[self.at] == "otherwise":

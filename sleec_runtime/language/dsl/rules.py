@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sleec_runtime.language.common.token_cursor import Abandon
+from sleec_runtime.language.common.token_cursor import ClauseError
 from sleec_runtime.language.dsl.hints import CONDITION_END, OCCASION_END, RESPONSE_END
 from sleec_runtime.language.dsl.keywords import ITEM_STARTS
 from sleec_runtime.language.dsl.relations import DslRelationParser
@@ -36,14 +36,14 @@ class DslRuleParser(DslRelationParser):
             end = self.at
             if self.kinds[self.at] != "unless":
                 self.end_of_item(RESPONSE_END)
-        except Abandon:
+        except ClauseError:
             self.recover()
         hedges: list[Clause] = []
         self.hedges(hedges, RESPONSE_END)
         if opening is None:
             return None
         trigger, trigger_span, guard, default = opening
-        end_of_rule = hedges[-1].span.end if hedges else self.ends[end - 1] if not self.hurt else default.span.end
+        end_of_rule = hedges[-1].span.end if hedges else self.ends[end - 1] if not self.has_failed else default.span.end
         return Rule(
             label,
             trigger,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from array import array
 
-from sleec_runtime.language.common.comments import Remark, attach
+from sleec_runtime.language.common.comments import RawComment, attach_comments
 from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.language.common.units import UNITS
 from sleec_runtime.language.dsl.blank_lines import keep_blank_lines
@@ -41,7 +41,7 @@ def scan(text: str) -> Tokens:
     kinds: list[str] = []
     starts = array("q")
     ends = array("q")
-    remarks: list[Remark] = []
+    raw_comments: list[RawComment] = []
     for match in _TOKEN.finditer(text):
         token = match[0]
         kind = _MARKS.get(token)
@@ -50,7 +50,7 @@ def scan(text: str) -> Tokens:
             if first.isspace():
                 continue
             if first == "/" and len(token) > 1:
-                remarks += _remarks(token, match.start(), len(kinds))
+                raw_comments += _raw_comments(token, match.start(), len(kinds))
                 continue
             kind = _kind(token, first)
         elif kind in ("when", "exists"):
@@ -63,7 +63,7 @@ def scan(text: str) -> Tokens:
         starts.append(len(text))
         ends.append(len(text))
     _mark_relations(text, kinds, starts, ends)
-    comments, closing = attach(remarks, text, kinds, starts, ends, LINE_STARTS, BLOCK_MARKS, BLOCKS)
+    comments, closing = attach_comments(raw_comments, text, kinds, starts, ends, LINE_STARTS, BLOCK_MARKS, BLOCKS)
     keep_blank_lines(text, kinds, starts, ends, comments, STATEMENTS, BLOCK_MARKS)
     return Tokens(text, kinds, starts, ends, comments, closing)
 
@@ -102,17 +102,17 @@ def _kind(token: str, first: str) -> str:
     return "strange"
 
 
-def _remarks(comment: str, start: int, token: int) -> list[Remark]:
+def _raw_comments(comment: str, start: int, token: int) -> list[RawComment]:
     """A comment to the end of the line, or the lines of a comment between ``/*`` and ``*/`` that are not empty."""
     if comment.startswith("//"):
-        return [Remark(start, start + len(comment), token)]
+        return [RawComment(start, start + len(comment), token)]
     found = []
     at = start + 2
     for line in comment[2:-2].split("\n"):
         said = line.strip().strip("*").strip()
         if said:
             begin = at + line.index(said)
-            found.append(Remark(begin, begin + len(said), token))
+            found.append(RawComment(begin, begin + len(said), token))
         at += len(line) + 1
     return found
 

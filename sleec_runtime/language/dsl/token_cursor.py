@@ -6,7 +6,7 @@ from typing import NoReturn
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.common.token_cursor import Abandon, TokenCursor
+from sleec_runtime.language.common.token_cursor import ClauseError, TokenCursor
 from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.language.dsl.hints import (
     DEFINITION_END,
@@ -74,7 +74,7 @@ class DslCursor(TokenCursor):
         self.problem(f"{quoted(written)} is not a keyword; did you mean `{keyword}`?", self.token_span(self.at), hint)
         if keyword in _RESUMED:
             self.kinds[self.at] = keyword
-        raise Abandon
+        raise ClauseError
 
     # Marks and names ------------------------------------------------------------------------------------------
 
@@ -135,7 +135,7 @@ class DslCursor(TokenCursor):
                 self.problem(message, self.token_span(token), "replace it with when")
                 if token > at:
                     self.kinds[at], self.kinds[token] = "label", "when"
-                raise Abandon
+                raise ClauseError
         if kinds[:2] == ["word", "word"] and kinds[2] in ("then", "and"):
             message = f"`when` is missing before {quoted(self.token_text(at + 1))}"
             self.fail(message, self.token_span(at + 1), RULE_EXAMPLE)

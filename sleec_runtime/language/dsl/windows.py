@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sleec_runtime.language.common.comparisons import Side
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.common.token_cursor import Abandon
+from sleec_runtime.language.common.token_cursor import ClauseError
 from sleec_runtime.language.common.units import UNITS
 from sleec_runtime.language.common.window_parser import WindowParser
 from sleec_runtime.language.dsl.definitions import DslDefinitionParser
@@ -38,7 +38,7 @@ class DslTimeParser(DslDefinitionParser, WindowParser):
         if self.kinds[self.at] == "eventually":
             self.expected("the end of the response", "a response has one time: delete eventually or the window")
         window = Window(end, start, self.span(first))
-        if not self.hurt:
+        if not self.has_failed:
             self.check_window(window)
         return window
 
@@ -48,11 +48,11 @@ class DslTimeParser(DslDefinitionParser, WindowParser):
         first = self.at
         self._refuse_no_length()
         side = self.calculation("a length of time, such as 5 minutes")
-        amount = None if self.hurt else self.names.amount(side)
+        amount = None if self.has_failed else self.names.amount(side)
         if isinstance(side, Side) and isinstance(side.written, int) and side.written < 0:
             self.fail(f"a time cannot be negative: {side.written}", side.span, "times count from the trigger onwards")
         if amount is None:
-            raise Abandon
+            raise ClauseError
         if may_lack_unit and self.kinds[self.at] in (",", "]"):
             unit: Unit = "seconds"
             span = NOWHERE

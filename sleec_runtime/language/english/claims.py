@@ -46,7 +46,7 @@ class EnglishClaimParser(EnglishRuleParser, ClaimParser):
             self.refuse_name(what, "an event is one name, without NOT or parentheses; write conditions after AND")
         name = self.name(what) or self.expected(what)
         span = self.span(first)
-        if not self.hurt:
+        if not self.has_failed:
             self.names.event(name, span)
         return name, span
 

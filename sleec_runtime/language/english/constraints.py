@@ -23,7 +23,7 @@ class EnglishConstraintParser(EnglishRelationParser):
                     f"delete one of them; to forbid it, write NEVER {name}",
                 )
             seen.add(name)
-            if not self.hurt:
+            if not self.has_failed:
                 self.names.use("obligation", name, span)
         if len(names) < 2:
             self.expected(

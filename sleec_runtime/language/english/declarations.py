@@ -43,7 +43,7 @@ class EnglishDeclarationParser(EnglishConditionParser):
         self.at += 1
         kind = _KIND[keyword]
         names, spans = self.names_in_list(f"the name of {'an' if kind == 'obligation' else 'a'} {kind}")
-        if not self.hurt:
+        if not self.has_failed:
             for name, span in zip(names, spans):
                 self.names.declare(kind, name, span)
         return Declaration(kind, names, self.span(first), spans, self.comments_of(first))
@@ -58,7 +58,7 @@ class EnglishDeclarationParser(EnglishConditionParser):
         self.at += 1
         names, spans = self.names_in_list("the name of an event")
         agent = self._agent() if self.kinds[self.at] == _BY else None
-        if not self.hurt:
+        if not self.has_failed:
             for name, span in zip(names, spans):
                 self.names.declare_event(name, span, agent)
         return Declaration("event", names, self.span(first), spans, self.comments_of(first), agent)
@@ -125,7 +125,7 @@ class EnglishDeclarationParser(EnglishConditionParser):
             measure = Measure(name, kind, (), True, span, comments)
         else:
             measure = Measure(name, "scale", tuple(values), True, span, comments)
-        if not self.hurt:
+        if not self.has_failed:
             self.names.declare_measure(measure, name_span, spans)
         return measure
 
@@ -154,6 +154,6 @@ class EnglishDeclarationParser(EnglishConditionParser):
         alias = side.written if isinstance(side.written, str) else None
         value = 0 if isinstance(side.written, str) else side.written
         constant = Constant(name, value, alias, self.span(first), self.comments_of(first))
-        if not self.hurt and self.names.is_new(name, name_span):
+        if not self.has_failed and self.names.is_new(name, name_span):
             self.constants[name] = (side, constant)
         return constant

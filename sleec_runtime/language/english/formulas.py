@@ -55,7 +55,7 @@ class EnglishConditionParser(EnglishPhraseParser, FormulaParser):
         span = Span(self.starts[first], self.ends[self.at - 1])
         if self.kinds[self.at] == "operator":
             return self._comparison(first, Side(name, span))
-        if self.hurt:
+        if self.has_failed:
             return Atom("condition", name, span)
         return self.resolve(name, span)
 
@@ -91,7 +91,7 @@ class EnglishConditionParser(EnglishPhraseParser, FormulaParser):
                 self.token_span(self.at),
                 "join two comparisons with AND: 18 <= UserAge AND UserAge < 65",
             )
-        if self.hurt:
+        if self.has_failed:
             return Truth(True, span)
         return self._compare(left, operator, right, span)
 

@@ -12,7 +12,7 @@ from typing import TypeVar
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.common.gc_pause import gc_paused
 from sleec_runtime.language.common.problems import first_problems, quoted
-from sleec_runtime.language.common.token_cursor import Abandon
+from sleec_runtime.language.common.token_cursor import ClauseError
 from sleec_runtime.language.english.constraints import EnglishConstraintParser
 from sleec_runtime.language.english.keyword_correction import near_keyword
 from sleec_runtime.language.english.keywords import CLAIMS, DECLARATIONS, OPENINGS, RULE_STARTS, STATEMENTS
@@ -150,7 +150,7 @@ class EnglishParser(EnglishConstraintParser):
             self.begin_clause()
             try:
                 self._refuse_statement()
-            except Abandon:
+            except ClauseError:
                 self.names.complete = False
                 self.skip(STATEMENTS)
         return self.at
@@ -177,10 +177,10 @@ class EnglishParser(EnglishConstraintParser):
         try:
             found = read()
             self.end_of_statement("the next statement")
-        except Abandon:
+        except ClauseError:
             self.skip(STATEMENTS)
             return None
-        return None if self.hurt else found
+        return None if self.has_failed else found
 
     # Settings -------------------------------------------------------------------------------------------------
 

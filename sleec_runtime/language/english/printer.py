@@ -83,11 +83,11 @@ class _Printer:
         if labelled:
             yield with_comment(f"RULE {rule.label}", own.behind)
             yield from comment_lines(trimmed(first.above))
-            remark = first.behind
+            comment = first.behind
         else:
-            remark = first.behind if own.behind is None else own.behind
+            comment = first.behind if own.behind is None else own.behind
         lines = EnglishPrinter(self._with_comments)
-        lines.begin(comment=remark)
+        lines.begin(comment=comment)
         lines.write(f"WHEN {rule.trigger}{lines.formulas.guard(rule.guard)} THEN ")
         lines.response(rule.default)
         lines.hedges(rule.hedges)

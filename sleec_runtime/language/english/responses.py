@@ -87,7 +87,7 @@ class EnglishResponseParser(EnglishTimeParser):
 
     def _in_parentheses(self, may_be_empty: bool) -> _Response:
         opened = self.at
-        self.deeper()
+        self.descend()
         self.at += 1
         obligations: tuple[Obligation, ...] = ()
         inner: tuple[Clause, ...] = ()
@@ -123,7 +123,7 @@ class EnglishResponseParser(EnglishTimeParser):
                 )
             found.append(obligation)
             return
-        self.deeper()
+        self.descend()
         self.at += 1
         self._obligations(found)
         if self.kinds[self.at] == "UNLESS":
@@ -147,7 +147,7 @@ class EnglishResponseParser(EnglishTimeParser):
         if not name:
             return self._literal()
         span = self.span(at_name)
-        if not self.hurt:
+        if not self.has_failed:
             self.names.use("obligation", name, span)
         timed = self._timed(name, negated, first) if self.kinds[self.at] in _BEHIND_A_NAME else None
         return timed or Obligation(name, negated, self.span(first) if negated else span)
@@ -168,7 +168,7 @@ class EnglishResponseParser(EnglishTimeParser):
 
     def _alternative(self, word: str) -> Clause:
         """What replaces an obligation: another one, or a chain in parentheses."""
-        self.deeper(ALTERNATIVE_LEVELS)
+        self.descend(ALTERNATIVE_LEVELS)
         first = self.at
         if self.kinds[first] != "(":
             if self.kinds[first] not in ("word", "NOT"):

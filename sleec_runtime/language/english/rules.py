@@ -7,7 +7,7 @@ from collections.abc import Collection
 from typing import NoReturn
 
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.common.token_cursor import Abandon
+from sleec_runtime.language.common.token_cursor import ClauseError
 from sleec_runtime.language.english.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
 from sleec_runtime.language.english.responses import RULE_STOPS, EnglishResponseParser
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Formula, Or, Rule, Span
@@ -37,7 +37,7 @@ class EnglishRuleParser(EnglishResponseParser):
             opening = self._opening(first != at_when)
             end = self.at
             self._end_of_clause("AND, UNLESS or the next rule")
-        except Abandon:
+        except ClauseError:
             self._recover()
         hedges: list[Clause] = []
         while self.kinds[self.at] == "UNLESS":
@@ -47,7 +47,7 @@ class EnglishRuleParser(EnglishResponseParser):
                 hedges.append(hedge)
                 end = self.at
                 self._end_of_clause("AND, UNLESS or the next rule" if hedge.obligations else "AND, OR or IN WHICH CASE")
-            except Abandon:
+            except ClauseError:
                 self._recover()
         if opening is None:
             return None
@@ -86,7 +86,7 @@ class EnglishRuleParser(EnglishResponseParser):
                     "WHEN after the label of the rule", "for example: RULE dress_assist WHEN trigger THEN response"
                 )
             return label, span
-        except Abandon:
+        except ClauseError:
             self.skip(STATEMENTS)
             return "", NOWHERE
 
@@ -126,7 +126,7 @@ class EnglishRuleParser(EnglishResponseParser):
             self.refuse_name("a trigger", self._hint_at_trigger())
         trigger = self.name("a trigger") or self.expected("a trigger")
         trigger_span = self.span(at_trigger)
-        if not self.hurt:
+        if not self.has_failed:
             self.names.use("trigger", trigger, trigger_span)
         guard = None
         if self.kinds[self.at] == "AND":

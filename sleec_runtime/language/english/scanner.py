@@ -11,7 +11,7 @@ from array import array
 from itertools import accumulate, compress
 from operator import sub
 
-from sleec_runtime.language.common.comments import Remark, attach
+from sleec_runtime.language.common.comments import RawComment, attach_comments
 from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.language.english.keywords import (
     CLAIMS,
@@ -77,7 +77,7 @@ def scan(text: str) -> Tokens:
     kinds: list[str] = []
     starts = array("q")
     ends = array("q")
-    remarks: list[Remark] = []
+    raw_comments: list[RawComment] = []
     at = 0
     while at < len(text):
         # No token contains a line break; an IN WHICH CASE on two lines is three tokens.
@@ -97,7 +97,7 @@ def scan(text: str) -> Tokens:
             for kept, start, end in zip(keep, new_starts, new_ends):
                 token += kept
                 if not kept:
-                    remarks.append(Remark(start, end, token))
+                    raw_comments.append(RawComment(start, end, token))
             new_kinds = list(compress(new_kinds, keep))
             new_starts = array("q", compress(new_starts, keep))
             new_ends = array("q", compress(new_ends, keep))
@@ -110,7 +110,7 @@ def scan(text: str) -> Tokens:
         starts.append(len(text))
         ends.append(len(text))
     _mark_occasions(kinds)
-    comments, closing = attach(remarks, text, kinds, starts, ends, LINE_STARTS, SETTINGS)
+    comments, closing = attach_comments(raw_comments, text, kinds, starts, ends, LINE_STARTS, SETTINGS)
     return Tokens(text, kinds, starts, ends, comments, closing)
 
 

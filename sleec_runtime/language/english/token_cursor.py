@@ -6,7 +6,7 @@ from typing import NoReturn
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.common.token_cursor import Abandon, TokenCursor
+from sleec_runtime.language.common.token_cursor import ClauseError, TokenCursor
 from sleec_runtime.language.english.keyword_correction import near_keyword
 from sleec_runtime.language.english.keywords import IN_WHICH_CASE, KEYWORDS, STATEMENTS
 from sleec_runtime.model import Span
@@ -51,7 +51,7 @@ class EnglishCursor(TokenCursor):
             meant = near_keyword(self.token_text(at).upper())
             if meant is not None and (meant in what or self.token_text(at).isupper()):
                 self.correct_keyword(at, meant)
-                raise Abandon
+                raise ClauseError
         if kind == "strange":
             self._refuse_character(at, what, hint)
         if kind == ":" and self.kinds[at + 1] == "WHEN" and self.kinds[at - 1] == "word":
@@ -114,5 +114,5 @@ class EnglishCursor(TokenCursor):
         if token >= 0 and self.kinds[token] == "word" and self.token_text(token).upper() in KEYWORDS:
             self.at = token
             self.correct_keyword(token, self.token_text(token).upper())
-            self.hurt = True
-            raise Abandon
+            self.has_failed = True
+            raise ClauseError

@@ -143,10 +143,10 @@ class EnglishTimeParser(EnglishDeclarationParser, WindowParser):
         name = self.joined_name(first, end)
         span = Span(self.starts[first], self.ends[end - 1])
         self.at = end
-        found = None if self.hurt else self.names.amount(name, span)
+        found = None if self.has_failed else self.names.amount(name, span)
         if found is None:
             # The problem is reported; the rest can still be read.
-            self.hurt = True
+            self.has_failed = True
             return Number(0, name)
         return found
 

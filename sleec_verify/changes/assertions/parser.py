@@ -12,7 +12,7 @@ from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.common.comparisons import OPERATORS, Side, scale_text
 from sleec_runtime.language.common.formula_parser import FormulaParser
 from sleec_runtime.language.common.problems import quoted
-from sleec_runtime.language.common.token_cursor import Abandon
+from sleec_runtime.language.common.token_cursor import ClauseError
 from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.model import (
     Atom,
@@ -82,7 +82,7 @@ def _parse(source: Source, span: Span, known: Vocabulary, problems: list[Problem
     start = min(end, span.start + len(text) - len(text.lstrip()))
     try:
         return _AssertionParser(source, _scan(source.text, start, end), problems, known).assertion(Span(start, end))
-    except Abandon:
+    except ClauseError:
         return None
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from sleec_runtime.errors import SleecError, UnreadableFile
-from sleec_runtime.language.common.source import source_of
+from sleec_runtime.language.common.source import decode_source
 from sleec_runtime.model import Source
 from sleec_runtime.support.files import read_file
 from sleec_verify.changes.gate.baseline import Key, read_baseline
@@ -100,7 +100,7 @@ def _read(tree: Tree, other: Tree, config: Config, baseline: str | None) -> Sett
             if found.data is None and elsewhere.data is None:
                 raise UnreadableFile(f"there is no file {found.called}", "check its name and folder")
             if found.data is not None:
-                assertions[found.path] = source_of(found.called, found.data)
+                assertions[found.path] = decode_source(found.called, found.data)
     return Settings(config, path, known, assertions)
 
 

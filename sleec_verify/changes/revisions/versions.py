@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from sleec_runtime.errors import SleecError, UnreadableFile
-from sleec_runtime.language.common.source import read_source, source_of
+from sleec_runtime.language.common.source import decode_source, read_source
 from sleec_runtime.model import Source
 from sleec_runtime.support.files import read_file
 from sleec_verify.files.folders import SUFFIX, rulesets_below
@@ -34,7 +34,7 @@ class Version(NamedTuple):
         if self.content is None or self.blob is None:
             return read_source(self.name)
         try:
-            return source_of(self.name, self.content(self.blob))
+            return decode_source(self.name, self.content(self.blob))
         except OSError as error:
             raise UnreadableFile(f"{self.name} cannot be read: {error.strerror}") from None
 

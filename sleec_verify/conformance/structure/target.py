@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from sleec_runtime.errors import LanguageError, Problem, SleecError, UnreadableFile
-from sleec_runtime.language.common.source import read_standard_input, tidy
+from sleec_runtime.language.common.source import normalize_line_breaks, read_standard_input
 from sleec_runtime.model import Source, Span
 from sleec_runtime.support.files import read_file
 from sleec_verify.files.folders import leads_below
@@ -200,7 +200,7 @@ def _source(path: str) -> Source:
         line = text.count("\n", 0, found.start()) + 1
         what = "a NUL byte" if found[0] == "\0" else f"the lone surrogate U+{ord(found[0]):04X}"
         raise UnreadableFile(f"{path} is not valid Python: line {line} contains {what}")
-    return Source(path, tidy(text), sha256(data).hexdigest())
+    return Source(path, normalize_line_breaks(text), sha256(data).hexdigest())
 
 
 def _decoded(path: str, data: bytes) -> str:

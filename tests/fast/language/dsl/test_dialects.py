@@ -64,7 +64,7 @@ def test_a_keyword_of_claims_and_relations_may_be_a_name(word: str, text: str) -
     assert print_ruleset(ruleset) == written
     assert convert(convert(ruleset, "english").ruleset, "dsl").ruleset == ruleset
     for other in (ruleset, convert(ruleset, "english").ruleset):
-        with pytest.raises(Unsayable, match=f"“{word}” is a keyword of LEGOS"):
+        with pytest.raises(Unsayable, match=f"`{word}` is a keyword of LEGOS"):
             convert(other, "legos")
 
 
