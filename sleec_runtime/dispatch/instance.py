@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from sleec_runtime.dispatch.implementations import implementations, obligation_of, takes_time, taking_time
 from sleec_runtime.dispatch.layered_methods import own_entries, select
 from sleec_runtime.dispatch.layers import Layers
-from sleec_runtime.dispatch.methods import Method, mark, marked, refuse_misplaced
+from sleec_runtime.dispatch.methods import Method, mark, marked_methods, refuse_misplaced
 from sleec_runtime.dispatch.plain_calls import allow_calls
 from sleec_runtime.dispatch.recording import recorded
 from sleec_runtime.dispatch.required_code import clause_name, is_silent
@@ -98,7 +98,7 @@ class Instance:
         found: dict[str, Method] = {}
         targets = tuple(targets)
         for target in targets:
-            methods = marked(target, self._token)
+            methods = marked_methods(target, self._token)
             if not methods:
                 raise Unbindable(
                     f"nothing in {represent(target)} is marked as the method of a rule",

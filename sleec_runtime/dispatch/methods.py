@@ -55,7 +55,7 @@ def mark(method: F, label: str, token: object, silent: bool) -> F:
     return method
 
 
-def marked(target: object, token: object) -> list[tuple[str, Method]]:
+def marked_methods(target: object, token: object) -> list[tuple[str, Method]]:
     """The methods of `target` that are marked for the instance with this `token`, with the labels of their rules."""
     if isinstance(target, (types.FunctionType, LayeredMethod)):
         return [(label, _function(target)) for label in _labels(target, token)]

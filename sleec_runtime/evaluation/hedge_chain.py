@@ -111,6 +111,13 @@ def walk(rule: Rule, situation: Situation, reading: Reading) -> Outcome:
     return Decision(rule, number, clause.obligations, tuple(steps))
 
 
+def decide_chain(clause: Clause, situation: Situation, reading: Reading) -> Decision | Undetermined:
+    """Algorithm 1 for a chain without trigger and guard, such as an alternative to a response."""
+    outcome = walk(Rule("", "", None, clause, ()), situation, reading)
+    assert outcome is not None, "a rule without a guard always decides"
+    return outcome
+
+
 _Look = Callable[[int, Formula], "bool | None"]
 
 

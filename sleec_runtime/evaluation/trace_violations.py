@@ -17,7 +17,7 @@ from typing import NamedTuple, Union
 
 from sleec_runtime.errors import WrongType
 from sleec_runtime.evaluation.formula_truth import Situation, truth
-from sleec_runtime.evaluation.hedge_chain import Decision, decide, walk
+from sleec_runtime.evaluation.hedge_chain import Decision, decide, decide_chain
 from sleec_runtime.evaluation.instant_formulas import conjunction, instant_formula, occurrence
 from sleec_runtime.evaluation.trace import Instant, Trace, Untimed
 from sleec_runtime.model import (
@@ -164,8 +164,8 @@ class _TraceEvaluation:
     def _active(self, clause: Clause, instant: Instant) -> tuple[Obligation, ...]:
         """The obligations of the active clause of an alternative, decided as the chain of a rule."""
         situation = Situation(Context(instant.events, instant.conditions), self.ruleset.measures)
-        decision = walk(Rule("", "", None, clause, ()), situation, self.ruleset.reading)
-        assert isinstance(decision, Decision), "in the closed world, a rule without a guard always decides"
+        decision = decide_chain(clause, situation, self.ruleset.reading)
+        assert isinstance(decision, Decision), "in the closed world, every formula has a value"
         return decision.obligations
 
     def _kept(

@@ -9,7 +9,7 @@ from sleec_runtime.timed.task import State, Task
 from sleec_runtime.timed.wording import window_in_words
 
 
-class Host(Protocol):
+class PendingHost(Protocol):
     """What follows the tasks: a `Scheduler`."""
 
     @property
@@ -30,7 +30,7 @@ class Pending:
 
     __slots__ = ("_host", "_task")
 
-    def __init__(self, task: Task, host: Host) -> None:
+    def __init__(self, task: Task, host: PendingHost) -> None:
         self._task = task
         self._host = host
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NoReturn
+from typing import Any
 
 from sleec_runtime.dispatch.instance import Instance
 from sleec_runtime.dispatch.rule_index import RuleIndex
@@ -17,9 +17,10 @@ from sleec_runtime.errors import SleecError, SnapshotRefused
 from sleec_runtime.evaluation.hedge_chain import Decision
 from sleec_runtime.support.messages import represent
 from sleec_runtime.timed.checkpoint import FORMAT, identity, may_run_code
-from sleec_runtime.timed.clock import FURTHEST, Time
+from sleec_runtime.timed.clock import Time
 from sleec_runtime.timed.plain_data import copied, is_plain, number_from_plain
 from sleec_runtime.timed.response_tasks import tasks_of
+from sleec_runtime.timed.snapshot_data import chosen, items, number_at, record, refuse_malformed
 from sleec_runtime.timed.task import Origin, Path, Task
 from sleec_runtime.timed.unit import Unit, composed_units, units_of
 
@@ -52,28 +53,28 @@ def recover(data: object, heir: Heir) -> Recovered:
     A unit whose windows have closed since the snapshot does not start. Raises SnapshotRefused for data that are
     malformed, of other rules, or from a later time; NotBound and WrongArguments as a trigger does.
     """
-    whole = _record(data, "it", "format", "ruleset", "saved_at", "contexts", "decisions", "pending", "left_out")
+    whole = record(data, "it", "format", "ruleset", "saved_at", "contexts", "decisions", "pending", "left_out")
     if type(whole["format"]) is not int or whole["format"] != FORMAT:
         raise SnapshotRefused(
             f"the snapshot has the format {represent(whole['format'])}, and this version reads {FORMAT}",
             "restore it with the version that took it",
         )
     _refuse_other_rules(whole["ruleset"], heir)
-    then = heir.clock - _elapsed(_number(whole["saved_at"], "saved_at"), heir.world)
-    contexts = [_context(one, where, heir) for where, one in _items(whole, "contexts")]
-    dispatches = [_dispatch(one, where, contexts, then, heir) for where, one in _items(whole, "decisions")]
-    tasks = [_task(one, where, dispatches) for where, one in _items(whole, "pending")]
+    then = heir.clock - _elapsed(number_at(whole["saved_at"], "saved_at"), heir.world)
+    contexts = [_context(one, where, heir) for where, one in items(whole, "contexts")]
+    dispatches = [_dispatch(one, where, contexts, then, heir) for where, one in items(whole, "decisions")]
+    tasks = [_task(one, where, dispatches) for where, one in items(whole, "pending")]
     for dispatch in dispatches:
         dispatch.refuse_both()
     units = [unit for dispatch in dispatches for unit in dispatch.units(heir.clock)]
     order = {task: number for number, task in enumerate(tasks)}
     units.sort(key=lambda unit: (unit.at, order[unit.tasks[0]]))
-    return Recovered(tasks, units, [_left_out(one, where) for where, one in _items(whole, "left_out")])
+    return Recovered(tasks, units, [_left_out(one, where) for where, one in items(whole, "left_out")])
 
 
 def _refuse_other_rules(data: object, heir: Heir) -> None:
     own = identity(heir.index, heir.chains)
-    theirs = _record(data, "ruleset", *own)
+    theirs = record(data, "ruleset", *own)
     for name, value in own.items():
         if type(theirs[name]) is not type(value) or theirs[name] != value:
             raise SnapshotRefused(
@@ -93,10 +94,10 @@ def _elapsed(saved_at: Time, world: Time) -> Time:
 
 
 def _context(data: object, where: str, heir: Heir) -> Snapshot:
-    context = _record(data, where, "domain", "conditions")
+    context = record(data, where, "domain", "conditions")
     domain, conditions = context["domain"], context["conditions"]
     if type(conditions) is not dict:
-        _refuse(f"{where}.conditions", conditions, "a dict")
+        refuse_malformed(f"{where}.conditions", conditions, "a dict")
     try:
         index = heir.index
         if domain != index.domain:
@@ -109,7 +110,7 @@ def _context(data: object, where: str, heir: Heir) -> Snapshot:
 def _value(name: str, data: object, index: RuleIndex) -> object:
     measure = index.vocabulary.get(name)
     value = data if measure is None or measure.kind == "scale" else number_from_plain(data)
-    return _refuse(name, data, "a value") if value is None else value
+    return refuse_malformed(name, data, "a value") if value is None else value
 
 
 # Decisions ------------------------------------------------------------------------------------------------
@@ -133,7 +134,7 @@ class _Dispatch:
             for length in range(1, len(path), 2):
                 other = self.open.get(path[:length])
                 if other is not None and not other.literal.negated:
-                    _refuse("pending", task.name, f"pending in place of {other.name}, not beside it")
+                    refuse_malformed("pending", task.name, f"pending in place of {other.name}, not beside it")
 
     def units(self, now: Time) -> Iterator[Unit]:
         """The units of the tasks that are still to start and whose windows have not closed by `now`."""
@@ -148,11 +149,11 @@ class _Dispatch:
 
 def _dispatch(data: object, where: str, contexts: Sequence[Snapshot], then: Time, heir: Heir) -> _Dispatch:
     tied = ("triggers",) if type(data) is dict and "triggers" in data else ()
-    decision = _record(data, where, "rule", "clause", "triggered", "context", "arguments", *tied)
-    snapshot = _chosen(contexts, decision["context"], f"{where}.context")
-    triggered = _number(decision["triggered"], f"{where}.triggered")
+    decision = record(data, where, "rule", "clause", "triggered", "context", "arguments", *tied)
+    snapshot = chosen(contexts, decision["context"], f"{where}.context")
+    triggered = number_at(decision["triggered"], f"{where}.triggered")
     if triggered > 0:
-        _refuse(f"{where}.triggered", triggered, "a number up to 0")
+        refuse_malformed(f"{where}.triggered", triggered, "a number up to 0")
     label = decision["rule"]
     rule = snapshot.index.ruleset.by_label.get(label) if type(label) is str else None
     triggers = _triggers(decision.get("triggers", []), f"{where}.triggers", snapshot.index)
@@ -161,9 +162,9 @@ def _dispatch(data: object, where: str, contexts: Sequence[Snapshot], then: Time
         triggers |= {rule.trigger}
         outcome = snapshot.outcome(rule, triggers)
     if not isinstance(outcome, Decision) or type(decision["clause"]) is not int:
-        _refuse(where, decision, "a rule that applies in its context")
+        refuse_malformed(where, decision, "a rule that applies in its context")
     if outcome.clause != decision["clause"]:
-        _refuse(f"{where}.clause", decision["clause"], f"{outcome.clause}, the active clause in its context")
+        refuse_malformed(f"{where}.clause", decision["clause"], f"{outcome.clause}, the active clause in its context")
     args, kwargs = _arguments(decision["arguments"], f"{where}.arguments")
     origin = Origin(outcome, then + triggered, snapshot, heir.instance, args, kwargs, triggers)
     try:
@@ -175,17 +176,17 @@ def _dispatch(data: object, where: str, contexts: Sequence[Snapshot], then: Time
 
 def _triggers(data: object, where: str, index: RuleIndex) -> frozenset[str]:
     if type(data) is not list or not all(type(name) is str and name in index.number_of for name in data):
-        _refuse(where, data, "a list of triggers")
+        refuse_malformed(where, data, "a list of triggers")
     return frozenset(data)
 
 
 def _arguments(data: object, where: str) -> tuple[tuple[Any, ...], Mapping[str, Any]]:
     if data is None:
         return (), {}
-    arguments = _record(data, where, "args", "kwargs")
+    arguments = record(data, where, "args", "kwargs")
     args, kwargs = arguments["args"], arguments["kwargs"]
     if type(args) is not list or type(kwargs) is not dict or not is_plain(args) or not is_plain(kwargs):
-        _refuse(where, data, "a list and a dict of plain data")
+        refuse_malformed(where, data, "a list and a dict of plain data")
     return tuple(copied(args)), copied(kwargs)
 
 
@@ -193,23 +194,23 @@ def _arguments(data: object, where: str) -> tuple[tuple[Any, ...], Mapping[str, 
 
 
 def _task(data: object, where: str, dispatches: Sequence[_Dispatch]) -> Task:
-    item = _record(data, where, "decision", "path", "obligation", "state", "starts", "broken")
-    dispatch = _chosen(dispatches, item["decision"], f"{where}.decision")
+    item = record(data, where, "decision", "path", "obligation", "state", "starts", "broken")
+    dispatch = chosen(dispatches, item["decision"], f"{where}.decision")
     task, group = _found(dispatch.roots, item["path"], f"{where}.path")
     if item["obligation"] != task.name:
-        _refuse(f"{where}.obligation", item["obligation"], f"{task.name}, which is at its path")
+        refuse_malformed(f"{where}.obligation", item["obligation"], f"{task.name}, which is at its path")
     if item["state"] not in (("in force",) if task.literal.negated else ("waiting", "under way")):
-        _refuse(f"{where}.state", item["state"], "a state of what is pending")
+        refuse_malformed(f"{where}.state", item["state"], "a state of what is pending")
     if type(item["broken"]) is not bool or (item["broken"] and not task.literal.negated):
-        _refuse(f"{where}.broken", item["broken"], "true for a prohibition only, or false")
+        refuse_malformed(f"{where}.broken", item["broken"], "true for a prohibition only, or false")
     if dispatch.code is None and may_run_code(task):
-        _refuse(f"{where}.decision", item["decision"], "a decision with arguments")
+        refuse_malformed(f"{where}.decision", item["decision"], "a decision with arguments")
     if task.path in dispatch.open:
-        _refuse(f"{where}.path", item["path"], "pending once")
+        refuse_malformed(f"{where}.path", item["path"], "pending once")
     if item["starts"] is not None:
-        starts = _number(item["starts"], f"{where}.starts")
+        starts = number_at(item["starts"], f"{where}.starts")
         if item["state"] != "waiting" or starts < 0:
-            _refuse(f"{where}.starts", item["starts"], "a number from 0 on, of what is waiting")
+            refuse_malformed(f"{where}.starts", item["starts"], "a number from 0 on, of what is waiting")
         dispatch.starts[task] = starts
     if task.path[:-1] not in dispatch.groups:
         dispatch.groups[task.path[:-1]] = group
@@ -225,51 +226,16 @@ def _task(data: object, where: str, dispatches: Sequence[_Dispatch]) -> Task:
 def _found(group: tuple[Task, ...], path: object, where: str) -> tuple[Task, tuple[Task, ...]]:
     """The task at `path`, and its response."""
     if type(path) is not list or len(path) % 2 == 0:
-        _refuse(where, path, "a path to an obligation of the rule")
-    task = _chosen(group, path[0], where)
+        refuse_malformed(where, path, "a path to an obligation of the rule")
+    task = chosen(group, path[0], where)
     for kind, index in zip(path[1::2], path[2::2]):
         group = {"otherwise": task.otherwise, "else": task.instead}.get(kind if type(kind) is str else "") or ()
-        task = _chosen(group, index, where)
+        task = chosen(group, index, where)
     return task, group
 
 
 def _left_out(data: object, where: str) -> tuple[str, str]:
-    item = _record(data, where, "rule", "obligation")
+    item = record(data, where, "rule", "obligation")
     if type(item["rule"]) is not str or type(item["obligation"]) is not str:
-        _refuse(where, data, "the names of a rule and an obligation")
+        refuse_malformed(where, data, "the names of a rule and an obligation")
     return item["rule"], item["obligation"]
-
-
-# Plain data -----------------------------------------------------------------------------------------------
-
-
-def _refuse(where: str, value: object, expected: str) -> NoReturn:
-    raise SnapshotRefused(
-        f"the snapshot is malformed: {where} is {represent(value)}, and should be {expected}",
-        "restore what pending_snapshot() returned, unchanged",
-    )
-
-
-def _record(data: object, where: str, *keys: str) -> dict[str, Any]:
-    if type(data) is not dict or data.keys() != set(keys):
-        _refuse(where, data, f"a dict with {', '.join(keys)}")
-    return data
-
-
-def _items(whole: dict[str, Any], key: str) -> Iterator[tuple[str, object]]:
-    if type(whole[key]) is not list:
-        _refuse(key, whole[key], "a list")
-    return ((f"{key}[{number}]", one) for number, one in enumerate(whole[key]))
-
-
-def _chosen(items: Sequence[Any], index: object, where: str) -> Any:
-    if type(index) is not int or not 0 <= index < len(items):
-        _refuse(where, index, f"a whole number from 0 to {len(items) - 1}")
-    return items[index]
-
-
-def _number(data: object, where: str) -> Time:
-    number = number_from_plain(data)
-    if number is None or not -FURTHEST <= number <= FURTHEST:
-        _refuse(where, data, f"a number from -{FURTHEST:,} to {FURTHEST:,}")
-    return number

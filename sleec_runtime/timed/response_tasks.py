@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 from sleec_runtime.errors import UndeterminedDecision, WrongType
 from sleec_runtime.evaluation.formula_truth import Situation
-from sleec_runtime.evaluation.hedge_chain import Undetermined, walk
-from sleec_runtime.model import Clause, Length, Obligation, Rational, Rule
+from sleec_runtime.evaluation.hedge_chain import Undetermined, decide_chain
+from sleec_runtime.model import Clause, Length, Obligation, Rational
 from sleec_runtime.timed.clock import FURTHEST, Time
 from sleec_runtime.timed.task import Origin, Path, Task
 
@@ -59,10 +59,9 @@ def _active(clause: Clause, origin: Origin) -> tuple[Obligation, ...]:
     """The obligations of the active clause of an alternative, decided as the chain of a rule."""
     index = origin.snapshot.index
     situation = Situation(origin.snapshot.context(origin.triggers), index.measures, None if index.strict else False)
-    outcome = walk(Rule("", "", None, clause, ()), situation, index.ruleset.reading)
+    outcome = decide_chain(clause, situation, index.ruleset.reading)
     if isinstance(outcome, Undetermined):
         raise UndeterminedDecision((origin.rule.trigger,), outcome.missing)
-    assert outcome is not None, "a rule without a guard always decides"
     return outcome.obligations
 
 
