@@ -40,7 +40,7 @@ def test_modules_exist(page):
 @pytest.mark.parametrize("package", ["sleec_runtime", "sleec_verify"])
 def test_every_room_is_described(package):
     page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
-    section = page.partition(f"## The rooms of `{package}`")[2].partition("\n## ")[0]
+    section = page.partition(f"## Folders of `{package}`")[2].partition("\n## ")[0]
     described = re.findall(r"^\| `(\w+)/` \|", section, re.MULTILINE)
     modules = (path.relative_to(ROOT / package).parts for path in (ROOT / package).rglob("*.py"))
     assert sorted(described) == sorted({parts[0] for parts in modules if len(parts) > 1})
