@@ -19,11 +19,11 @@ from pathlib import Path
 from benchmarks.random_rules import random_rules
 from sleec_runtime.language import load
 from sleec_runtime.model import Ruleset
+from sleec_verify.certificates.certification import certify
 from sleec_verify.certificates.checker import checker
-from sleec_verify.certificates.checking import check_certificate
 from sleec_verify.certificates.directory import write_folder
-from sleec_verify.certificates.making import certify
 from sleec_verify.certificates.theory.oracle import built
+from sleec_verify.certificates.verification import check_certificate
 from sleec_verify.checks import run_checks
 from sleec_verify.results.finding import Proved
 

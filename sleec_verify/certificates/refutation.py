@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from threading import current_thread, main_thread
 
 from sleec_verify.certificates.elaboration import Elaboration, Elaborator, LearntClause
-from sleec_verify.certificates.recording import RecordedQuestion
+from sleec_verify.certificates.recorder import RecordedQuestion
 
 MOST_LITERALS = 1_000_000
 """Literals after which a further pair of files is begun, as checkers hold a formula in memory. They take less than half

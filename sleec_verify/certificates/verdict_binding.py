@@ -57,7 +57,7 @@ RESTING: Mapping[str, tuple[type, ...]] = {
 so it may rest on some where it is proved. All others say what situations or the text show."""
 
 
-def tie(
+def bind_verdicts(
     shown: Iterable[Evidence], ruleset: Ruleset, domain: str | None, oracle: Path | None, chains: bool = True
 ) -> Iterator[VerdictBinding | UnboundVerdict]:
     """Have the oracle prove the verdicts that rest on refutations, in each domain: for each such check how it went.
@@ -88,7 +88,7 @@ def _in_one_domain(
     results: Sequence[CheckResult], domain: str, ruleset: Ruleset, oracle: Path, chains: bool
 ) -> dict[str, VerdictBinding | UnboundVerdict]:
     from sleec_verify.certificates.theory.findings import FOUND, questions
-    from sleec_verify.certificates.theory.proving import Theory, not_modelled
+    from sleec_verify.certificates.theory.theory_questions import Theory, not_modelled
 
     reason = not_modelled(ruleset, chains)
     if reason is not None:

@@ -24,10 +24,10 @@ def realizability(steps: int) -> Check:
 def _losses(index: RulesetIndex, steps: int) -> Iterator[Finding]:
     """A finding for each independent part of the rules that cannot always be followed."""
     from sleec_verify.encoding.solver import Undecided
-    from sleec_verify.games.realizability import losses
+    from sleec_verify.games.realizability import lost_games
 
     unknown: dict[str, None] = {}
-    for part, question in losses(trace_index_of(index), steps):
+    for part, question in lost_games(trace_index_of(index), steps):
         try:
             loss = question()
         except Undecided as error:

@@ -13,7 +13,7 @@ from sleec_verify.cli.output import note, write
 if TYPE_CHECKING:
     from sleec_runtime.certificate.manifest import Required
     from sleec_runtime.model import Ruleset
-    from sleec_verify.certificates.making import Certificate
+    from sleec_verify.certificates.certification import Certificate
     from sleec_verify.cli.scope import Scope
     from sleec_verify.results.finding import Severity
 
@@ -108,10 +108,10 @@ def _write(
     required: Required,
     form: str,
 ) -> int:
+    from sleec_verify.certificates.certification import certify
     from sleec_verify.certificates.directory import check_free
-    from sleec_verify.certificates.making import certify
     from sleec_verify.cli.progress import Progress
-    from sleec_verify.report.certificate import told
+    from sleec_verify.report.certificate import render
 
     check_free(output, force)
     ruleset = one_ruleset(path, scope.reading, scope.domain)
@@ -119,7 +119,7 @@ def _write(
         progressing = progress.on(ruleset.source.path)
         made = certify(ruleset, scope.domain, scope.untimed, progressing, required, scope.chains)
         save(made, ruleset, output, private, force)
-    write(told(form, ruleset, output, made.manifest, made.shown, None))
+    write(render(form, ruleset, output, made.manifest, made.shown, None))
     return exits.code(made.results, fail_level)
 
 
@@ -131,10 +131,10 @@ def save(made: Certificate, ruleset: Ruleset, output: str, private: str | None =
     from sleec_runtime.certificate.coverage import MANIFEST
     from sleec_runtime.certificate.signature import SIGNATURE
     from sleec_verify.certificates.checker import checker
-    from sleec_verify.certificates.checking import check_certificate
     from sleec_verify.certificates.directory import write_folder
     from sleec_verify.certificates.signing import sign
     from sleec_verify.certificates.theory.oracle import built
+    from sleec_verify.certificates.verification import check_certificate
 
     files = list(made.contents())
     if private is not None:
@@ -160,11 +160,11 @@ def _check(
     from sleec_runtime.certificate.coverage import Use
     from sleec_runtime.errors import CertificateRefused
     from sleec_verify.certificates.checker import checker as chosen
-    from sleec_verify.certificates.checking import check_certificate
     from sleec_verify.certificates.theory.oracle import built
+    from sleec_verify.certificates.verification import check_certificate
     from sleec_verify.cli.output import complain
     from sleec_verify.cli.progress import Progress
-    from sleec_verify.report.certificate import refused, told
+    from sleec_verify.report.certificate import render, render_refusal
 
     judge = chosen(checker)
     try:
@@ -182,13 +182,13 @@ def _check(
             )
     except CertificateRefused as refusal:
         if form == "json":
-            write(refused(checked, refusal))
+            write(render_refusal(checked, refusal))
         else:
             complain(refusal)
         return exits.UNUSABLE
     if public is None and confirmed.signed:
         note("the certificate is signed, but its signature was not verified; use --key PUB")
-    write(told(form, confirmed.ruleset, checked, confirmed.manifest.whole, confirmed.shown, judge, confirmed.tied))
+    write(render(form, confirmed.ruleset, checked, confirmed.manifest.whole, confirmed.shown, judge, confirmed.tied))
     return exits.code((one.result for one in confirmed.shown), fail_level)
 
 

@@ -151,7 +151,7 @@ def _certified(
     ruleset: Ruleset, scope: Scope, certificate: str, required: tuple[bool, bool], progress: Progress
 ) -> tuple[CheckResult, ...]:
     from sleec_runtime.certificate.manifest import Required
-    from sleec_verify.certificates.making import certify
+    from sleec_verify.certificates.certification import certify
     from sleec_verify.cli.certify import save
 
     progressing = progress.on(ruleset.source.path)

@@ -19,7 +19,7 @@ def _comments() -> st.SearchStrategy[Comments]:
 
 
 @st.composite
-def commented(draw: st.DrawFn, statement: Statement) -> Statement:
+def with_comments(draw: st.DrawFn, statement: Statement) -> Statement:
     statement = replace(statement, comments=draw(_comments()))
     if not isinstance(statement, Rule):
         return statement

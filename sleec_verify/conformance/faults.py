@@ -20,7 +20,7 @@ class InjectedFault(Exception):
     """What the test has an implementation raise."""
 
 
-def raised_on(bench: Bench) -> int:
+def inject_exceptions(bench: Bench) -> int:
     """Lets each execution in turn raise. Raises Nonconformance where the exception is swallowed, where what it should
     not stop is not done, or where the next trigger suffers. Returns the number of dispatches that raised."""
     oracle = bench.oracle()

@@ -18,7 +18,7 @@ MOST = 20
 """Situations; each replaces the rules twice."""
 
 
-def contrary(ruleset: Ruleset) -> Ruleset:
+def contradicting_ruleset(ruleset: Ruleset) -> Ruleset:
     """The same rules, the condition of each hedge negated."""
     return replace(ruleset, statements=tuple(_contrary(s) if isinstance(s, Rule) else s for s in ruleset.statements))
 
@@ -36,7 +36,7 @@ def replaced(bench: Bench) -> int:
     """Raises Nonconformance where old rules, or what was decided by them, outlive a replacement. Returns the number of
     replacements; none if the subject has no `replace`."""
     oracle = bench.oracle()
-    other = Oracle(contrary(oracle.whole), oracle.domain)
+    other = Oracle(contradicting_ruleset(oracle.whole), oracle.domain)
     count = 0
     with bench.running() as running:
         put_in_force = getattr(running.subject, "replace", None)

@@ -32,7 +32,7 @@ from sleec_runtime.model import (
     leaves,
     measures_of,
 )
-from sleec_verify.conformance.comments import comment_lines, commented
+from sleec_verify.conformance.comments import comment_lines, with_comments
 from sleec_verify.conformance.vocabulary import DOMAINS, Vocabulary, formulas, leaves_over, measures_and_constants
 
 __all__ = ["formulas", "rulesets"]
@@ -87,7 +87,7 @@ def rulesets(
         statements += draw(_declarations([*rules, *others]))
     statements = _merged(draw, draw(st.permutations([*statements, *others])), rules)
     if comments:
-        statements = [draw(commented(statement)) for statement in statements]
+        statements = [draw(with_comments(statement)) for statement in statements]
     return Ruleset(
         statements=tuple(statements),
         reading=draw(st.sampled_from(readings)),

@@ -18,7 +18,7 @@ CLAUSES = 3
 MOST = 400
 
 
-def each_two(bench: Bench) -> int:
+def check_simultaneous_triggers(bench: Bench) -> int:
     """Raises Nonconformance for the first situation in which two triggers together are not answered rightly. Returns
     how many were tried."""
     oracle = bench.oracle()

@@ -28,10 +28,10 @@ def _together(bench: Bench, examples: int) -> None:
     from hypothesis import given
 
     from sleec_verify.conformance.exhaustive import tried
-    from sleec_verify.conformance.simultaneous_triggers import each_two
+    from sleec_verify.conformance.simultaneous_triggers import check_simultaneous_triggers
     from sleec_verify.conformance.strategies import contexts
 
-    each_two(bench)
+    check_simultaneous_triggers(bench)
 
     @_settings(examples)
     @given(contexts(bench.oracle().ruleset))
@@ -60,9 +60,9 @@ def _whole_changes(bench: Bench, examples: int) -> object:
 
 
 def _exceptions(bench: Bench, examples: int) -> object:
-    from sleec_verify.conformance.faults import raised_on
+    from sleec_verify.conformance.faults import inject_exceptions
 
-    return raised_on(bench)
+    return inject_exceptions(bench)
 
 
 def _replacement(bench: Bench, examples: int) -> object:

@@ -23,7 +23,7 @@ Move = dict[int, int]
 NOTHING: Mapping[int, int] = {}
 
 
-def winning(circuit: Circuit, own: Sequence[int], goal: int, turns: Sequence[Sequence[int]] = ()) -> Move | None:
+def winning_move(circuit: Circuit, own: Sequence[int], goal: int, turns: Sequence[Sequence[int]] = ()) -> Move | None:
     """A move on the variables `own` with which the player whose turn it is gets `goal`, for all moves of the opponent
     in the first, third, … of `turns`. None if there is no such move. Exponential in the number of turns.
 

@@ -16,7 +16,7 @@ from sleec_verify.encoding.relations import Relation
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.games.decomposition import GamePart, parts
 from sleec_verify.games.play import Play
-from sleec_verify.games.qbf import Move, winning
+from sleec_verify.games.qbf import Move, winning_move
 from sleec_verify.results.strategy import Act, Branch, Strategy
 from sleec_verify.traces.demands import Occurs
 from sleec_verify.traces.index import TraceIndex
@@ -40,7 +40,7 @@ class Loss:
     strategy: Strategy
 
 
-def losses(index: TraceIndex, steps: int) -> Iterator[tuple[Sequence[Rule], Callable[[], Loss | None]]]:
+def lost_games(index: TraceIndex, steps: int) -> Iterator[tuple[Sequence[Rule], Callable[[], Loss | None]]]:
     """The parts of the rules, each with the question whether the environment wins against it within `steps` acts.
 
     A question raises `Undecided` beyond its limits. The first step raises it if the length of a window is a measure.
@@ -190,7 +190,7 @@ def _lost(contest: _Contest, steps: int) -> tuple[_Contest, int] | None:
 def _wins(play: Play) -> bool:
     """Whether the environment wins."""
     first, *later = play.turns
-    return winning(play.circuit, first, play.lost, later) is not None
+    return winning_move(play.circuit, first, play.lost, later) is not None
 
 
 def _fewest(contest: _Contest, steps: int, spare: int) -> _Contest:
@@ -242,7 +242,7 @@ class StrategySearch:
         own, robots, *later = self._play.turns[2 * step :]
         goal = self._circuit.replaced(self._play.lost, settled)
         free = [variable for variable in own if variable not in settled]
-        return winning(self._circuit, free, goal, [[*unseen, *robots], *later])
+        return winning_move(self._circuit, free, goal, [[*unseen, *robots], *later])
 
     def _simplest(self, step: int, settled: Move, unseen: list[int]) -> Move:
         """A winning act that is early and has few events."""
@@ -263,7 +263,7 @@ class StrategySearch:
         """Answers of the robot that satisfy everything so far, with different immediate actions."""
         goal = self._circuit.replaced(self._play.kept[step], settled)
         while True:
-            reply = winning(self._circuit, variables, goal)
+            reply = winning_move(self._circuit, variables, goal)
             if reply is None:
                 return
             yield reply

@@ -28,7 +28,7 @@ SHOWN_BY = {
 }
 
 
-def told(
+def render(
     form: str,
     ruleset: Ruleset,
     folder: str,
@@ -55,7 +55,7 @@ def _in_words(
     tied: Sequence[VerdictBinding],
 ) -> Iterator[str]:
     made = "a certificate" if judge is None else "valid certificate"
-    yield f"{folder}: {made} of {ruleset.source.path} ({covered(manifest)})"
+    yield f"{folder}: {made} of {ruleset.source.path} ({scope_text(manifest)})"
     widest = max(len(one.result.name) for one in shown)
     for one in shown:
         yield f"  {one.result.name:{widest}}  {VERDICTS[type(one.result.verdict)]:8}  {_shown_by(one)}"
@@ -70,12 +70,12 @@ def _in_words(
         yield _tied(one_tied, verdicts[one_tied.check])
 
 
-def stated(manifest: Mapping[str, Any]) -> dict[str, Json]:
+def scope_json(manifest: Mapping[str, Any]) -> dict[str, Json]:
     """What a certificate is for, for programs."""
     return {key: manifest[key] for key in ("reading", "domain", "untimed", "chains", "required")}
 
 
-def covered(manifest: Mapping[str, Any]) -> str:
+def scope_text(manifest: Mapping[str, Any]) -> str:
     """What a certificate is for."""
     words = [f"reading {manifest['reading']}"]
     domains = manifest["ruleset"]["domains"] if manifest["domain"] is None else [manifest["domain"]]
@@ -127,14 +127,14 @@ def _json(
         "certificate": folder,
         "path": ruleset.source.path,
         "sha256": ruleset.source.sha256,
-        **stated(manifest),
+        **scope_json(manifest),
         **({} if judge is None else {"holds": True, "checker": {"name": judge.name, "proved": judge.proved}}),
         **({} if judge is None else {"theory": {t.check: {"proved": t.proved, "reason": t.reason} for t in tied}}),
         "checks": checks,
     }
 
 
-def refused(folder: str, refusal: CertificateRefused) -> Iterator[str]:
+def render_refusal(folder: str, refusal: CertificateRefused) -> Iterator[str]:
     """Why a certificate is refused, for programs."""
     problems: list[Json] = [{"reason": reason, "message": message} for reason, message in refusal.problems]
     yield dump({"certificate": folder, "holds": False, "problems": problems})

@@ -111,9 +111,9 @@ def _set_aside(one: RulesetExamination, palette: Palette) -> Iterator[str]:
     if one.known:
         yield f"{one.path}: {palette('faint', 'baseline')}: {counted(len(one.known), 'known finding')}"
     if one.certificate is not None and not isinstance(one.certificate, str):
-        from sleec_verify.report.certificate import covered
+        from sleec_verify.report.certificate import scope_text
 
-        yield f"{one.path}: {palette('faint', 'certificate')}: valid ({covered(one.certificate.whole)})"
+        yield f"{one.path}: {palette('faint', 'certificate')}: valid ({scope_text(one.certificate.whole)})"
     for unused in one.unused:
         what = f"line {one.line(unused.span)} allows {unused.allowed}, but there is no such finding"
         yield f"{one.path}: {palette('warning', 'unused suppression')}: {what}"

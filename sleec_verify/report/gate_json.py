@@ -88,9 +88,9 @@ def _examined(one: RulesetExamination) -> Json:
 def _certificate(found: Manifest | str | None) -> Json:
     if found is None or isinstance(found, str):
         return None
-    from sleec_verify.report.certificate import stated
+    from sleec_verify.report.certificate import scope_json
 
-    return stated(found.whole)
+    return scope_json(found.whole)
 
 
 def _conformed(one: TargetConformance) -> Json:

@@ -6,9 +6,9 @@ from pathlib import Path
 from shutil import rmtree
 from typing import TYPE_CHECKING
 
+from sleec_verify.certificates.certification import certify
 from sleec_verify.certificates.checker import IN_PYTHON
-from sleec_verify.certificates.checking import check_certificate
-from sleec_verify.certificates.making import certify
+from sleec_verify.certificates.verification import check_certificate
 from sleec_verify.conformance.cases.reader import read_cases
 from sleec_verify.conformance.cases.selection import choose_cases
 from sleec_verify.conformance.cases.writer import toml

@@ -7,7 +7,7 @@ from itertools import product
 
 from hypothesis import strategies as st
 
-from sleec_verify.certificates.recording import RecordedQuestion
+from sleec_verify.certificates.recorder import RecordedQuestion
 
 MOST = 6
 """Variables, so that every assignment can be tried."""

@@ -21,7 +21,7 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.certificates.theory.boolean import Boolean
 from sleec_verify.certificates.theory.numbering import Kind, Numbering
 from sleec_verify.certificates.theory.oracle import NotRefuted, built
-from sleec_verify.certificates.theory.proving import ProofStep, Theory, not_modelled
+from sleec_verify.certificates.theory.theory_questions import ProofStep, Theory, not_modelled
 
 STEPS = "Definition steps"
 """What comes from a solver begins with this."""

@@ -7,24 +7,24 @@ from dataclasses import replace
 from itertools import product
 
 from sleec_runtime.model import Clause, Formula, Obligation, Reading, Truth
-from sleec_verify.changes.compare.timing_order import asks_for_nothing
+from sleec_verify.changes.compare.timing_order import is_trivial
 from sleec_verify.encoding.equation import chain, conjunction
 from sleec_verify.encoding.trace_scope import Untimed
 
 
-def plainly(obligation: Obligation, reading: Reading, untimed: Untimed) -> Iterator[tuple[Formula, Obligation]]:
+def plain_responses(obligation: Obligation, reading: Reading, untimed: Untimed) -> Iterator[tuple[Formula, Obligation]]:
     """Where what: the response with no hedges in what is due in its place, for each way in which these decide. Those
     that ask for nothing are left out. As many as the product of the hedges."""
     for where, plain in _ways(obligation, reading):
-        if plain is not None and not asks_for_nothing(plain, untimed):
+        if plain is not None and not is_trivial(plain, untimed):
             yield where, plain
 
 
-def here(
+def responses_in_situation(
     obligations: tuple[Obligation, ...], reading: Reading, untimed: Untimed, holds: Callable[[Formula], bool]
 ) -> tuple[Obligation, ...]:
     """The responses as they are in one situation, where `holds` tells what is true."""
-    return tuple(o for one in obligations for where, o in plainly(one, reading, untimed) if holds(where))
+    return tuple(o for one in obligations for where, o in plain_responses(one, reading, untimed) if holds(where))
 
 
 def _ways(obligation: Obligation, reading: Reading) -> Iterator[tuple[Formula, Obligation | None]]:

@@ -24,9 +24,9 @@ from sleec_runtime.model import (
     Ruleset,
     Truth,
 )
-from sleec_verify.changes.compare.alternatives import plainly
+from sleec_verify.changes.compare.alternatives import plain_responses
 from sleec_verify.changes.compare.rule_alignment import RulePair, align, depends_on_reading
-from sleec_verify.changes.compare.sides import RulesetSide, common, mentions, side
+from sleec_verify.changes.compare.sides import RulesetSide, common, compares_any, side
 from sleec_verify.changes.compare.timing_order import implies
 from sleec_verify.encoding.equation import Implication, conjunction, disjunction, implications
 from sleec_verify.encoding.trace_scope import Untimed
@@ -78,7 +78,7 @@ class Comparison:
         def cancels(rule: Rule) -> bool:
             if not same_reading and depends_on_reading(rule):
                 return False
-            return not (scales and mentions(rule, scales))
+            return not (scales and compares_any(rule, scales))
 
         self.aligned = align(old.rules, new.rules, cancels)
         self.rows = [AlignedRule(one, other) for one, other in self.aligned.same]
@@ -216,7 +216,7 @@ class Comparison:
                 (conjunction([guard, of.formula(where)]), plain)
                 for _, guard, clause in self.guards(row, which)
                 for obligation in clause.obligations
-                for where, plain in plainly(obligation, of.stated.reading, self.untimed)
+                for where, plain in plain_responses(obligation, of.stated.reading, self.untimed)
             ]
         return found
 
@@ -273,12 +273,12 @@ class Comparison:
         return rule.label
 
 
-def not_both(conflicts: Iterable[Formula]) -> list[Formula]:
+def none_of(conflicts: Iterable[Formula]) -> list[Formula]:
     """That none of these comes true; nothing for those that never do."""
     return [Not(formula) for formula in conflicts if formula != Truth(False)]
 
 
-def triggered(comparison: Comparison, which: SideName, context: Context) -> Iterator[Rule]:
+def triggered_rules(comparison: Comparison, which: SideName, context: Context) -> Iterator[Rule]:
     """The rules of one side, as they stand in its text, whose trigger occurs."""
     for row in comparison.rows_of(context.triggers):
         rule = comparison.rows[row].on(which)

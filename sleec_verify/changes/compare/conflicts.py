@@ -8,11 +8,17 @@ from itertools import product
 from typing import Union
 
 from sleec_runtime.model import Exclusive, Formula, Never, Not, Obligation, Truth
-from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, not_both, other
+from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, none_of, other
 from sleec_verify.changes.compare.replay import conflicts as conflicting
 from sleec_verify.changes.compare.replay import deciding, possible
 from sleec_verify.changes.compare.result import ConflictChange, Undecidable, Way
-from sleec_verify.changes.compare.situation_count import SituationCounter, all_of, conditions_of, named_in, not_counted
+from sleec_verify.changes.compare.situation_count import (
+    SituationCounter,
+    all_of,
+    conditions_of,
+    names_of_formulas,
+    unknown_extent,
+)
 from sleec_verify.changes.diagram.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.equation import disjunction
 from sleec_verify.encoding.solver import Undecided
@@ -130,7 +136,7 @@ def _found(
     cone = comparison.cone(triggers)
     peace = comparison.conflict(cone.rows, other(which))
     excluded = [*within, peace]
-    situation = all_of([region, *not_both(excluded)])
+    situation = all_of([region, *none_of(excluded)])
     own = conditions_of(comparison.sides[which].plain(rule) for rule in rules)
     try:
         everything = [*own, region, *excluded]
@@ -140,9 +146,9 @@ def _found(
             return None
         free = counting.where(region)
         situation = all_of([region, *(Not(formula) for formula in excluded if counting.meets(free, formula))])
-        extent = counting.extent(node, [*named_in(own), *named_in(clash.labels)])
+        extent = counting.extent(node, [*names_of_formulas(own), *names_of_formulas(clash.labels)])
     except TooLarge as error:
-        extent = not_counted(triggers, str(error))
+        extent = unknown_extent(triggers, str(error))
     witness = smallest_situation(cone.assumed, situation)
     if witness is None:
         assert extent.affected is None, "a solver and a diagram disagree"

@@ -6,12 +6,18 @@ from collections.abc import Iterator
 from typing import NamedTuple, Union
 
 from sleec_runtime.model import Formula, Not, Obligation, Truth
-from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, TriggerCone, not_both, other
+from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, TriggerCone, none_of, other
 from sleec_verify.changes.compare.replay import deciding, shows_change
 from sleec_verify.changes.compare.result import Change, Extent, Undecidable
 from sleec_verify.changes.compare.rule_alignment import RulePair
-from sleec_verify.changes.compare.situation_count import SituationCounter, all_of, conditions_of, named_in, not_counted
-from sleec_verify.changes.compare.timing_order import implies, why_not
+from sleec_verify.changes.compare.situation_count import (
+    SituationCounter,
+    all_of,
+    conditions_of,
+    names_of_formulas,
+    unknown_extent,
+)
+from sleec_verify.changes.compare.timing_order import implies, incomparability
 from sleec_verify.changes.diagram.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.witness import smallest_situation
@@ -75,8 +81,8 @@ def _of_pair(comparison: Comparison, pair: RulePair, places: dict[SideName, int]
         groups = _grouped(comparison, pair, found, conflicts, triggers, cone)
     except TooLarge as error:
         why = str(error)
-        peace = not_both(conflicts)
-        groups = [_Group([one], all_of([one.region, *peace]), not_counted(triggers, why)) for one in found]
+        peace = none_of(conflicts)
+        groups = [_Group([one], all_of([one.region, *peace]), unknown_extent(triggers, why)) for one in found]
     for group in groups:
         witness = smallest_situation(cone.assumed, group.situation)
         if witness is None:
@@ -109,8 +115,8 @@ def _grouped(
     for node, members in by_node.items():
         free = counting.where(members[0].region)
         met = [formula for formula in conflicts if counting.meets(free, formula)]
-        situation = all_of([members[0].region, *not_both(met)])
-        groups.append(_Group(members, situation, counting.extent(node, named_in(own))))
+        situation = all_of([members[0].region, *none_of(met)])
+        groups.append(_Group(members, situation, counting.extent(node, names_of_formulas(own))))
     return groups
 
 
@@ -134,5 +140,5 @@ def _incomparable(comparison: Comparison, rows: list[int], which: SideName, lite
         return None
     for one in against:
         if one.negated == literal.negated and implies(one, literal, comparison.untimed) is None:
-            return f"the windows of `{literal.name}` cannot be compared: {why_not(one, literal)}"
+            return f"the windows of `{literal.name}` cannot be compared: {incomparability(one, literal)}"
     return None

@@ -8,8 +8,8 @@ from sleec_runtime.evaluation.conflicts import has_conflict
 from sleec_runtime.evaluation.formula_truth import Situation, holds
 from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import Context, Exclusive, Formula, Never, Obligation
-from sleec_verify.changes.compare.alternatives import here
-from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, triggered
+from sleec_verify.changes.compare.alternatives import responses_in_situation
+from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, triggered_rules
 from sleec_verify.changes.compare.result import DecidingClause
 from sleec_verify.changes.compare.sides import Assumption
 from sleec_verify.changes.compare.timing_order import implies
@@ -23,11 +23,11 @@ def deciding(comparison: Comparison, which: SideName, context: Context) -> tuple
         return holds(formula, context, stated.measures)
 
     found = []
-    for rule in triggered(comparison, which, context):
+    for rule in triggered_rules(comparison, which, context):
         decision = decide(rule, context, stated.reading, stated.measures)
         if decision is not None:
             span = list(rule.clauses())[decision.clause].span
-            due = here(
+            due = responses_in_situation(
                 decision.obligations, stated.reading, comparison.untimed, lambda f: holds(f, context, stated.measures)
             )
             found.append(DecidingClause(rule.label, decision.clause, due, span))

@@ -55,7 +55,7 @@ class RulesetSide:
 
     def plain(self, rule: Rule) -> Rule:
         """The rule with its comparisons in the common vocabulary; itself, if it has none of another scale."""
-        if not self.scales or not mentions(rule, self.scales):
+        if not self.scales or not compares_any(rule, self.scales):
             return rule
         return replace(
             rule,
@@ -109,7 +109,7 @@ class RulesetSide:
                 yield Assumption(formula, None, f"{name} is {' or '.join(values)}")
 
 
-def mentions(rule: Rule, measures: Mapping[str, object]) -> bool:
+def compares_any(rule: Rule, measures: Mapping[str, object]) -> bool:
     """Whether a rule compares one of these measures."""
     return any(
         isinstance(leaf, Comparison) and not measures.keys().isdisjoint(measures_of(leaf))

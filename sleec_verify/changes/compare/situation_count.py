@@ -58,7 +58,7 @@ class SituationCounter:
         )
 
 
-def not_counted(given: Iterable[str], why: str) -> Extent:
+def unknown_extent(given: Iterable[str], why: str) -> Extent:
     """The extent of what could not be counted."""
     return Extent(None, None, (), tuple(sorted(given)), why)
 
@@ -73,7 +73,7 @@ def conditions_of(rules: Iterable[Rule | None]) -> list[Formula]:
     return found
 
 
-def named_in(formulas: Iterable[Formula]) -> list[Name]:
+def names_of_formulas(formulas: Iterable[Formula]) -> list[Name]:
     """The names that formulas speak of, each once."""
     return list(dict.fromkeys(name for formula in formulas for name in names_in(formula)))
 

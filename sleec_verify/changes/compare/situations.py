@@ -10,7 +10,7 @@ from sleec_verify.changes.compare.comparison import Comparison, SideName, other
 from sleec_verify.changes.compare.replay import possible, satisfies
 from sleec_verify.changes.compare.result import SituationChange, Undecidable, Way
 from sleec_verify.changes.compare.sides import Assumption
-from sleec_verify.changes.compare.situation_count import SituationCounter, named_in, not_counted
+from sleec_verify.changes.compare.situation_count import SituationCounter, names_of_formulas, unknown_extent
 from sleec_verify.changes.diagram.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.question import is_possible
@@ -45,7 +45,7 @@ def _allowed(comparison: Comparison, by: SideName, given: Assumption, way: Way) 
     context = witness.context()
     if not possible(comparison, by, context) or satisfies(comparison, other(by), given, context):
         raise Undecided("the replay rejected a situation; this is a bug in sleec-verify")
-    named = named_in([given.formula])
+    named = names_of_formulas([given.formula])
     assumed = [assumption.formula for assumption in index.assumptions_about(named)]
     try:
         counting = SituationCounter([broken], assumed, (), comparison.measures)
@@ -53,7 +53,7 @@ def _allowed(comparison: Comparison, by: SideName, given: Assumption, way: Way) 
         assert node != FALSE, "a solver and a diagram disagree"
         extent = counting.extent(node, named)
     except TooLarge as error:
-        extent = not_counted((), str(error))
+        extent = unknown_extent((), str(error))
     return SituationChange(way, given.words, witness, extent)
 
 

@@ -42,12 +42,12 @@ def implies(one: Obligation, other: Obligation, untimed: Untimed = "at") -> bool
     return wide[0] <= narrow[0] and (wide[1] is None or (narrow[1] is not None and narrow[1] <= wide[1]))
 
 
-def asks_for_nothing(obligation: Obligation, untimed: Untimed) -> bool:
+def is_trivial(obligation: Obligation, untimed: Untimed) -> bool:
     """Whether a literal is kept whatever happens, as ``A else NOT A`` is."""
     return _has_alternatives(obligation) and _follows(None, obligation, untimed) is True
 
 
-def why_not(one: Obligation, other: Obligation) -> str:
+def incomparability(one: Obligation, other: Obligation) -> str:
     """Why `implies` has no answer."""
     try:
         _demand(one, "at")

@@ -33,7 +33,7 @@ class RulesetVersions(NamedTuple):
     old: Ruleset
 
 
-def ask_all(
+def verify_assertions(
     found: GateResult, asked: Sequence[RulesetVersions], asserting: AssertionSources
 ) -> tuple[AssertionResult, ...]:
     """The answers. An assertion is asked of each ruleset that knows one of its names, or did in the base: others are

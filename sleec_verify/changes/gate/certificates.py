@@ -18,8 +18,8 @@ def certificate(ruleset: Ruleset, untimed: Untimed, policy: Policy) -> Manifest 
     """What the certificate beside a ruleset says, or why none holds of the ruleset as it is checked: its whole text in
     its own reading, with `untimed`, and with what the `policy` requires. Costs what ``certify --check`` does."""
     from sleec_verify.certificates.checker import checker
-    from sleec_verify.certificates.checking import check_certificate
     from sleec_verify.certificates.theory.oracle import built
+    from sleec_verify.certificates.verification import check_certificate
 
     path = Path(ruleset.source.path)
     folder = path.with_name(path.name.removesuffix(".sleec") + SUFFIX)

@@ -13,7 +13,7 @@ from sleec_verify.changes.gate.result import TargetConformance
 from sleec_verify.results.internal_error import internal_errors_of
 
 
-def conform(target: Target, locate: Locate, known: KnownFindings) -> TargetConformance:
+def check_target(target: Target, locate: Locate, known: KnownFindings) -> TargetConformance:
     """The verdict on a target, and its findings that are not `known`."""
     from sleec_runtime.errors import UnsupportedTimes
     from sleec_verify.conformance.structure import UNDECIDED, check_structure, python_files

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from sleec_runtime.errors import SleecError
 from sleec_runtime.language import parse_source
 from sleec_runtime.model import Ruleset
-from sleec_verify.changes.gate.assertion_results import AssertionSources, RulesetVersions, ask_all
+from sleec_verify.changes.gate.assertion_results import AssertionSources, RulesetVersions, verify_assertions
 from sleec_verify.changes.gate.baseline import Key, KnownFindings
 from sleec_verify.changes.gate.examination import Check, Examiner, Locate, check_ruleset, evidence, suppressions_of
 from sleec_verify.changes.gate.keys import Target
@@ -18,7 +18,7 @@ from sleec_verify.changes.gate.result import (
     GateResult,
     RulesetExamination,
 )
-from sleec_verify.changes.gate.targets import conform
+from sleec_verify.changes.gate.targets import check_target
 from sleec_verify.changes.revisions.renames import with_renames
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.results.internal_error import internal_errors_of
@@ -72,9 +72,9 @@ def gate(
                     found.paths[ruleset.source.path] = one.path
                 except SleecError as error:
                     found.examined.append(RulesetExamination(one.path, errors=[error]))
-    found.conformed = [conform(target, locate, baseline) for target in targets]
+    found.conformed = [check_target(target, locate, baseline) for target in targets]
     if asserting:
-        found.asked = ask_all(found, asked, asserting)
+        found.asked = verify_assertions(found, asked, asserting)
     about = {one.path for one in found.examined} | {target.code for target in targets} | {*before.values()}
     found.stale = sum(1 for one in baseline.keys - baseline.met if one[0] in about)
     judge(found, policy)
@@ -101,7 +101,7 @@ def findings_now(places: Mapping[str, Version], targets: Sequence[Target], check
             allowing, _ = suppressions_of(ruleset)
             check_ruleset(RulesetExamination(name), ruleset, known, check, allowing)
     for target in targets:
-        found = conform(target, locate, known)
+        found = check_target(target, locate, known)
         if found.error is not None:
             raise found.error
     return known.met

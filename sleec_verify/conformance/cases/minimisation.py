@@ -13,7 +13,7 @@ _BUDGET = 20_000
 """Conflicts, after which the set stays as it is: near-smallest, and not proved to be smallest."""
 
 
-def fewer(world: AllowedSituations, sets: list[list[Goal]]) -> list[list[Goal]]:
+def minimise(world: AllowedSituations, sets: list[list[Goal]]) -> list[list[Goal]]:
     """The goals of `sets` in fewer sets, each of which one situation reaches; as few as can be where that is decided
     within the budget."""
     goals = [goal for together in sets for goal in together]

@@ -10,7 +10,7 @@ from sleec_runtime.model import Context, Ruleset
 from sleec_verify.conformance.cases.allowed_situations import AllowedSituations, Goal
 from sleec_verify.conformance.cases.case import Case
 from sleec_verify.conformance.cases.goals import goals
-from sleec_verify.conformance.cases.minimisation import fewer
+from sleec_verify.conformance.cases.minimisation import minimise
 from sleec_verify.conformance.oracle import Oracle
 from sleec_verify.query.ruleset_index import RulesetIndex
 
@@ -72,7 +72,7 @@ def _cover(world: AllowedSituations, wanted: Sequence[Goal]) -> tuple[list[_Foun
         orders += [list(wanted)[::-1], Random(0).sample(wanted, len(wanted))]
     tried = [_greedily(world, order) for order in orders]
     sets, unreached = min(tried, key=lambda one: len(one[0]))
-    found = [_Found(goals, world.smallest([goal.literal for goal in goals])) for goals in fewer(world, sets)]
+    found = [_Found(goals, world.smallest([goal.literal for goal in goals])) for goals in minimise(world, sets)]
     return found, unreached
 
 

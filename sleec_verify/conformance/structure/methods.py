@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Union
 
 from sleec_verify.conformance.structure.program import Class, Function, Scope, TargetProgram
 from sleec_verify.conformance.structure.resolve import ADVICE, Resolver
@@ -170,9 +169,6 @@ def calls_super(function: Function, name: str) -> bool:
         and node.value.func.id == "super"
         for node in ast.walk(function.node)
     )
-
-
-Holder = Union[Class, Scope]
 
 
 def methods(program: TargetProgram, resolver: Resolver, found: list[Group], made: set[Class]) -> Iterator[Method]:

@@ -239,9 +239,6 @@ class Resolver:
     def _Dict(self, node: ast.Dict, scope: Scope, given: Environment) -> Value:  # noqa: N802
         return Table(node, scope)
 
-    def _Await(self, node: ast.Await, scope: Scope, given: Environment) -> Value:  # noqa: N802
-        return UNKNOWN
-
     def _Call(self, node: ast.Call, scope: Scope, given: Environment) -> Value:  # noqa: N802
         called = self.of(node.func, scope, given)
         if isinstance(called, Api) and called.name in ADVICE and called.name != "contextpy3.base":

@@ -8,7 +8,7 @@ from sleec_runtime.model import Assume, Exclusive, Never, Ruleset
 from sleec_verify.encoding.cnf import Encoder
 
 
-def encoded(ruleset: Ruleset) -> Encoder:
+def encode_ruleset(ruleset: Ruleset) -> Encoder:
     """Equation 1 of every rule, linear in their size, with the constraints and the assumptions."""
     encoder = Encoder(ruleset.measures)
     for rule in ruleset.rules:
@@ -44,7 +44,7 @@ def variable_names(encoder: Encoder) -> dict[int, tuple[str, str]]:
 
 def as_lines(ruleset: Ruleset) -> str:
     """One clause a line, as a disjunction of names; ``-`` negates, kinds stand before the colon."""
-    encoder = encoded(ruleset)
+    encoder = encode_ruleset(ruleset)
     names = {
         v: f"{kind}:{name}" if kind != "auxiliary" else name for v, (kind, name) in variable_names(encoder).items()
     }
@@ -54,7 +54,7 @@ def as_lines(ruleset: Ruleset) -> str:
 
 def as_dimacs(ruleset: Ruleset) -> str:
     """DIMACS CNF; its comments map every variable to its kind and name."""
-    encoder = encoded(ruleset)
+    encoder = encode_ruleset(ruleset)
     header = [f"c {v} {kind} {name}" for v, (kind, name) in variable_names(encoder).items()]
     rows = [" ".join(map(str, (*clause, 0))) for clause in encoder.clauses]
     return "\n".join((*header, f"p cnf {encoder.top} {len(encoder.clauses)}", *rows)) + "\n"
@@ -64,7 +64,7 @@ def as_json(ruleset: Ruleset) -> str:
     """``{"reading", "variables": [{"variable", "kind", "name"}], "clauses": [[literal]]}``."""
     import json
 
-    encoder = encoded(ruleset)
+    encoder = encode_ruleset(ruleset)
     variables = [{"variable": v, "kind": k, "name": name} for v, (k, name) in variable_names(encoder).items()]
     document = {"reading": ruleset.reading, "variables": variables, "clauses": encoder.clauses}
     return json.dumps(document, ensure_ascii=False) + "\n"

@@ -24,7 +24,7 @@ from sleec_runtime.model import (
     Statement,
 )
 from sleec_verify.encoding.name_uses import names_used
-from sleec_verify.exchange.conversion.readings import reread
+from sleec_verify.exchange.conversion.readings import with_reading
 
 Target = Literal["english", "dsl", "legos"]
 TARGETS: tuple[Target, ...] = ("english", "dsl", "legos")
@@ -91,15 +91,15 @@ def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Con
     """
     notes: list[str] = []
     if to == "english":
-        from sleec_verify.exchange.conversion.to_english import in_english
+        from sleec_verify.exchange.conversion.to_english import to_english
 
-        converted, notes = in_english(reread(ruleset, reading or ruleset.reading))
+        converted, notes = to_english(with_reading(ruleset, reading or ruleset.reading))
     else:
         if reading == "cascade":
             raise Unsayable("the DSL has only the reading priority", "omit --reading")
-        from sleec_verify.exchange.conversion.to_dsl import in_dsl
+        from sleec_verify.exchange.conversion.to_dsl import to_dsl
 
-        converted, notes = in_dsl(reread(ruleset, "priority"), _DIALECTS[to])
+        converted, notes = to_dsl(with_reading(ruleset, "priority"), _DIALECTS[to])
     text = print_ruleset(converted)
     try:
         again = parse(text)

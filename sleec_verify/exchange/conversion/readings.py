@@ -12,7 +12,7 @@ from sleec_runtime.model import And, Clause, Formula, Or, Reading, Ruleset
 from sleec_verify.encoding.statement_parts import with_chains
 
 
-def reread(ruleset: Ruleset, reading: Reading) -> Ruleset:
+def with_reading(ruleset: Ruleset, reading: Reading) -> Ruleset:
     """`ruleset` with its hedges rewritten so that it obliges the same, read as `reading`."""
     if reading == ruleset.reading:
         return ruleset

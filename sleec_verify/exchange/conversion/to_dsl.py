@@ -42,7 +42,7 @@ _RENAME = "rename it everywhere in the rules first"
 _NAME = re.compile(r"[^\W\d]\w*")
 
 
-def in_dsl(ruleset: Ruleset, dialect: Dialect) -> tuple[Ruleset, list[str]]:
+def to_dsl(ruleset: Ruleset, dialect: Dialect) -> tuple[Ruleset, list[str]]:
     """`ruleset`, which is read by priority, as `dialect` says it, and what to know about the result.
 
     Raises:

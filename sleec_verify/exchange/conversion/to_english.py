@@ -30,7 +30,7 @@ from sleec_verify.encoding.statement_parts import with_formulas
 _HINT = "compare a measure with a number or with another measure"
 
 
-def in_english(ruleset: Ruleset) -> tuple[Ruleset, list[str]]:
+def to_english(ruleset: Ruleset) -> tuple[Ruleset, list[str]]:
     """`ruleset` as structured English says it, and what to know about the result.
 
     What is read only because others read it is put right: a value of another scale becomes the one that it is read

@@ -20,9 +20,9 @@ from sleec_runtime.errors import CertificateRefused, ConflictInContext, SleecErr
 from sleec_runtime.evaluation.due import due
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import READINGS, Context, Reading, Ruleset
+from sleec_verify.certificates.certification import certify
 from sleec_verify.certificates.checker import IN_PYTHON
-from sleec_verify.certificates.checking import check_certificate
-from sleec_verify.certificates.making import certify
+from sleec_verify.certificates.verification import check_certificate
 from sleec_verify.encoding.trace_scope import Untimed
 from tests.fast.certificates.test_refused import Manifest, rewrite
 from tests.thorough.certificates.test_certificates import written

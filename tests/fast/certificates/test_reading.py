@@ -11,7 +11,7 @@ import pytest
 from sleec_runtime.language import load
 from sleec_runtime.support.files import read_file
 from sleec_verify.certificates.checker import IN_PYTHON, Checker
-from sleec_verify.certificates.checking import check_certificate
+from sleec_verify.certificates.verification import check_certificate
 from tests.fast.certificates.test_refused import certified, reasons
 
 
@@ -32,7 +32,7 @@ def test_a_folder_that_cannot_be_listed(made: Path, monkeypatch: pytest.MonkeyPa
     def refuse(folder: Path) -> list[str]:
         raise PermissionError(13, "Permission denied", str(folder))
 
-    monkeypatch.setattr("sleec_verify.certificates.checking.os.listdir", refuse)
+    monkeypatch.setattr("sleec_verify.certificates.verification.os.listdir", refuse)
     assert reasons(made) == {"file-missing"}
 
 
@@ -43,7 +43,7 @@ def test_each_file_is_read_once(made: Path, monkeypatch: pytest.MonkeyPatch) -> 
         read.append(os.path.basename(path))
         return read_file(path)
 
-    for module in ("sleec_runtime.certificate.coverage", "sleec_verify.certificates.checking"):
+    for module in ("sleec_runtime.certificate.coverage", "sleec_verify.certificates.verification"):
         monkeypatch.setattr(f"{module}.read_file", reading)
     assert reasons(made) == set()
     assert sorted(read) == sorted(path.name for path in (made / "c").iterdir())

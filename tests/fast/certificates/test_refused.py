@@ -18,7 +18,7 @@ from sleec_runtime.certificate.manifest import FORMAT, Required, canonical
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.language import load
 from sleec_verify.certificates.checker import IN_PYTHON
-from sleec_verify.certificates.checking import check_certificate
+from sleec_verify.certificates.verification import check_certificate
 from tests.support.paths import ROOT
 from tests.thorough.certificates.test_certificates import CONSTRAINED, source, written
 
@@ -382,7 +382,7 @@ def test_every_reason_is_in_the_docs() -> None:
     _, _, section = page.partition("## When a certificate is rejected")
     told = set(re.findall(r"^\| `([a-z-]+)` \|", section.partition("\n## ")[0], flags=re.MULTILINE))
     modules = (
-        "sleec_verify/certificates/checking.py",
+        "sleec_verify/certificates/verification.py",
         "sleec_runtime/certificate/coverage.py",
         "sleec_runtime/certificate/manifest.py",
         "sleec_runtime/certificate/requirement.py",

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 
 from sleec_verify.certificates import lrat, refutation
 from sleec_verify.certificates.elaboration import Elaborator, InvalidLemma, LearntClause
-from sleec_verify.certificates.recording import NoModel, RecordedQuestion, Recorder
+from sleec_verify.certificates.recorder import NoModel, RecordedQuestion, Recorder
 from sleec_verify.certificates.refutation import Disjunction, disjunctions, refute
 from sleec_verify.encoding.solver import MiniSat
 from tests.support.formulas import asked, some_question_has_model

@@ -14,10 +14,10 @@ import pytest
 import sleec_runtime
 from sleec_runtime.certificate.manifest import Required
 from sleec_runtime.errors import CertificateRefused, SleecError, WrongType
+from sleec_verify.certificates.certification import certify
 from sleec_verify.certificates.checker import checker
-from sleec_verify.certificates.checking import check_certificate
-from sleec_verify.certificates.making import certify
 from sleec_verify.certificates.theory.oracle import built
+from sleec_verify.certificates.verification import check_certificate
 from tests.support.cli import Cli
 from tests.support.repository import Repository
 from tests.thorough.certificates.test_certificates import source, written

@@ -10,7 +10,7 @@ import pytest
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.games import qbf as quantified
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
-from sleec_verify.games.qbf import winning
+from sleec_verify.games.qbf import winning_move
 
 
 def _random_goal(circuit: Circuit, random: Random, variables: list[int]) -> int:
@@ -41,7 +41,7 @@ def test_who_wins_is_what_trying_all_says(seed: int) -> None:
     circuit = Circuit()
     turns = [circuit.variables(random.randint(1, 3)) for _ in range(random.randint(1, 5))]
     goal = _random_goal(circuit, random, [variable for turn in turns for variable in turn])
-    found = winning(circuit, turns[0], goal, turns[1:])
+    found = winning_move(circuit, turns[0], goal, turns[1:])
     assert (found is not None) == _wins(circuit, turns, goal)
     if found is not None:
         left = circuit.replaced(goal, found)
@@ -74,4 +74,4 @@ def test_too_long_is_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
     mine, yours = circuit.variables(3), circuit.variables(3)
     goal = circuit.every(circuit.same(a, b) for a, b in zip(mine, yours))
     with pytest.raises(Undecided, match="moves"):
-        winning(circuit, mine, goal, [yours])
+        winning_move(circuit, mine, goal, [yours])

@@ -17,11 +17,11 @@ from benchmarks.random_rules import random_rules
 from sleec_runtime.certificate.coverage import Use
 from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import Ruleset
+from sleec_verify.certificates.certification import Certificate, certify
 from sleec_verify.certificates.checker import IN_PYTHON, checker
-from sleec_verify.certificates.checking import check_certificate
+from sleec_verify.certificates.conflict_freedom import conflict_free
 from sleec_verify.certificates.directory import write_folder
-from sleec_verify.certificates.making import Certificate, certify
-from sleec_verify.certificates.whole import conflict_free
+from sleec_verify.certificates.verification import check_certificate
 from sleec_verify.checks import run_checks
 from sleec_verify.checks.conflict import CONFLICT
 from sleec_verify.encoding.trace_scope import Untimed

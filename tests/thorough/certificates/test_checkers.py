@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from sleec_verify.certificates import lrat
 from sleec_verify.certificates.checker import BUILT, IN_PYTHON, checker
 from sleec_verify.certificates.elaboration import InvalidLemma
-from sleec_verify.certificates.recording import RecordedQuestion
+from sleec_verify.certificates.recorder import RecordedQuestion
 from sleec_verify.certificates.refutation import Disjunction
 from tests.support.coq import require_coq
 from tests.support.formulas import asked, clauses, has_model

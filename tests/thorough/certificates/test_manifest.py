@@ -18,9 +18,9 @@ import sleec_runtime
 from sleec_runtime.certificate.manifest import canonical, parse
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.language import parse as parse_rules
+from sleec_verify.certificates.certification import certify
 from sleec_verify.certificates.checker import IN_PYTHON
-from sleec_verify.certificates.checking import check_certificate
-from sleec_verify.certificates.making import certify
+from sleec_verify.certificates.verification import check_certificate
 from sleec_verify.cli import run
 from tests.fast.certificates.test_refused import CONFLICTING, TIMED
 from tests.thorough.certificates.test_certificates import CONSTRAINED, source, written

@@ -14,7 +14,7 @@ from sleec_verify.encoding.equation import implications
 from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.entailment.definition1 import Definition1
 from sleec_verify.entailment.entailment import entail
-from sleec_verify.exchange.compilation.clauses import encoded
+from sleec_verify.exchange.compilation.clauses import encode_ruleset
 from sleec_verify.exchange.compilation.formulas import Translator, lines
 from sleec_verify.exchange.compilation.symbols import symbol
 from tests.support import brute_force as brute
@@ -133,7 +133,7 @@ def test_nothing_is_given_to_measures_without_a_value(ruleset):
 @given(small_rulesets(rules=2, measures=True))
 def test_the_linear_clauses_say_what_the_written_out_formulas_say(ruleset):
     """Over the original names, the clauses with prefix variables have the models of Equation 1 written out."""
-    encoder = encoded(ruleset)
+    encoder = encode_ruleset(ruleset)
     names = sorted(ruleset.obligations)
     with MiniSat(encoder.clauses) as solver:
         for context in islice(brute.contexts(ruleset), 0, None, 97):
@@ -161,7 +161,7 @@ def test_clauses_are_linear_in_the_hedges(reading, hedges):
     from sleec_runtime.language import parse
 
     text = "WHEN t THEN o" + "".join(f"\nUNLESS c{n} IN WHICH CASE p{n}" for n in range(hedges))
-    encoder = encoded(parse(text).read_as(reading))
+    encoder = encode_ruleset(parse(text).read_as(reading))
     assert sum(map(len, encoder.clauses)) <= 40 * hedges
 
 

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 
 from sleec_runtime.language import parse
 from sleec_verify.exchange.compilation import FORMS, compile_to
-from sleec_verify.exchange.compilation.clauses import encoded, variable_names
+from sleec_verify.exchange.compilation.clauses import encode_ruleset, variable_names
 from sleec_verify.exchange.compilation.symbols import symbol
 from tests.fast.checks.test_semantics import EIGHT
 from tests.support import brute_force as brute
@@ -100,7 +100,7 @@ def test_dimacs_comments_map_every_variable():
 def test_json_and_lines_hold_the_same_clauses():
     ruleset = parse(TEXT)
     document = json.loads(compile_to(ruleset, "json"))
-    encoder = encoded(ruleset)
+    encoder = encode_ruleset(ruleset)
     assert document["clauses"] == encoder.clauses
     assert document["reading"] == "cascade"
     names = variable_names(encoder)

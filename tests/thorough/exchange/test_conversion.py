@@ -13,7 +13,7 @@ from sleec_runtime.model import Rule, Ruleset
 from sleec_verify.checks import run_checks
 from sleec_verify.cli.convert import command
 from sleec_verify.exchange.conversion import TARGETS, convert, of_domain
-from sleec_verify.exchange.conversion.readings import reread
+from sleec_verify.exchange.conversion.readings import with_reading
 from tests.support.brute_force import contexts, due
 from tests.support.paths import ROOT
 from tests.support.small_rulesets import small_rulesets
@@ -31,7 +31,7 @@ def oblige_the_same(one: Ruleset, other: Ruleset) -> None:
 @settings(max_examples=150)
 @given(RULES_ONLY, st.sampled_from(("cascade", "priority")))
 def test_a_rewritten_reading_obliges_the_same(ruleset, reading):
-    rewritten = reread(ruleset, reading)
+    rewritten = with_reading(ruleset, reading)
     assert rewritten.reading == reading
     oblige_the_same(ruleset, rewritten)
 

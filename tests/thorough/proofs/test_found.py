@@ -19,8 +19,8 @@ from sleec_verify.certificates import verdict_binding as tying
 from sleec_verify.certificates.manifest import Evidence
 from sleec_verify.certificates.theory.findings import FOUND, questions
 from sleec_verify.certificates.theory.oracle import NotRefuted, answers
-from sleec_verify.certificates.theory.proving import Theory, not_modelled
-from sleec_verify.certificates.verdict_binding import UnboundVerdict, VerdictBinding, tie
+from sleec_verify.certificates.theory.theory_questions import Theory, not_modelled
+from sleec_verify.certificates.verdict_binding import UnboundVerdict, VerdictBinding, bind_verdicts
 from sleec_verify.checks import CHECKS, Check, run_checks
 from sleec_verify.checks.dead import DEAD_RULE
 from sleec_verify.cli import run
@@ -57,7 +57,7 @@ WHEN Alarm THEN NOT Shout
 def tied(oracle: Path, ruleset: Ruleset, checks: list[str]) -> dict[str, VerdictBinding | UnboundVerdict]:
     """How it goes with what these checks say, whatever it rests on."""
     shown = [Evidence(result, 1, 1, ("a.cnf", "a.lrat")) for result in run_checks(ruleset, checks, chains=False)]
-    return {one.check: one for one in tie(shown, ruleset, None, oracle, chains=False)}
+    return {one.check: one for one in bind_verdicts(shown, ruleset, None, oracle, chains=False)}
 
 
 def candidates(ruleset: Ruleset, check: str) -> Iterator[Finding]:

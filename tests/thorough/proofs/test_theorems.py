@@ -14,8 +14,8 @@ import pytest
 
 from sleec_runtime.language import load, parse
 from sleec_verify.certificates.theory import theorems as theorems_module
-from sleec_verify.certificates.theory.proving import not_modelled
 from sleec_verify.certificates.theory.theorems import assumptions, but_steps, file_of, main, modules, theorems
+from sleec_verify.certificates.theory.theory_questions import not_modelled
 from sleec_verify.checks import run_checks
 from sleec_verify.results.finding import Proved
 from tests.support.paths import ROOT

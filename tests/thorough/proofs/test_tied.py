@@ -15,16 +15,16 @@ from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset
 from sleec_verify.certificates import verdict_binding as tying
+from sleec_verify.certificates.certification import certify
 from sleec_verify.certificates.checker import IN_PYTHON
-from sleec_verify.certificates.checking import CheckedCertificate, check_certificate
 from sleec_verify.certificates.directory import write_folder
-from sleec_verify.certificates.making import certify
 from sleec_verify.certificates.theory import oracle as oracle_module
 from sleec_verify.certificates.theory.boolean import Boolean
 from sleec_verify.certificates.theory.numbering import Numbering
 from sleec_verify.certificates.theory.oracle import NoAnswer, NotRefuted, Oracle, answers
-from sleec_verify.certificates.theory.proving import Theory, not_modelled
+from sleec_verify.certificates.theory.theory_questions import Theory, not_modelled
 from sleec_verify.certificates.verdict_binding import VerdictBinding
+from sleec_verify.certificates.verification import CheckedCertificate, check_certificate
 from sleec_verify.checks import run_checks
 from sleec_verify.cli import run
 from sleec_verify.conformance.rulesets import rulesets

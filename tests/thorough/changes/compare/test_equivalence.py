@@ -14,7 +14,7 @@ from sleec_runtime.language import load
 from sleec_verify.changes.compare import Difference, compare
 from sleec_verify.checks import run_checks
 from sleec_verify.exchange.conversion import convert
-from sleec_verify.exchange.conversion.readings import reread
+from sleec_verify.exchange.conversion.readings import with_reading
 from tests.support.differences import CURTAINS, differ, edit
 from tests.support.paths import ROOT
 from tests.support.small_rulesets import small_rulesets
@@ -60,14 +60,14 @@ def test_renamed_reordered_and_rewritten_rules_are_told_and_equivalent() -> None
 @pytest.mark.parametrize("reading", ["cascade", "priority"])
 def test_between_readings(path: Path, reading: str) -> None:
     ruleset = load(path)
-    found = compare(ruleset, reread(ruleset, "cascade" if reading == "cascade" else "priority"))
+    found = compare(ruleset, with_reading(ruleset, "cascade" if reading == "cascade" else "priority"))
     assert found.relation == "equivalent"
 
 
 @settings(max_examples=50)
 @given(small_rulesets(rules=3), st.sampled_from(("cascade", "priority")))
 def test_between_readings_of_random_rules(ruleset, reading) -> None:
-    assert compare(ruleset, reread(ruleset, reading)).relation in ("equivalent", "unknown")
+    assert compare(ruleset, with_reading(ruleset, reading)).relation in ("equivalent", "unknown")
 
 
 @settings(max_examples=50)

@@ -15,9 +15,9 @@ from sleec_runtime.certificate.signature import SIGNATURE
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.support.files import read_file
 from sleec_verify import __version__
-from sleec_verify.certificates.making import NOTHING_REQUIRED, CheckEvidence, rebuild
+from sleec_verify.certificates.certification import NOTHING_REQUIRED, CheckEvidence, rebuild
 from sleec_verify.certificates.manifest import check_json, manifest
-from sleec_verify.certificates.verdict_binding import UnboundVerdict, VerdictBinding, tie
+from sleec_verify.certificates.verdict_binding import UnboundVerdict, VerdictBinding, bind_verdicts
 from sleec_verify.certificates.witnesses import KEYS, Replay, same
 from sleec_verify.encoding.trace_scope import speaks_of_traces
 
@@ -76,7 +76,7 @@ def check_certificate(
     if (required.proved or claimed.required.proved) and not judge.proved:
         problems.append(Problem("not-proved", f"the proofs are checked by {judge.name}, which is not proved correct"))
     tied: list[VerdictBinding] = []
-    for one in () if problems else tie(examined.shown, read, claimed.domain, oracle, claimed.chains):
+    for one in () if problems else bind_verdicts(examined.shown, read, claimed.domain, oracle, claimed.chains):
         if isinstance(one, UnboundVerdict):
             problems.append(Problem("theory", str(one)))
         elif not one.proved and (required.tied or claimed.required.tied):

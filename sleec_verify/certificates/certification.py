@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.certificate.coverage import Use
 from sleec_runtime.certificate.manifest import Required
+from sleec_verify.certificates.conflict_freedom import conflict_free
 from sleec_verify.certificates.manifest import Evidence, manifest
-from sleec_verify.certificates.recording import RecordedQuestion, Recorder
+from sleec_verify.certificates.recorder import RecordedQuestion, Recorder
 from sleec_verify.certificates.refutation import Disjunction, disjunctions
-from sleec_verify.certificates.whole import conflict_free
 from sleec_verify.checks import Checking, checks_for
 from sleec_verify.encoding.trace_scope import speaks_of_traces
 from sleec_verify.query.question import is_possible
