@@ -1,4 +1,4 @@
-"""The kinds of finding about a robot's code, each with an example with and one without the problem."""
+"""The kinds of finding about a robot's code. Each has an example with the problem and one without it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from sleec_verify.conformance.structure.examples import (
 from sleec_verify.results.finding import Severity
 
 KINDS: dict[str, FindingKind] = {}
-"""By the names that the modules of this check have for them."""
+"""From the names that the modules of this check use to the kinds."""
 
 
 def _kind(
@@ -48,24 +48,24 @@ _kind(
     601,
     "missing-method",
     "a rule without a method",
-    "The robot never does what the rule requires: no method is marked with the label of the rule or bound to its "
-    "layers, and its obligations have no callables.",
-    "Write a method for the rule, or pass its obligations to implement().",
+    "No code runs for this rule: no method is marked with its label or bound to its layers, and its obligations have "
+    "no callables.",
+    "Write its method, or pass callables for its obligations to implement().",
     HEAD + TAIL,
 )
 _kind(
     602,
     "missing-base",
     "a method without a base variant",
-    "The base runs if no exception applies. Without it, the default response is never executed.",
-    "Write the default response under @cop.base.",
+    "The base runs if no exception applies. Without a base, no code runs for the rule's default response.",
+    "Write a variant for the default response under @cop.base.",
     HEAD + '    @sleec.rule("curtains")\n' + HEDGE + TAIL,
 )
 _kind(
     603,
     "missing-variant",
     "an exception without a variant",
-    "If the exception applies, the robot does nothing. If layers are globally active, it does the default response.",
+    "No code runs for this exception. If the layers are globally active, the base runs instead.",
     "Write a variant under the layer of the exception.",
     HEAD + BASE + TAIL,
 )
@@ -80,8 +80,8 @@ _kind(
 _kind(
     605,
     "no-layer",
-    "a variant without a layer",
-    "A variant without a layer takes the place of the base and always runs.",
+    "a variant bound to no layer",
+    "A variant without a layer counts as the base. It runs in every situation, whatever the rule requires.",
     "Name the layer of its exception, or mark the base with @cop.base.",
     ROBOT.replace('@cop.around(sleec.layers["curtains.hc1"])', "@cop.around()"),
 )
@@ -89,7 +89,8 @@ _kind(
     606,
     "foreign-layer",
     "a variant bound to a layer of another rule",
-    "A layer is active only for its own rule, so this variant never runs.",
+    "The layers of a rule are active only while that rule is dispatched. In the method of another rule, this variant "
+    "never runs.",
     "Bind it to a layer of its own rule, or move it to the other rule's method.",
     ROBOT + BLINDS + HEDGE.replace("request", "blinds", 1),
     ROBOT + BLINDS,
@@ -99,8 +100,8 @@ _kind(
     607,
     "wrong-layer",
     "a variant bound to the layer of another clause",
-    "The variant does what another clause of the rule requires. Probably two layers are swapped, or one is mistyped.",
-    "Bind the variant to the layer of its own clause.",
+    "The variant does what another clause of its rule requires. The layers are swapped, or one is misspelled.",
+    "Bind the variant to the layer of the clause that it implements.",
     HEAD + BASE + HEDGE.replace("hc1", "hc2") + HEDGE_2.replace("hc2", "hc1") + TAIL,
     HEAD + BASE + HEDGE + HEDGE_2 + TAIL,
     RULES + SECOND_HEDGE,
@@ -109,17 +110,18 @@ _kind(
     608,
     "duplicate-variant",
     "two variants for one clause",
-    "Only one of them runs: the last one with a layer, the first of two bases. The other has no effect.",
-    "Remove one of them, or bind it to its own layer.",
+    "Only one of them runs: of two variants with the same layer, the last definition; of two bases, the first. The "
+    "other one has no effect.",
+    "Remove one, or bind it to the layer of the clause that it implements.",
     HEAD + BASE + HEDGE + HEDGE + TAIL,
 )
 _kind(
     609,
     "second-method",
     "a rule with two methods",
-    "Each rule has one method (MM in the paper). Binding a second one is an error at run time. Two methods are correct "
-    "if only one of them is ever bound.",
-    "Keep one of the two, or merge them. If the target holds several robots, check them one by one.",
+    "Each rule has one method. If the program binds a second one, it stops with an error. This is fine if the program "
+    "binds only one of them.",
+    "Keep one of the two, or merge them. If the target contains several robots, check them one by one.",
     HEAD + BASE + HEDGE + TAIL + "\nclass Blinds:\n" + BASE + HEDGE + TAIL,
     severity="warning",
 )
@@ -128,33 +130,33 @@ _kind(
     "unknown-rule",
     "a method marked for a rule that does not exist",
     "No rule has this label. The program stops at this line with UnknownLabel.",
-    "Correct the label, or write the rule.",
+    "Correct the spelling of the label, or write the rule.",
     ROBOT.replace('rule("curtains")', 'rule("curtain")'),
 )
 _kind(
     617,
     "guarded-variant",
-    "a variant with a guard of its own",
-    "The guard would decide whether the variant runs, in addition to the rule. bind() rejects it.",
-    "Make the guard a condition of the rule.",
+    "a variant with a guard",
+    "Only the rule may decide whether a variant runs. bind() rejects a variant with a guard.",
+    "Move the guard into the rule as a condition.",
     ROBOT.replace('["curtains.hc1"])', '["curtains.hc1"], guard=lambda layers: True)'),
 )
 _kind(
     618,
     "lost-variant",
     "a variant that a later definition replaces",
-    "A `def` without a decorator of ContextPy3 redefines the name and removes the variants above it. If layers are "
-    "globally active, a base in a subclass does the same to inherited variants.",
-    "Add @cop.base above it, or give it another name.",
+    "A `def` without a decorator of ContextPy3 replaces the variants above it. If the layers are globally active, a "
+    "base in a subclass also replaces the variants that it inherits.",
+    "Put @cop.base above it, or give it another name.",
     HEAD + BASE + HEDGE + "    def request(self, message):\n        self.open_curtains()\n\n" + TAIL,
 )
 _kind(
     619,
     "unmarked",
-    "a method with layers but without a rule",
-    "Without @sleec.rule, bind() does not find the method and no trigger runs it. This is correct only if its layers "
-    "are globally active, as in the paper.",
-    "Add @sleec.rule with the label of the rule above the base.",
+    "a method with layers, but without a rule",
+    "Without @sleec.rule, bind() does not find the method, and no trigger runs it. This is correct only if its layers "
+    "are globally active.",
+    "Put @sleec.rule with the rule's label above its base.",
     ROBOT.replace('    @sleec.rule("curtains")\n', ""),
     severity="note",
 )
@@ -165,8 +167,8 @@ _kind(
     611,
     "missing-obligation",
     "a variant that omits an obligation of its clause",
-    "The variant never executes an obligation of its clause. A properly structured variant calls the implementation of "
-    "every obligation of its clause, in order, and nothing else (paper, Section 3.2).",
+    "The variant does not execute an obligation of its clause. A properly structured variant calls the "
+    "implementation of every obligation of its clause, in order, and no other (paper, Section 3.2).",
     "Call the implementation of the obligation, or remove the obligation from the rule.",
     ROBOT.replace("        self.explain_why()\n", ""),
 )
@@ -174,7 +176,7 @@ _kind(
     612,
     "obligation-order",
     "a variant with its obligations in the wrong order",
-    "The obligations of a clause must be executed in the order of the rule.",
+    "A variant must execute the obligations of its clause in the order of the text.",
     "Swap the calls, or the obligations in the rule.",
     ROBOT.replace(BODY, "        self.explain_why()\n        self.refuse_request()\n"),
 )
@@ -182,16 +184,16 @@ _kind(
     613,
     "extra-obligation",
     "a variant that does more than its clause requires",
-    "The variant executes an obligation that its clause does not have, or executes one twice. Obligations that are not "
-    "entailed must not be executed (Proposition 1 of the paper).",
+    "The variant executes an obligation that its clause does not have, or it executes an obligation twice. The robot "
+    "must not execute what the rules do not entail (Proposition 1 of the paper).",
     "Remove the call, or add the obligation to the clause.",
     ROBOT.replace(BODY, BODY + "        self.open_curtains()\n"),
 )
 _kind(
     614,
     "prohibited-obligation",
-    "a variant that does what its clause prohibits",
-    "The clause says NOT, but the variant does it.",
+    "a variant that does what its clause forbids",
+    "The clause forbids this with NOT, but the variant still does it.",
     "Remove the call, or change the rule.",
     ROBOT.replace(BODY, "        self.open_curtains()\n"),
     ROBOT.replace(BODY, "        pass\n"),
@@ -200,47 +202,48 @@ _kind(
 _kind(
     615,
     "conditional-obligation",
-    "an obligation that a variant may omit",
-    "The call may run never or more than once, independently of the rule: it is inside `if`, `try` or a loop, in a "
-    "function that other code must call, after a possible return, or it is not awaited.",
-    "Add the condition to the rule, and call the obligation unconditionally.",
+    "an obligation that might not be executed",
+    "The call may run never, or more than once. It is under `if`, `try` or a loop, in a function that other code must "
+    "call, or after a point where the variant can return. Or it is a coroutine that is not awaited.",
+    "Move the test into the rule as a condition. Then call the obligation unconditionally.",
     ROBOT.replace(BODY, "        if message:\n            self.refuse_request()\n        self.explain_why()\n"),
 )
 _kind(
     616,
     "proceed",
     "a variant that calls proceed()",
-    "proceed() also runs the base, and so the default response that the exception replaces.",
-    "Call the obligations of the clause instead.",
+    "proceed() runs the default, which this exception replaces.",
+    "Call the implementations of the clause's obligations instead.",
     ROBOT.replace(BODY, BODY + "        cop.proceed(message)\n"),
 )
 _kind(
     620,
     "endless-trigger",
     "a variant that triggers its own rule again",
-    "The same trigger in the same context activates the same clause and the same variant. This ends only if the "
-    "context changes in between.",
-    "Update the context first, or trigger after this variant has finished.",
+    "The same trigger in the same context runs the same variant again. This recursion ends only if the context "
+    "changes.",
+    "Update the context first, or trigger after this trigger is handled.",
     ROBOT.replace(BODY, BODY + '        sleec.trigger("CurtainRequest", message)\n'),
     severity="warning",
 )
 
-# Around the dispatch --------------------------------------------------------------------------------------
+# Outside the variants -------------------------------------------------------------------------------------
 
 _kind(
     621,
     "obligation-around",
-    "an obligation executed outside the dispatch",
-    "The implementation of an obligation is called outside a variant, so it is executed whatever the rules say.",
-    "Trigger the rule instead, or move the other code into a separate function.",
+    "an obligation that is executed outside a variant",
+    "This code calls the implementation of an obligation, but is not part of a variant. So the obligation is executed "
+    "whether or not the rules require it.",
+    "Trigger the rule instead. If you need only part of the implementation, move that part into another function.",
     ROBOT + BUTTON + "        self.open_curtains()\n",
     ROBOT + BUTTON + '        sleec.trigger("CurtainRequest", None)\n',
 )
 _kind(
     622,
     "method-around",
-    "a rule's method called directly",
-    "A direct call, without trigger(), runs the base whatever the rule says, because no layer is active.",
+    "a rule's method that is called directly",
+    "In a direct call, no layer is active. So the method runs its base, even if an exception applies.",
     "Call sleec.trigger(…), or activate the layers with activate_globally().",
     ROBOT + BUTTON + "        self.request(None)\n",
     ROBOT + BUTTON + '        sleec.trigger("CurtainRequest", None)\n',
@@ -248,10 +251,10 @@ _kind(
 _kind(
     623,
     "layer-by-hand",
-    "a layer of a rule activated by the code",
-    "The rules decide which layers are active. If code activates a layer, a variant runs in situations in which its "
-    "clause does not apply.",
-    "Update the context, and call trigger().",
+    "a layer of a rule that is activated by hand",
+    "The rules decide which layers are active. If other code activates a layer, its variant also runs if the exception "
+    "does not apply.",
+    "Update the context, then call trigger().",
     ROBOT + BUTTON + '        cop.global_activate_layer(sleec.layers["curtains.hc1"])\n',
     ROBOT + BUTTON + '        sleec.update({"UserUndressed": True})\n',
 )
@@ -262,8 +265,8 @@ _kind(
     631,
     "unknown-obligation",
     "a callable for an obligation that the rules do not have",
-    "The table names an obligation that no rule has. The program stops there with UnknownObligation.",
-    "Correct the name.",
+    "The table names an obligation that no rule has. The program stops at this line with UnknownObligation.",
+    "Correct the spelling of the name.",
     TABLE.replace('"ExplainWhy": ', '"ExplainWhy": print,\n    "ExplainWy": '),
     TABLE,
 )
@@ -271,18 +274,18 @@ _kind(
     632,
     "missing-callable",
     "an obligation without a callable",
-    "Rules without a method run the callables of their obligations, but this obligation has none.",
-    "Pass one to implement().",
+    "A rule without a method runs the callables of its obligations. This obligation has no callable.",
+    "Pass a callable for it to implement().",
     TABLE.replace('    "ExplainWhy": lambda message: print("you are undressed"),\n', ""),
     TABLE,
 )
 _kind(
     690,
     "undecided",
-    "a place that cannot be decided without running the program",
-    "The behaviour of this code is known only at run time: for example a computed layer name, a decorator that may "
-    "replace the method, or generated code. The check is inconclusive; the exit code is 3.",
-    "Write it explicitly, or use the tests that run the code (`sleec_verify.conformance`).",
+    "code that cannot be checked without running it",
+    "The effect of this code is known only at run time. Examples are a computed layer name, a decorator that may "
+    "replace the method, and generated code. If there is no other finding, the exit code is 3.",
+    "Write the names and calls directly in the code, or test the code by running it (`sleec_verify.conformance`).",
     ROBOT.replace('layers["curtains.hc1"]', "layers[input()]"),
     severity="warning",
 )
