@@ -64,7 +64,7 @@ class Timing:
         for word, clause in (("otherwise", self.otherwise), ("else", self.instead)):
             if clause is not None:
                 due = " and ".join(obligation_text(obligation) for obligation in clause.obligations) or "nothing"
-                parts.append(f"{word} {due}{' (with hedges of its own)' if clause.hedges else ''}")
+                parts.append(f"{word} {due}{' (with exceptions)' if clause.hedges else ''}")
         return ", ".join(parts)
 
 

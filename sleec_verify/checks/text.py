@@ -94,9 +94,9 @@ def _two_kinds(index: RulesetIndex) -> Iterator[Finding]:
             span,
             rules=rules,
             obligations=(name,),
-            note="doing it triggers the rules with this trigger; with --no-chains it triggers nothing"
+            note="when the robot does it, the rules with this trigger apply; with --no-chains they do not"
             if index.chains
-            else "doing it triggers nothing because of --no-chains",
+            else "when the robot does it, no rule applies because of --no-chains",
         )
 
 

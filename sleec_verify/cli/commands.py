@@ -55,7 +55,7 @@ class _Lazy(click.Group):
 
             near = nearest(args[0], _SUMMARIES)
             hint = f"did you mean {near}?" if near else f"the commands are {', '.join(_SUMMARIES)}"
-            raise click.UsageError(f"there is no command called {shortened(args[0])!r}; {hint}", ctx)
+            raise click.UsageError(f"no command is called {shortened(args[0])!r}; {hint}", ctx)
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

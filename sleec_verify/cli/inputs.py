@@ -102,4 +102,4 @@ def unknown_domain(domain: str, named: Sequence[str]) -> UnknownDomain:
     """The error for a domain that is not one of `named`."""
     near = nearest(domain, named)
     hint = f"did you mean {quoted(near)}?" if near else f"the domains are {', '.join(named)}"
-    return UnknownDomain(f"there is no domain called {quoted(shortened(domain))}", hint)
+    return UnknownDomain(f"no domain is called {quoted(shortened(domain))}", hint)

@@ -62,7 +62,7 @@ def _matching(kinds: _ByCode, code: str) -> _ByCode:
 
         near = _near(kinds, code)
         hint = f"did you mean {near}?" if near else "`sleec-verify rules` lists all codes"
-        raise click.UsageError(f"there is no finding code or check called {quoted(shortened(code))}; {hint}")
+        raise click.UsageError(f"no finding code or check is called {quoted(shortened(code))}; {hint}")
     return wanted
 
 

@@ -180,4 +180,4 @@ def _unknown(name: str, what: str, known: frozenset[str] | set[str]) -> Situatio
         hint = f"the rules have {', '.join(shown[:10])}{' and more' if len(shown) > 10 else ''}"
     else:
         hint = f"the ruleset has no {what}"
-    return SituationError(f"there is no {what} called {quoted(shortened(name))}", hint)
+    return SituationError(f"no {what} is called {quoted(shortened(name))}", hint)

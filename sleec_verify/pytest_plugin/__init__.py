@@ -49,9 +49,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addini("sleec_domain", "Test only the rules of this domain.", default="")
     parser.addini("sleec_reading", "The reading of several exceptions, whatever the files say.", default="")
     parser.addini("sleec_fail_level", "A check fails if it has findings of at least this severity.", default="error")
-    parser.addini("sleec_cov", "As --sleec-cov.", type="bool", default=False)
-    parser.addini("sleec_cov_mcdc", "As --sleec-cov-mcdc.", type="bool", default=False)
-    parser.addini("sleec_cov_fail_under", "As --sleec-cov-fail-under.", default="")
+    parser.addini("sleec_cov", "Like --sleec-cov.", type="bool", default=False)
+    parser.addini("sleec_cov_mcdc", "Like --sleec-cov-mcdc.", type="bool", default=False)
+    parser.addini("sleec_cov_fail_under", "Like --sleec-cov-fail-under.", default="")
 
 
 def pytest_configure(config: pytest.Config) -> None:

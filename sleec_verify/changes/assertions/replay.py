@@ -27,7 +27,7 @@ def replay(
     due = [any(is_of(o, literal) for one in found for o in one.obligations) for literal in assertion.literals]
     broken = all(due) if assertion.kind == "never" else not all(due)
     if not (broken and all(holds(formula, context, measures) for formula in (assertion.when, *given))):
-        raise Undecided("a situation did not replay, which is a bug in sleec-verify")
+        raise Undecided("the replay rejected a situation; this is a bug in sleec-verify")
     return tuple(found)
 
 

@@ -94,7 +94,7 @@ def _case(path: Path, number: int, entry: dict[str, Any], ruleset: Ruleset) -> C
         domain = entry.get("domain")
         if domain is not None and domain not in ruleset.domains:
             raise SituationError(
-                f"there is no domain called {quoted(shortened(str(domain)))}",
+                f"no domain is called {quoted(shortened(str(domain)))}",
                 f"the rules have {', '.join(ruleset.domains) or 'none'}",
             )
         obligations = _obligations(entry.get("obligations", []), ruleset)
@@ -154,7 +154,7 @@ def _obligations(names: object, ruleset: Ruleset) -> tuple[str, ...]:
         if name not in ruleset.obligations:
             near = nearest(name, sorted(ruleset.obligations))
             raise SituationError(
-                f"there is no obligation called `{shortened(name)}`", f"did you mean `{near}`?" if near else None
+                f"no obligation is called `{shortened(name)}`", f"did you mean `{near}`?" if near else None
             )
     return tuple(names)
 

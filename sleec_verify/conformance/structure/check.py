@@ -140,7 +140,7 @@ class StructureCheck:
             elif mark.label not in self.ruleset.by_label:
                 near = nearest(mark.label, self.ruleset.by_label)
                 hint = f"did you mean `{near}`?" if near else f"the rules are {', '.join(self.ruleset.by_label)}"
-                self.findings.add("unknown-rule", f"there is no rule called `{mark.label}`", (file, node), help=hint)
+                self.findings.add("unknown-rule", f"no rule is called `{mark.label}`", (file, node), help=hint)
         for variant in group.variants:
             file = variant.function.file
             if variant.guarded:

@@ -113,7 +113,7 @@ def test_what_cannot_be_read_is_told_and_waited_for(watched: Callable[..., Watch
 def test_a_domain_that_comes_later(watched: Callable[..., Watched]) -> None:
     one = watched("a.sleec", "--domain", "home", a="DOMAIN hospital\n" + CLEAN)
     one.rounds(1)
-    assert "there is no domain called `home`" in one.err
+    assert "no domain is called `home`" in one.err
     one.write("a.sleec", "DOMAIN home\n" + CLEAN)
     one.rounds(2)
     assert "1 ruleset: no errors" in one.out
@@ -166,7 +166,7 @@ def test_in_one_process(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert ran.code == 0
     assert ran.err.count("waiting for changes") == len(texts) + 1
     assert ran.out.count("1 ruleset: ") == len(texts), "of an unknown domain, an error tells"
-    assert "there is no domain called `home`" in ran.err
+    assert "no domain is called `home`" in ran.err
     assert "error[SLEEC101]" in ran.out
 
 

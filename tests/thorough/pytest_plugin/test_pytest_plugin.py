@@ -184,7 +184,7 @@ def test_cases_beside_a_ruleset(run) -> None:
         ('"Refuse"]', '"Refuze"]', "*no obligation Refuze*did you mean Refuse?*"),
         ('obligations = ["Explain", "Refuse"]', "", "*does not say what is due*"),
         ('name = "undressed"', "name = 3", "*name is 3, not a text*"),
-        ('name = "undressed"', 'domain = "ward"', "*there is no domain called `ward`*"),
+        ('name = "undressed"', 'domain = "ward"', "*no domain is called `ward`*"),
         ("\n[[case]]", '\nreading = "both"\n[[case]]', "*the reading is 'both'*"),
         ("\n[[case]]", '\nruleset = "none.sleec"\n[[case]]', "*none.sleec*"),
     ],
