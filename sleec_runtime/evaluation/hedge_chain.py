@@ -73,17 +73,11 @@ def decide(
     return outcome
 
 
-def decide_reported(
-    rule: Rule, context: Context, reading: Reading, measures: Mapping[str, Measure] = NO_MEASURES
-) -> Outcome:
-    """Algorithm 1 in the open world: as `decide`, or `Undetermined` if unreported conditions can change the result."""
-    if rule.trigger not in context.triggers:
-        return None
-    return walk(rule, Situation(context, measures, absent=None), reading)
-
-
 def walk(rule: Rule, situation: Situation, reading: Reading) -> Outcome:
-    """Algorithm 1 for a rule whose trigger occurs."""
+    """Algorithm 1 for a rule whose trigger occurs.
+
+    In the open world, the outcome is `Undetermined` if unreported conditions can change it.
+    """
     steps: list[ConditionTest] = []
     missing: dict[str, None] = {}
 

@@ -11,8 +11,8 @@ import pytest
 
 from sleec_runtime.errors import WrongType
 from sleec_runtime.evaluation.due import broken_assumptions, due
-from sleec_runtime.evaluation.formula_truth import holds
-from sleec_runtime.evaluation.hedge_chain import Decision, Undetermined, decide, decide_reported
+from sleec_runtime.evaluation.formula_truth import Situation, holds
+from sleec_runtime.evaluation.hedge_chain import Decision, Undetermined, decide, walk
 from sleec_runtime.model import (
     And,
     Assume,
@@ -79,7 +79,7 @@ def test_a_rule_without_hedges_has_its_default_and_no_layer() -> None:
 def test_a_rule_says_nothing_without_its_trigger_or_its_guard() -> None:
     guarded = chain("a", guard=atom("g"))
     assert decide(guarded, Context(frozenset({"U"}), {"g": True}), "cascade") is None
-    assert decide_reported(guarded, Context(), "cascade") is None
+    assert decide(guarded, Context(), "cascade") is None
     assert number_of(guarded, "cascade", g=False, a=True) is None
     assert number_of(guarded, "cascade", g=True, a=True) == 1
 
@@ -211,7 +211,7 @@ def test_obligations_are_no_part_of_a_context() -> None:
 
 
 def outcome(rule: Rule, reading: Reading, **values: Any) -> int | tuple[str, ...] | None:
-    result = decide_reported(rule, situation(**values), reading)
+    result = walk(rule, Situation(situation(**values), absent=None), reading)
     if isinstance(result, Undetermined):
         return result.missing
     return None if result is None else result.clause
