@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from sleec_verify.report.details import details
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.excerpt import Mark, excerpt
 from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput, deduplicated_findings, tally
 from sleec_verify.results.finding import SEVERITIES
-from sleec_verify.results.phrases import counted, error_summary, listed, witness_text
+from sleec_verify.results.phrases import counted, error_summary
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
@@ -50,25 +51,10 @@ def finding_lines(finding: Finding, source: Source, palette: Palette) -> Iterato
     marks += (Mark(span, "help", word) for span, word in finding.related)
     yield from excerpt(source, marks, palette)
     margin = " " * len(str(max(source.place(mark.span).end_line for mark in marks)))
-    if finding.timeline is not None:
-        from sleec_verify.report.timeline import chart_of, in_words
-
-        for lines, title in ((in_words(finding.timeline), "timeline"), (chart_of(finding.timeline), "chart")):
-            yield f"{margin} = {palette('strong', title)}:"
-            yield from (f"{margin}     {line}" for line in lines)
-    elif finding.strategy is not None:
-        from sleec_verify.report.strategy import in_words as strategy_in_words
-
-        yield f"{margin} = {palette('strong', 'strategy of the environment')}:"
-        yield from (f"{margin}     {line}" for line in strategy_in_words(finding.strategy))
-    elif finding.witness is not None:
-        yield f"{margin} = {palette('strong', 'situation')}: {witness_text(finding.witness)}"
-    if finding.domains:
-        yield f"{margin} = {palette('strong', 'domain')}: {listed(finding.domains)}"
-    if finding.note is not None:
-        yield f"{margin} = {palette('strong', 'note')}: {finding.note}"
-    if finding.help is not None:
-        yield f"{margin} = {palette('help', 'help')}: {finding.help}"
+    for title, text, lines in details(finding, chart=True):
+        shown = palette("help" if title == "help" else "strong", title)
+        yield f"{margin} = {shown}: {text}" if text else f"{margin} = {shown}:"
+        yield from (f"{margin}     {line}" for line in lines)
 
 
 def error_lines(error: SleecError, palette: Palette) -> Iterator[str]:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-from sleec_verify.results.phrases import listed, witness_text
+from sleec_verify.report.details import details
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Place, Source
@@ -59,24 +59,9 @@ def in_project(path: str) -> str:
 
 def described(finding: Finding) -> Iterator[str]:
     """The details of a finding, one per line: the situation or timeline, the domains, the note, the help."""
-    if finding.timeline is not None:
-        from sleec_verify.report.timeline import in_words
-
-        yield "timeline:"
-        yield from (f"  {line}" for line in in_words(finding.timeline))
-    elif finding.strategy is not None:
-        from sleec_verify.report import strategy
-
-        yield "strategy of the environment:"
-        yield from (f"  {line}" for line in strategy.in_words(finding.strategy))
-    elif finding.witness is not None:
-        yield f"situation: {witness_text(finding.witness)}"
-    if finding.domains:
-        yield f"domain: {listed(finding.domains)}"
-    if finding.note is not None:
-        yield f"note: {finding.note}"
-    if finding.help is not None:
-        yield f"help: {finding.help}"
+    for title, text, lines in details(finding):
+        yield f"{title}: {text}" if text else f"{title}:"
+        yield from (f"  {line}" for line in lines)
 
 
 class Trouble(NamedTuple):
