@@ -145,5 +145,5 @@ def test_a_snapshot_with_other_triggers_is_refused(triggers) -> None:
 
 
 def test_it_is_named_that_a_response_at_the_same_moment_is_not_seen() -> None:
-    with pytest.warns(NotEnforced, match="conditions of stranger on Fire where that is done as a response, line 2"):
+    with pytest.warns(NotEnforced, match="conditions of `stranger` on `Fire` as a response, line 2"):
         Sleec(parse(TIMED), clock=VirtualClock(), chains=True)
