@@ -1,4 +1,4 @@
-"""The relations of one side: what they say of every instant, and those that speak of several."""
+"""The relations of one side: those about every single instant, and those about several instants."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from sleec_verify.encoding.relations import formula_at_one_instant
 
 
 def relations_at_one_instant(ruleset: Ruleset) -> Iterator[tuple[str, Formula]]:
-    """Each relation that rules out single instants, in words, with its formula."""
+    """Each relation that excludes single instants, in words, with its formula."""
     for statement in ruleset.statements:
         if isinstance(statement, (EventRelation, MeasureRelation, Effect)) and not _happens_before(statement):
             yield _in_words(statement), formula_at_one_instant(statement)
 
 
 def relations_over_time(ruleset: Ruleset) -> list[Relation]:
-    """The relations that speak of several instants."""
+    """The relations about several instants."""
     return [s for s in ruleset.statements if isinstance(s, Lasting) or _happens_before(s)]
 
 

@@ -1,9 +1,9 @@
-"""That the code does what the rules say, shown by test (docs/conformance-tests.md).
+"""Tests that the code executes what the rules oblige (docs/conformance-tests.md).
 
     from sleec_verify.conformance import conformance_test
     test_robot = conformance_test(make_sleec)
 
-Here, and in the pytest plugin, is the one place where `sleec_verify` runs the runtime: as the thing under test.
+Only here and in the pytest plugin does `sleec_verify` run the runtime: as the subject of the test.
 """
 
 from __future__ import annotations

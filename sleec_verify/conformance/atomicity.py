@@ -1,4 +1,4 @@
-"""A change of context is whole or not at all: looked at in the midst of one, and after one that is refused."""
+"""Atomic changes of context: triggers during a change, and after a rejected one."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PAIRS = 12
 
 
 class _Looking(Mapping[str, object]):
-    """Changes that are looked past while they are read: a trigger occurs between each two of them."""
+    """Changes during which triggers occur: one between each two of their values."""
 
     def __init__(self, changes: Mapping[str, object], look: Callable[[], object]) -> None:
         self._changes = changes
@@ -33,7 +33,7 @@ class _Looking(Mapping[str, object]):
 
 
 def whole_changes(bench: Bench) -> int:
-    """Raises Nonconformance where half of a change shows. Returns the number of changes that were looked at."""
+    """Raises `Nonconformance` if a part of a change is visible. Returns the number of tested changes."""
     oracle = bench.oracle()
     found = pairs(oracle, Assumptions(oracle.ruleset))[:PAIRS]
     for pair in found:
@@ -44,7 +44,7 @@ def whole_changes(bench: Bench) -> int:
 
 
 def justified_by_one(pair: ContextPair, observed: Observation, running: Running, when: str) -> None:
-    """Raises Nonconformance unless what was observed is due in one of the two contexts."""
+    """Raises `Nonconformance` unless the observation is due in one of the two contexts."""
     whole = running.oracle.whole
     contexts = (pair.before, pair.after)
     expected = [running.oracle.expected(context) for context in contexts]
@@ -79,7 +79,7 @@ def _in_the_midst(running: Running, pair: ContextPair) -> None:
 
 
 def _refused(running: Running, pair: ContextPair) -> None:
-    """A change one part of which cannot be changes nothing."""
+    """A change with one invalid part changes nothing."""
     running.enter(pair.before)
     changes = running.way_to(pair.after)
     *good, bad = changes

@@ -1,4 +1,4 @@
-"""Every rule in every context that it can tell apart."""
+"""Exhaustive test: every rule in every context that it distinguishes."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from sleec_verify.conformance.subject import Bench, Running
 from sleec_verify.query.inconsistent_sets import Constraint
 
 SAMPLED = 500
-"""Contexts of a rule that has too many for all."""
+"""The number of sampled contexts of a rule with too many contexts."""
 
 
 class RuleGroup(NamedTuple):
-    """Rules of one trigger that are gone through together, and the values of what decides them."""
+    """Rules of one trigger that are tested together, and the values that decide them."""
 
     trigger: str
     rules: tuple[Rule, ...]
@@ -27,7 +27,7 @@ class RuleGroup(NamedTuple):
 
     @property
     def whole(self) -> bool:
-        """Whether every context is gone through."""
+        """Whether every context is tested."""
         return size(self.given) <= LIMIT
 
 
@@ -88,7 +88,7 @@ def _chosen(group: RuleGroup) -> Iterator[Context]:
 def each_rule(bench: Bench, labels: frozenset[str] | None = None) -> int:
     """Compares what is executed with what is due, for every rule in every context. Returns the number of contexts.
 
-    Raises Nonconformance for the smallest situation of the first rule that is wrong.
+    Raises `Nonconformance` for the smallest situation of the first wrong rule.
     """
     oracle = bench.oracle()
     assumptions = Assumptions(oracle.ruleset)
@@ -106,7 +106,7 @@ def each_rule(bench: Bench, labels: frozenset[str] | None = None) -> int:
 
 
 def tried(running: Running, context: Context, expected: Expectation | None = None) -> Nonconformance | None:
-    """Leads the subject into `context` and lets its triggers occur; what is wrong with what it did."""
+    """Sets `context`, and triggers its triggers. Returns what is wrong with the observation, if anything."""
     if expected is None:
         expected = running.oracle.expected(context)
     running.enter(context)
@@ -128,7 +128,7 @@ def first_contexts(oracle: Oracle, assumptions: Assumptions, most: int) -> Itera
 
 
 def _with_what_led_to_it(bench: Bench, failure: Nonconformance, previous: Context | None) -> Nonconformance:
-    """The failure as it is on a new subject, or with what went before where a new subject does well."""
+    """The failure on a new subject, or with its history if a new subject behaves correctly."""
     with bench.running() as fresh:
         alone = tried(fresh, failure.context, failure.expected)
     if alone is not None or previous is None:

@@ -1,4 +1,4 @@
-"""A difference between what was executed and what was due, in words."""
+"""Nonconformance: a difference between what was executed and what was due, in words."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from sleec_verify.results.phrases import context_text
 
 
 class Nonconformance(AssertionError):
-    """The subject did not do what the rules oblige. Its text is a report; the parts are there for programs."""
+    """The subject did not execute what the rules oblige. Its text is a report; its attributes are for programs."""
 
     def __init__(
         self, context: Context, expected: Expectation, observed: Observation, what: str, before: Sequence[str] = ()
@@ -25,12 +25,12 @@ class Nonconformance(AssertionError):
         super().__init__("\n".join(_lines(self)))
 
     def after(self, before: Sequence[str]) -> Nonconformance:
-        """The same, with what led to it."""
+        """The same, with its history."""
         return Nonconformance(self.context, self.expected, self.observed, self.what, before)
 
 
 def difference(context: Context, expected: Expectation, observed: Observation, ruleset: Ruleset) -> str | None:
-    """What is wrong with what was observed, or None. A context that breaks an assumption does not count."""
+    """What is wrong with an observation, or None. A context that violates an assumption does not count."""
     executed, error = observed.executed, observed.error
     if not expected.possible:
         return None
@@ -68,7 +68,7 @@ def difference(context: Context, expected: Expectation, observed: Observation, r
 
 
 def situation_text(context: Context) -> str:
-    """A context in words; what is false in it goes without saying."""
+    """A context in words, without false conditions."""
     return context_text(Context(context.triggers, {n: v for n, v in context.conditions.items() if v is not False}))
 
 

@@ -1,4 +1,5 @@
-"""What happens when an implementation raises: it comes out, the other rules are served, and nothing stays behind."""
+"""Fault injection: if an implementation raises, the exception comes out, other rules are executed, and no state
+remains."""
 
 from __future__ import annotations
 
@@ -13,11 +14,11 @@ from sleec_verify.conformance.oracle import Expectation
 from sleec_verify.conformance.subject import Bench, Running
 
 MOST = 8
-"""Contexts a group of rules: one for each set of active clauses, which is one a clause where a trigger has one rule."""
+"""The maximal number of contexts for each group of rules: one for each set of active clauses."""
 
 
 class InjectedFault(Exception):
-    """What the test has an implementation raise."""
+    """The exception that the test raises in an implementation."""
 
 
 def inject_exceptions(bench: Bench) -> int:
@@ -66,7 +67,7 @@ def _came_out(provoked: InjectedFault, error: BaseException | None) -> bool:
 
 
 def _still_due(expected: Expectation, place: int) -> tuple[str, ...]:
-    """What is executed if the execution at `place` raises: the rest of its own rule is not, all other rules are."""
+    """What is executed if the execution at `place` raises: all other rules, but not the rest of its own rule."""
     due: list[str] = []
     position = 0
     for active in expected.active:

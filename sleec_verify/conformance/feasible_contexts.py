@@ -1,4 +1,4 @@
-"""Contexts that keep the assumptions: what is drawn or listed freely, moved as little as it takes."""
+"""Contexts that satisfy the assumptions, as close as possible to given ones."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ EVERYTHING: frozenset[str] = frozenset()
 
 
 class Assumptions:
-    """The assumptions of a ruleset as one question, asked as often as contexts come."""
+    """The assumptions of a ruleset as one question, for any number of contexts."""
 
     def __init__(self, ruleset: Ruleset) -> None:
         index = RulesetIndex(ruleset)
@@ -23,9 +23,9 @@ class Assumptions:
                 self._question.require_formula(assumption.formula)
 
     def nearest(self, context: Context, fixed: Collection[str] = EVERYTHING) -> Context | None:
-        """A context like `context` in as much as the assumptions let it be, and just so in the names that are `fixed`.
+        """A context that satisfies the assumptions, close to `context`, and equal to it in the names that are `fixed`.
 
-        None if there is none. Fixed names that the assumptions do not mention stay whatever they are.
+        None if there is none. Fixed names that the assumptions do not mention keep their values.
         """
         question = self._question
         if question is None:

@@ -1,4 +1,4 @@
-"""A Hypothesis state machine: changes and triggers in any order, and triggers and changes in the midst of triggers."""
+"""A Hypothesis state machine: changes and triggers in any order, and triggers and changes during triggers."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from sleec_verify.results.phrases import value_text
 
 
 def state_machine(bench: Bench, *, threads: bool = False) -> type[RuleBasedStateMachine]:
-    """The machine for one bench; its `TestCase` is a test, and `run_state_machine_as_test` runs it. With `threads`,
+    """The machine for one bench. Its `TestCase` is a test, and `run_state_machine_as_test` runs it. With `threads`,
     other threads make some of the changes and triggers, one at a time, so that each run can be repeated."""
     oracle = bench.oracle()
     ruleset = oracle.ruleset
@@ -28,7 +28,7 @@ def state_machine(bench: Bench, *, threads: bool = False) -> type[RuleBasedState
     changes = strategies.changes(ruleset)
 
     class Changes(RuleBasedStateMachine):
-        """One subject, and what it was told and asked."""
+        """One subject, and its changes and triggers."""
 
         def __init__(self) -> None:
             super().__init__()
@@ -38,13 +38,13 @@ def state_machine(bench: Bench, *, threads: bool = False) -> type[RuleBasedState
 
         @rule(changes=changes)
         def change(self, changes: dict[str, Value | None]) -> None:
-            """Something changes, and something else is no longer known."""
+            """Some values change, and others become unknown."""
             self._steps.append(f"change: {_changes_text(changes)}")
             self._running.change(changes)
 
         @rule(context=contexts)
         def enter(self, context: Context) -> None:
-            """A situation that the assumptions allow, as one change; and what it triggers."""
+            """A situation that the assumptions allow, as one change, and its triggers."""
             self._running.enter(context)
             self._steps.append(f"change to: {situation_text(Context(frozenset(), context.conditions))}")
             self._trigger(sorted(context.triggers))
@@ -85,7 +85,7 @@ def state_machine(bench: Bench, *, threads: bool = False) -> type[RuleBasedState
         def _compared(
             self, names: Sequence[str], context: Context, observed: Observation | None
         ) -> list[Nonconformance]:
-            """What is wrong with what was observed; if nothing was yet, the triggers occur now."""
+            """What is wrong with an observation; without one, the triggers occur now."""
             if observed is None:
                 observed = self._running.observe(names)
             expected = oracle.expected(context)
@@ -96,7 +96,7 @@ def state_machine(bench: Bench, *, threads: bool = False) -> type[RuleBasedState
             self._open.close()
 
     class Threads(Changes):
-        """The same, where a step may be that of a thread which is new, or which made other steps before."""
+        """The same, with steps in a new thread or in one that made earlier steps."""
 
         def __init__(self) -> None:
             super().__init__()
@@ -104,7 +104,7 @@ def state_machine(bench: Bench, *, threads: bool = False) -> type[RuleBasedState
 
         @rule(changes=changes, new=st.booleans())
         def change_elsewhere(self, changes: dict[str, Value | None], new: bool) -> None:
-            """Another thread tells of a change."""
+            """Another thread reports a change."""
             self._steps.append(f"{_thread(new)}: change: {_changes_text(changes)}")
             self._elsewhere(new, lambda: self._running.change(changes))
 

@@ -1,4 +1,4 @@
-"""What is due in a context, by Equation 1 and the solver: the side of the comparison that runs nothing."""
+"""The oracle: what is due in a context, by Equation 1 and the solver. It runs no code of the runtime."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from sleec_verify.query.inconsistent_sets import InconsistentSet
 from sleec_verify.query.prime_implicates import inconsistent_sets
 
 _KEPT = 512
-"""Compiled sets of triggers that are kept. A suite asks of the same few again and again."""
+"""The number of compiled sets of triggers that are cached, because a suite uses few of them repeatedly."""
 
 
 @dataclass(frozen=True)
 class ActiveClause:
-    """A clause that is active, with its layer (None is the rule's ε) and all that it obliges."""
+    """An active clause, with its layer (None is the rule's ε) and all of its obligations."""
 
     rule: str
     clause: int
@@ -27,10 +27,10 @@ class ActiveClause:
 
 @dataclass(frozen=True)
 class Expectation:
-    """What Definition 1 says of one context.
+    """The answer of Definition 1 for one context.
 
-    `due` is in the order of the rules and of their clauses, a name once for each rule that asks for it. In a
-    `conflict` nothing is due. `possible` is False where the context breaks an assumption: it does not count.
+    `due` is in the order of the rules and of their clauses, with a name once for each rule that obliges it. In a
+    `conflict`, nothing is due. `possible` is False if the context violates an assumption: it does not count.
     """
 
     active: tuple[ActiveClause, ...]
@@ -41,10 +41,10 @@ class Expectation:
 
 
 class Oracle:
-    """The rules of one domain, compiled for each set of triggers when it is first asked about.
+    """The rules of one domain, compiled for each set of triggers at its first use.
 
-    `whole` is the ruleset with all domains: what it names can occur and be reported in any of them. Raises `Undecided`
-    where the constraints are too entangled to say what can be done together.
+    `whole` is the ruleset with all domains: its names can occur and be reported in any of them. Raises `Undecided` if
+    the constraints are too entangled.
     """
 
     def __init__(self, whole: Ruleset, domain: str | None = None) -> None:
@@ -63,20 +63,20 @@ class Oracle:
         self._compiled: dict[tuple[frozenset[str], frozenset[str]], _Compiled] = {}
 
     def rules_of(self, triggers: Iterable[str]) -> list[Rule]:
-        """The rules in force of these triggers, in their order."""
+        """The rules of these triggers, in their order."""
         rules = [rule for trigger in triggers for rule in self._by_trigger.get(trigger, ())]
         return sorted(rules, key=lambda rule: self._position[rule.label])
 
     def clashes_among(self, literals: Iterable[Obligation]) -> list[InconsistentSet]:
-        """The clashes that can come of these literals, with those that a situation makes by itself."""
+        """The inconsistent sets of these literals, with those that a situation causes by itself."""
         return list(self.clashes.among(frozenset(literals)))
 
     def expected(self, context: Context) -> Expectation:
-        """Definition 1 in `context`; two propagations."""
+        """The answer of Definition 1 in `context`, by two propagations."""
         return self._ready(context).expected(context)
 
     def possible(self, context: Context) -> bool:
-        """Whether `context` keeps the assumptions."""
+        """Whether `context` satisfies the assumptions."""
         return not self.assumptions or self.expected(context).possible
 
     def _ready(self, context: Context) -> _Compiled:
@@ -120,6 +120,7 @@ class _Compiled:
         return Expectation(active, due, tuple(sorted(o.name for o in entailed if o.negated)), False, possible)
 
     def _clash(self, entailed: frozenset[Obligation], truths: Iterator[bool]) -> bool:
-        """Whether some clash is all due here; `truths` are those of its labels and of the next ones', in order."""
+        """Whether all literals of some inconsistent set are due. `truths` are those of its labels and of the next
+        ones', in order."""
         situations = [all(list(islice(truths, len(clash.labels)))) for clash in self._clashes]
         return any(here and clash.literals <= entailed for clash, here in zip(self._clashes, situations))

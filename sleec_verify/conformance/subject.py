@@ -1,4 +1,4 @@
-"""The thing under test: anything that takes changes of context and triggers, watched while it executes."""
+"""The subject of a test: anything that accepts changes of context and triggers, observed while it executes."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from sleec_verify.conformance.oracle import Oracle
 
 @runtime_checkable
 class Subject(Protocol):
-    """What can be tested. A `sleec_runtime.Sleec` is one; so is whatever else has these four."""
+    """The interface of a subject. A `sleec_runtime.Sleec` is one."""
 
     @property
     def ruleset(self) -> Ruleset:
-        """The rules in force."""
+        """The current rules."""
         ...
 
     def update(self, changes: Mapping[str, object]) -> object:
-        """One change of context; None says that a value is no longer known."""
+        """One change of context. None says that a value is no longer known."""
         ...
 
     def trigger(self, name: str, /, *args: Any) -> object: ...
@@ -35,19 +35,19 @@ class Subject(Protocol):
 
 
 Factory = Callable[[], Any]
-"""Makes a new subject each time, with its code bound and nothing reported yet."""
+"""Creates a new subject at each call, with its code bound and no context reported."""
 
 Arguments = Sequence[object] | Callable[[tuple[str, ...]], Sequence[object]]
-"""What triggers are called with: the same always, or depending on the triggers that occur."""
+"""The arguments of triggers: constant, or a function of the triggers that occur."""
 
 
 class NotASubject(SleecError):
-    """A factory that did not make what can be tested."""
+    """A factory that did not create a subject."""
 
 
 @dataclass(frozen=True)
 class Observation:
-    """What one dispatch did: what was executed, in order, and what it raised."""
+    """The result of one dispatch: the executed obligations, in order, and the exception, if any."""
 
     executed: tuple[str, ...]
     failed: tuple[str, ...] = ()
@@ -58,7 +58,7 @@ class Observation:
 class Bench:
     """What to test, and against which rules.
 
-    `ruleset` is what the subject must obey, in `domain` and `reading`; where it is None, the subject's own. `watch` are
+    `ruleset` is what the subject must follow, in `domain` and `reading`; None for the subject's own. `watch` are
     further objects and modules whose methods implement obligations. `arguments` are those of every trigger.
     """
 
@@ -71,7 +71,7 @@ class Bench:
     _oracles: dict[str | None, Oracle] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def oracle(self) -> Oracle:
-        """What must be done, compiled once for all subjects of this bench."""
+        """What must be executed, compiled once for all subjects of this bench."""
         if None not in self._oracles:
             subject = self.subject()
             whole = self.ruleset if self.ruleset is not None else whole_ruleset(subject)
@@ -82,7 +82,7 @@ class Bench:
         return self._oracles[None]
 
     def subject(self) -> Subject:
-        """A new subject. Raises NotASubject, and whatever the factory raises."""
+        """A new subject. Raises `NotASubject`, and the exceptions of the factory."""
         made = self.make()
         if not isinstance(made, Subject):
             raise NotASubject(
@@ -93,7 +93,7 @@ class Bench:
 
     @contextmanager
     def running(self) -> Iterator[Running]:
-        """A new subject, watched until the end of the block."""
+        """A new subject, observed until the end of the block."""
         subject = self.subject()
         objects: list[object] = getattr(subject, "bound_objects", list)()
         with ExitStack() as stack:
@@ -103,7 +103,7 @@ class Bench:
 
 
 class Running:
-    """A subject, what it was told of the context so far, and what it must do."""
+    """A subject, the context that was reported to it, and what it must execute."""
 
     def __init__(self, subject: Subject, oracle: Oracle, arguments: Arguments) -> None:
         self.subject = subject
@@ -112,12 +112,12 @@ class Running:
         self.known: dict[str, Value] = {}
 
     def change(self, changes: Mapping[str, Value | None]) -> None:
-        """One change, as it is given to the subject."""
+        """One change, which is also reported to the subject."""
         self.subject.update(changes)
         self.note(changes)
 
     def note(self, changes: Mapping[str, Value | None]) -> None:
-        """Remembers a change that the subject was told of otherwise."""
+        """Records a change that was reported to the subject in another way."""
         for name, value in changes.items():
             if value is None:
                 self.known.pop(name, None)
@@ -125,7 +125,7 @@ class Running:
                 self.known[name] = value
 
     def enter(self, context: Context) -> None:
-        """One change that leads from what is known to the conditions of `context`."""
+        """One change from the current context to the conditions of `context`."""
         changes = self.way_to(context)
         if changes:
             self.change(changes)
@@ -139,11 +139,12 @@ class Running:
         return changes
 
     def here(self, triggers: Iterable[str]) -> Context:
-        """The context of now, with `triggers` occurring in it."""
+        """The current context, with `triggers`."""
         return Context(frozenset(triggers), dict(self.known))
 
     def observe(self, triggers: Iterable[str], on_execution: Callable[[str], object] | None = None) -> Observation:
-        """What the subject does if these occur now. `on_execution` is called as each obligation begins."""
+        """What the subject does if these triggers occur now. `on_execution` is called at the start of each
+        obligation."""
         names = tuple(sorted(triggers))
         arguments = self._arguments(names) if callable(self._arguments) else self._arguments
         error: BaseException | None = None
@@ -157,7 +158,7 @@ class Running:
             try:
                 on_execution(name)
             finally:
-                # What another dispatch executed in the midst of this one is not of this one.
+                # Executions of a nested dispatch do not belong to this one.
                 del seen.executed[before:]
                 meanwhile = False
 
@@ -184,7 +185,7 @@ class Running:
 
 
 def whole_ruleset(subject: Subject) -> Ruleset:
-    """The rules of a subject with all their domains, as far as it tells of them."""
+    """The rules of a subject with all their domains, if it provides them."""
     hold = getattr(subject, "hold", None)
     if hold is None:
         return subject.ruleset

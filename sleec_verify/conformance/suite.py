@@ -1,4 +1,4 @@
-"""The ready test, as one function for pytest and one for everything else."""
+"""The conformance test, as a function for pytest and as a function for other uses."""
 
 from __future__ import annotations
 
@@ -89,11 +89,11 @@ PARTS: dict[str, Part] = {
     "changes": _changes,
     "threads": _threads,
 }
-"""What the ready test consists of, in the order in which it runs: what is quick, and finds the smallest, first."""
+"""The parts of the conformance test in their order: first the fast ones, which find the smallest failures."""
 
 
 class NondeterministicSubject(SleecError):
-    """A subject whose answers change from one run to the next, so that no smallest failure can be found."""
+    """A subject whose answers differ between runs, so that no smallest failure can be found."""
 
 
 class UnknownPart(SleecError):
@@ -111,8 +111,8 @@ def check_conformance(
     arguments: Arguments = (),
     examples: int = 100,
 ) -> None:
-    """Runs the ready test. Raises Nonconformance for the smallest thing that is wrong, and SleecError where it cannot
-    be run. The arguments are those of `conformance_test`."""
+    """Runs the conformance test. Raises `Nonconformance` for the smallest failure, and `SleecError` if the test
+    cannot run. The arguments are those of `conformance_test`."""
     bench = _bench(make, ruleset, domain, reading, watch, arguments)
     for name in _chosen(parts):
         PARTS[name](bench, examples)
@@ -129,14 +129,14 @@ def conformance_test(
     arguments: Arguments = (),
     examples: int = 100,
 ) -> Callable[[str], None]:
-    """A test for pytest, an item for each of `PARTS`: that what is executed is what the rules oblige.
+    """A test for pytest, with an item for each of `PARTS`: what is executed is what the rules oblige.
 
-    `make` makes a new instance each time, with the robot's code bound. `ruleset`, a value or a file, is what it must
-    obey, in `domain` and `reading`; left out, they are the instance's own. `watch` are objects and modules that
-    implement obligations and are not bound. `arguments` are given to each trigger; a function of the triggers may
-    choose them. `examples` is how much of the random parts to run, `parts` which parts.
+    `make` creates a new instance at each call, with the robot's code bound. `ruleset`, a value or a file, is what it
+    must follow, in `domain` and `reading`; by default, those of the instance. `watch` are objects and modules that
+    implement obligations and are not bound. `arguments` are given to each trigger; they may be a function of the
+    triggers. `examples` sets the size of the random parts, and `parts` selects the parts.
 
-    Raises UnknownPart. Nothing is loaded or made before the test runs.
+    Raises `UnknownPart`. Nothing is loaded or created before the test runs.
     """
     import pytest
 
@@ -159,7 +159,7 @@ def conformance_test(
 
 @contextmanager
 def _repeatable() -> Iterator[None]:
-    """A failure that Hypothesis could not repeat is one all the same, of a robot that does not always do the same."""
+    """A failure that Hypothesis could not repeat is still a failure, of a nondeterministic robot."""
     from hypothesis.errors import Flaky
 
     try:

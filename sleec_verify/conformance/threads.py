@@ -1,5 +1,5 @@
-"""Threads: each clause off the main thread, and many threads against one changing context, where what each trigger
-does is due in some whole context."""
+"""Threads: each clause in another thread than the main one, and many threads with one changing context, where each
+trigger must execute what is due in some complete context."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from sleec_verify.conformance.subject import Bench, Observation, Running
 THREADS = 4
 DISPATCHES = 300
 PAIRS = 3
-"""Pairs of contexts that are fought over, the most telling first."""
+"""The maximal number of pairs of contexts for competing threads, those with a distinguishing mixture first."""
 
 
 def in_threads(bench: Bench) -> int:
-    """Raises Nonconformance where a thread does what no whole context calls for, or does not see the context that
-    another has made. Returns the number of dispatches."""
+    """Raises `Nonconformance` if a thread executes what is due in no complete context, or does not see the context
+    of another thread. Returns the number of dispatches."""
     oracle = bench.oracle()
     assumptions = Assumptions(oracle.ruleset)
     clauses = 0
@@ -57,7 +57,8 @@ def each_clause(oracle: Oracle, assumptions: Assumptions) -> Iterator[tuple[Cont
 
 
 def _handed_over(running: Running, context: Context, expected: Expectation) -> None:
-    """What one thread reports, another acts upon. `expected` is known beforehand: the solver is this thread's."""
+    """One thread reports the context, and another one triggers. `expected` is computed before, because the solver
+    belongs to this thread."""
     running.enter(context)
     failures: list[Nonconformance] = []
 
@@ -107,7 +108,7 @@ def _all_run(threads: Sequence[threading.Thread]) -> None:
 
 @contextmanager
 def _hasty_threads() -> Iterator[Callable[[], float]]:
-    """Threads take turns every few microseconds instead of milliseconds."""
+    """Threads switch every few microseconds instead of milliseconds."""
     interval = sys.getswitchinterval()
     sys.setswitchinterval(1e-6)
     try:

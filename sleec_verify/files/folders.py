@@ -12,9 +12,9 @@ GIT = ".git"
 def rulesets_below(folder: str, refused: Callable[[OSError], None], skipped: Callable[[str], None]) -> list[str]:
     """The paths of the rulesets at or below `folder`, sorted.
 
-    `refused` is called for each folder that may not be read, `skipped` for each link that does not lead to a ruleset
-    below `folder`: whoever names a folder does not ask for other files. What git keeps for itself is left out: a branch
-    may be called fix.sleec, and is no ruleset.
+    `refused` is called for each folder that is not readable, and `skipped` for each link that does not lead to a
+    ruleset below `folder`, because naming a folder does not ask for other files. Git's own files are left out: a branch
+    may be called fix.sleec without being a ruleset.
     """
     found = []
     for parent, folders, names in os.walk(folder, onerror=refused):
@@ -28,15 +28,15 @@ def rulesets_below(folder: str, refused: Callable[[OSError], None], skipped: Cal
 
 
 def files_at(path: str) -> list[str]:
-    """The file at `path`, or those below it if it is a folder; none if there is nothing."""
+    """The file at `path`, or the files below it if it is a folder; none if there is nothing."""
     if not os.path.isdir(path):
         return [path] if os.path.lexists(path) else []
     return [os.path.join(parent, name) for parent, _, names in os.walk(path) for name in names]
 
 
 def leads_below(path: str, folder: str, suffix: str) -> bool:
-    """Whether `path`, with its links followed, is at or below `folder`, is not kept by git for itself, and ends with
-    `suffix`."""
+    """Whether `path`, after following its links, is at or below `folder`, is not one of git's own files, and ends
+    with `suffix`."""
     target = os.path.realpath(path)
     parts = os.path.relpath(target, os.path.realpath(folder)).split(os.sep)
     return parts[0] != os.pardir and GIT not in map(str.lower, parts) and target.endswith(suffix)

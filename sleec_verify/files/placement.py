@@ -1,4 +1,4 @@
-"""Putting files in place, whole or not at all."""
+"""Writing files atomically."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ from sleec_verify.files.temporary import put_in_place
 
 
 def write_whole(path: str, content: bytes) -> None:
-    """Make `content` that of the file, in one step: whoever reads it sees the old or the new, and where something fails
-    the old stays. A link stays a link, and the rights stay as they are. What is no regular file is written to.
+    """Replace the content of the file by `content`, atomically: readers see the old or the new content, and an error
+    keeps the old one. A link stays a link, and the permissions do not change. Content for anything but a regular file
+    is written to it directly.
 
     Raises:
-        SleecError: it cannot be written.
+        SleecError: the file cannot be written.
     """
     target = os.path.realpath(path)
     try:
@@ -30,10 +31,10 @@ def write_whole(path: str, content: bytes) -> None:
 
 
 def write_new(path: str, content: bytes) -> None:
-    """Make a file with `content`, in one step.
+    """Create a file with `content`, atomically.
 
     Raises:
-        SleecError: it cannot be written, or exists, even since the caller looked for it.
+        SleecError: it cannot be written, or exists, even if it was created after the caller's own check.
     """
     try:
         put_in_place(path, content, new=True)
@@ -42,10 +43,10 @@ def write_new(path: str, content: bytes) -> None:
 
 
 def require_writable(output: str, inputs: Iterable[str]) -> None:
-    """Refuse an output file that cannot be meant, before any work is done for it: one that is read, too, or a folder.
+    """Reject an output path before any work is done for it, if it is also an input, or a folder.
 
     Raises:
-        click.UsageError: with what to do.
+        click.UsageError: with advice.
     """
     if os.path.isdir(output):
         raise click.UsageError(f"{output} is a folder; name a file")

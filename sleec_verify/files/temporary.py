@@ -1,4 +1,4 @@
-"""Temporary files and folders that are gone at the end, whenever Ctrl-C comes."""
+"""Temporary files and folders that are always removed, even after Ctrl-C."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ _T = TypeVar("_T")
 
 
 def with_temporary(beside: str, use: Callable[[str], _T]) -> _T:
-    """What `use` returns. It is given a new path in the folder of `beside`, at which it may make a file or a folder;
-    what is there at the end is removed."""
-    # The path is known before there is anything at it, so that no moment is without the clean-up.
+    """The result of `use`, which gets a new path in the folder of `beside` for a file or folder. Whatever exists at
+    that path at the end is removed."""
+    # Know the path before creating anything, so that the clean-up always covers it.
     path = os.path.join(os.path.dirname(beside), f".sleec-{os.urandom(8).hex()}.tmp")
     try:
         try:
             return use(path)
         finally:
             _remove(path)
-    finally:  # if Ctrl-C came in the first removal
+    finally:  # if Ctrl-C interrupted the first removal
         _remove(path)
 
 
 def put_in_place(target: str, content: bytes, new: bool = False) -> None:
-    """Make `content` that of the file at `target`, in one step, with the rights that a file there has. A `new` file
-    replaces none.
+    """Replace the content of the file at `target` by `content`, atomically, with the permissions of the existing file.
+    A `new` file replaces nothing.
 
     Raises:
-        OSError: it cannot be written, and is as it was. FileExistsError where a `new` file is not new.
+        OSError: it cannot be written, and is unchanged. FileExistsError if a `new` file already exists.
     """
 
     def use(path: str) -> None:
@@ -58,7 +58,7 @@ def _link(path: str, target: str) -> None:
 
 
 def _remove(path: str) -> None:
-    # shutil.rmtree makes an OSError of an interruption.
+    # shutil.rmtree turns an interruption into an OSError.
     for parent, folders, files in os.walk(path, topdown=False):
         with suppress(OSError):
             for name in files:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def read_toml(
     path: str | Path, shown: str, error: type[SleecError], parse_float: Callable[[str], object] = float
 ) -> dict[str, Any]:
-    """The table in a file, which messages call `shown`. `parse_float` makes numbers with a point or an exponent.
+    """The table in a file, which messages call `shown`. `parse_float` converts numbers with a point or an exponent.
 
     Raises:
         error: the file cannot be read, or is not TOML.
@@ -33,7 +33,7 @@ def read_toml(
 def parse_toml(
     data: bytes, shown: str, error: type[SleecError], parse_float: Callable[[str], object] = float
 ) -> dict[str, Any]:
-    """As `read_toml`, of bytes that have been read already."""
+    """The same as `read_toml`, for bytes."""
     toml = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
     try:
         table: dict[str, Any] = toml.loads(data.decode("utf-8-sig"), parse_float=parse_float)
@@ -48,7 +48,8 @@ def parse_toml(
 
 
 def _check_integers(table: object) -> None:
-    """TOML integers have 64 bits. Python reads longer ones, which it may not be able to print. Raises ValueError."""
+    """Raises `ValueError` for integers of more than 64 bits. TOML does not have them, and Python may not be able to
+    print them."""
     values = [table]
     while values:
         value = values.pop()

@@ -1,6 +1,6 @@
 """The pytest plugin: ``pytest rulesets/`` (docs/conformance-tests.md).
 
-Nothing of sleec is imported before a ruleset, a file of cases, a fixture or an option asks for it.
+It imports nothing else of sleec until a ruleset, a file of cases, a fixture or an option needs it.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _COVERAGE: pytest.StashKey[ClauseCoverage] = pytest.StashKey()
 _SUMMARIES: pytest.StashKey[list[Summary]] = pytest.StashKey()
 _LARGEST = 16 * 1024 * 1024
 _SENT = "sleec_coverage"
-"""The key under which a process of pytest-xdist sends what it covered to the one that started it."""
+"""The key under which a process of pytest-xdist sends its coverage to the process that started it."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -84,7 +84,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_testnodedown(node: Any, error: object) -> None:
-    """A process of pytest-xdist has ended. One that crashed has sent nothing."""
+    """A process of pytest-xdist has ended. A crashed process has sent nothing."""
     packed = getattr(node, "workeroutput", {}).get(_SENT)
     if packed is not None:
         node.config.stash[_COVERAGE].add(packed)
@@ -96,7 +96,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
     if _COVERAGE not in config.stash or config.getoption("collectonly"):
         return
     output = getattr(config, "workeroutput", None)
-    if output is not None:  # who started this process adds up, and holds the sum against the threshold
+    if output is not None:  # the main process adds up the coverage and compares it with the threshold
         output[_SENT] = config.stash[_COVERAGE].packed()
         return
     config.stash[_SUMMARIES] = summaries = _summarised(config)
@@ -140,8 +140,8 @@ def sleec_ruleset(pytestconfig: pytest.Config) -> Ruleset:
 
 @pytest.fixture
 def sleec(request: pytest.FixtureRequest) -> Iterator[Sleec]:
-    """A new instance: what ``--sleec-target`` makes, or else one for `sleec_ruleset` whose obligations do nothing but
-    be seen by `sleec_runtime.recording`."""
+    """A new instance: of ``--sleec-target``, or for `sleec_ruleset` with obligations that do nothing.
+    `sleec_runtime.recording` sees these."""
     from sleec_runtime.errors import SleecError
     from sleec_verify.pytest_plugin import settings
     from sleec_verify.pytest_plugin.items import stand_in
@@ -176,7 +176,7 @@ def _fail_under(config: pytest.Config) -> float | None:
 
 
 def _see_ruleset(config: pytest.Config) -> None:
-    """A ruleset that is not there is said at once, not only when a test asks for it."""
+    """Report a missing ruleset at once, not only when a test needs it."""
     if config.getoption("sleec_ruleset") or config.getini("sleec_ruleset"):
         from sleec_verify.pytest_plugin import settings
 
@@ -186,7 +186,7 @@ def _see_ruleset(config: pytest.Config) -> None:
 
 
 def _are_cases(path: Path) -> bool:
-    """Whether a ``*.cases.toml`` is about rules: other tools have such files too."""
+    """Whether a ``*.cases.toml`` file is about rules, because other tools have such files, too."""
     if path.with_name(path.name.removesuffix(".cases.toml") + ".sleec").is_file():
         return True
     toml = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
@@ -210,7 +210,7 @@ def _summarised(config: pytest.Config) -> list[Summary]:
     except SleecError:
         named = None
     if named is not None:
-        # Also where nothing was triggered, all of it is to be told.
+        # Report all rules, even if nothing was triggered.
         return [Summary(coverage.about(named), coverage.mcdc)]
     return [Summary(covered, coverage.mcdc) for covered in coverage.all()]
 

@@ -1,6 +1,6 @@
-"""Which clauses of which rules the tests made active, and which conditions they showed to decide.
+"""Clause coverage: which clauses the tests made active, and which conditions they showed to decide.
 
-Every dispatch of every instance is noted while this is on; what calls layered methods without a trigger is not seen.
+It records every dispatch of every instance while it is on. Calls of layered methods without a trigger do not count.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ Vector = tuple[bool, ...]
 
 @contextmanager
 def not_counted() -> Iterator[None]:
-    """Dispatches within do not count: they go through all contexts, whatever the tests do."""
+    """Dispatches in this block do not count, because they go through all contexts."""
     global _paused
     _paused += 1
     try:
@@ -36,7 +36,7 @@ def not_counted() -> Iterator[None]:
 
 
 class RuleCoverage:
-    """What was seen of one ruleset."""
+    """The coverage of one ruleset."""
 
     def __init__(self, ruleset: Ruleset) -> None:
         self.ruleset = ruleset
@@ -44,14 +44,14 @@ class RuleCoverage:
         self.vectors: dict[str, dict[Vector, int | None]] = {}
 
     def add(self, other: RuleCoverage) -> None:
-        """Counts also what was seen elsewhere of the same ruleset."""
+        """Add the coverage of the same ruleset from elsewhere."""
         self.active |= other.active
         for label, seen in other.vectors.items():
             self.vectors.setdefault(label, {}).update(seen)
 
     def undecided(self, rule: Rule) -> list[Atom | Comparison]:
-        """The conditions of `rule` that no two dispatches show to decide alone: which differ in it only, and in the
-        active clause (MC/DC, with the rule as the decision)."""
+        """The conditions of `rule` for which no two dispatches show that they decide alone: the two differ only in
+        the condition, and in the active clause (MC/DC, with the rule as the decision)."""
         seen = self.vectors.get(rule.label, {})
         return [
             condition
@@ -63,12 +63,12 @@ class RuleCoverage:
 
 
 class ClauseCoverage:
-    """Notes every dispatch from `start` to `stop`. `mcdc` also notes what each condition was worth."""
+    """Records every dispatch from `start` to `stop`. `mcdc` also records the truth of each condition."""
 
     def __init__(self, mcdc: bool = False) -> None:
         self.mcdc = mcdc
         self._by_identity: dict[int, RuleCoverage] = {}
-        # An identity is worth something only as long as its object lives.
+        # An identity is valid only while its object exists.
         self._alive: list[Ruleset] = []
         self._undo: list[Callable[[], None]] = []
 
@@ -93,7 +93,7 @@ class ClauseCoverage:
         self._undo.clear()
 
     def about(self, ruleset: Ruleset) -> RuleCoverage:
-        """What is known of `ruleset`, or of one that is read from the same file and says the same."""
+        """The coverage of `ruleset`, or of an equal one from the same file."""
         known = self._by_identity.get(id(ruleset))
         if known is None:
             same = (c for c in self._by_identity.values() if _same(c.ruleset, ruleset))
@@ -103,15 +103,15 @@ class ClauseCoverage:
         return known
 
     def all(self) -> list[RuleCoverage]:
-        """Every ruleset that was seen, once, by its path."""
+        """Every ruleset that was used, once, by its path."""
         return sorted({id(c): c for c in self._by_identity.values()}.values(), key=lambda c: c.ruleset.source.path)
 
     def packed(self) -> bytes:
-        """All that was noted, for `add` in another process of the same run."""
+        """Everything that was recorded, for `add` in another process of the same run."""
         return pickle.dumps(self.all())
 
     def add(self, packed: bytes) -> None:
-        """Counts also what another process of this run noted."""
+        """Add the coverage of another process of this run."""
         for covered in pickle.loads(packed):
             self.about(covered.ruleset).add(covered)
 
@@ -131,6 +131,6 @@ class ClauseCoverage:
 
 
 def _same(one: Ruleset, other: Ruleset) -> bool:
-    # A robot may name its rules from the working folder, and the command line from the root.
+    # A robot's path is relative to the working folder, and that of the command line to the root.
     paths = {os.path.realpath(ruleset.source.path) for ruleset in (one, other)}
     return len(paths) == 1 and one == other

@@ -1,4 +1,4 @@
-"""Ruleset files and files of cases, as pytest collects them."""
+"""The pytest items of ruleset files and files of cases."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from sleec_verify.results.finding import SEVERITIES, Finding, Unknown
 
 
 class CaseFailure(AssertionError):
-    """What an item found, already in words."""
+    """The failure of an item, in words."""
 
 
 class _Item(pytest.Item):
@@ -45,7 +45,7 @@ class _Item(pytest.Item):
 
 
 class RulesetFile(pytest.File):
-    """A ``*.sleec`` file: an item a check and an item a rule."""
+    """A ``*.sleec`` file: an item for each check and for each rule."""
 
     def collect(self) -> Iterator[pytest.Item]:
         try:
@@ -60,7 +60,7 @@ class RulesetFile(pytest.File):
 
 
 class CheckItem(_Item):
-    """One check: fails with its findings that are as grave as ``sleec_fail_level``, and where it has no verdict."""
+    """One check. Fails if it has findings of at least the severity ``sleec_fail_level``, or if it is inconclusive."""
 
     def __init__(self, *, ruleset: Ruleset, check: str, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -85,8 +85,8 @@ class CheckItem(_Item):
 
 
 class RuleItem(_Item):
-    """One rule: in every context that it can tell apart, the target does what the solver says is due. Without a target,
-    an instance does whose obligations only say that they were executed: the evaluator against the solver."""
+    """One rule: in every context that it distinguishes, the target executes what the solver says is due. Without a
+    target, an instance whose obligations only record their execution is used: the evaluator against the solver."""
 
     def __init__(self, *, ruleset: Ruleset, rule: Rule, target: Factory | None, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -115,7 +115,7 @@ class RuleItem(_Item):
 
 
 class CasesFile(pytest.File):
-    """A ``*.cases.toml`` file: an item a case."""
+    """A ``*.cases.toml`` file: an item for each case."""
 
     def collect(self) -> Iterator[pytest.Item]:
         try:
@@ -128,7 +128,7 @@ class CasesFile(pytest.File):
 
 
 class CaseItem(_Item):
-    """One case: what the solver says is due is what the case expects, and the target, if there is one, does it."""
+    """One case: the solver's answer matches the case, and the target, if any, executes it."""
 
     def __init__(self, *, ruleset: Ruleset, case: Case, target: Factory | None, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -171,19 +171,19 @@ class CaseItem(_Item):
 
 
 def stand_in(ruleset: Ruleset, domain: str | None = None) -> Sleec:
-    """An instance for rules that have no robot yet: each obligation does nothing but be seen."""
+    """An instance for rules without a robot: each obligation only records its execution."""
     sleec = Sleec(ruleset, domain)
     sleec.implement(dict.fromkeys(ruleset.obligations, _nothing))
     return sleec
 
 
 def _nothing(*arguments: object, **named: object) -> None:
-    """Takes whatever a trigger brings."""
+    """Accepts all arguments of a trigger."""
 
 
 def target_for(ruleset: Ruleset, path: Path, config: pytest.Config) -> Factory | None:
-    """The target, if it is of this ruleset: the one of ``--sleec-ruleset``, or else the file that it was loaded from.
-    Raises TargetError."""
+    """The target, if it belongs to this ruleset: that of ``--sleec-ruleset``, or otherwise the file from which it
+    was loaded. Raises `TargetError`."""
     target = settings.target(config)
     if target is None:
         return None

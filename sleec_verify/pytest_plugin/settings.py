@@ -1,4 +1,4 @@
-"""The plugin's options and ini values, read."""
+"""The plugin's options and ini values."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _TARGET: pytest.StashKey[Factory] = pytest.StashKey()
 
 
 class BadSetting(SleecError):
-    """An option or ini value that cannot be."""
+    """An invalid option or ini value."""
 
 
 def text(config: pytest.Config, name: str) -> str | None:
@@ -28,7 +28,8 @@ def text(config: pytest.Config, name: str) -> str | None:
 
 
 def ruleset_path(config: pytest.Config) -> Path | None:
-    """The file of ``--sleec-ruleset`` as it was given from, or of the ini value from the root folder."""
+    """The file of ``--sleec-ruleset`` relative to the working folder, or of the ini value relative to the root
+    folder."""
     option = config.getoption("sleec_ruleset", default=None)
     if option is not None:
         return config.invocation_params.dir / str(option)
@@ -59,7 +60,7 @@ def target(config: pytest.Config) -> Factory | None:
 
 
 def reread(found: Ruleset, config: pytest.Config) -> Ruleset:
-    """`found` in the reading of the ini value ``sleec_reading``, if that is set."""
+    """`found` in the reading of the ini value ``sleec_reading``, if set."""
     reading = str(config.getini("sleec_reading"))
     if not reading:
         return found

@@ -1,4 +1,4 @@
-"""Clause coverage in words, and the one number that a threshold is about."""
+"""Clause coverage in words, and the percentage for the threshold."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from sleec_verify.results.finding import ClauseRef
 
 
 class Summary:
-    """Of one ruleset: how many of its reachable clauses were active, and with `mcdc` how many conditions decided."""
+    """For one ruleset: how many of its reachable clauses were active, and with `mcdc` how many conditions decided."""
 
     def __init__(self, covered: RuleCoverage, mcdc: bool) -> None:
         ruleset = covered.ruleset
@@ -59,7 +59,7 @@ class Summary:
 
 
 def percent(part: int, whole: int) -> str:
-    """With one decimal, rounded down, so that 100 % is all."""
+    """A percentage with one decimal, rounded down, so that only everything is 100 %."""
     return f"{share(part, whole):.1f} %"
 
 

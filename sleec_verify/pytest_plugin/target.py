@@ -1,4 +1,4 @@
-"""The robot that ``--sleec-target`` names: what makes it, imported from a module or a file."""
+"""The robot of ``--sleec-target``: its factory, imported from a module or a file."""
 
 from __future__ import annotations
 
@@ -13,13 +13,14 @@ from sleec_verify.conformance.subject import Bench, Factory, NotASubject, Subjec
 
 
 class TargetError(SleecError):
-    """A target that cannot be imported, or does not make what can be tested."""
+    """A target that cannot be imported, or does not create a testable object."""
 
 
 def load_target(target: str, folder: Path) -> Factory:
-    """What ``module:attribute`` or ``file.py:attribute`` names, called once to see that it makes what can be tested.
+    """The factory ``module:attribute`` or ``file.py:attribute``, called once to check that it creates a testable
+    object.
 
-    Modules and files are looked for from `folder` too. Raises TargetError.
+    Modules and files are also searched in `folder`. Raises `TargetError`.
     """
     where, colon, attribute = target.rpartition(":")
     if not colon or not where or not attribute:
@@ -60,7 +61,7 @@ def _module(where: str, folder: Path) -> ModuleType:
     if not path.is_file() or spec is None or spec.loader is None:
         raise TargetError(f"there is no file {path}", "use a path relative to the folder in which pytest runs")
     module = importlib.util.module_from_spec(spec)
-    # Classes of the module, dataclasses for one, look it up there.
+    # Classes of the module, such as dataclasses, look it up there.
     sys.modules.setdefault(path.stem, module)
     spec.loader.exec_module(module)
     return module

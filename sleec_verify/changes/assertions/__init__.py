@@ -1,5 +1,5 @@
-"""Properties asked of rules: ``never RefuseRequest when MedicalEmergency``, ``always CallNurse when FallDetected``.
+"""Assertions about rules: ``never RefuseRequest when MedicalEmergency``, ``always CallNurse when FallDetected``.
 
-An assertion is about what clauses that decide call for, at once or within a time, in every situation that the
-assumptions allow. Whether the rules also contradict one another there is for the check `conflict`.
+An assertion is about the obligations of the clauses that decide, with or without a window, in every situation that the
+assumptions allow. Whether the rules also contradict each other there is a question for the check `conflict`.
 """

@@ -1,4 +1,4 @@
-"""Assertions, and what is found of them."""
+"""Assertions and their results, as values."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Kind = Literal["never", "always"]
 
 @dataclass(frozen=True)
 class Assertion:
-    """Where `when` holds, never all of `literals` are called for, or always each of them is."""
+    """In situations with `when`, `literals` are never all obliged, or each of them always is."""
 
     kind: Kind
     literals: tuple[Obligation, ...]
@@ -30,13 +30,13 @@ class Assertion:
 
     @property
     def text(self) -> str:
-        """As it was written."""
+        """The original text."""
         return " ".join(self.source.text[self.span.start : self.span.end].split())
 
 
 class Violation(NamedTuple):
-    """A smallest situation in which an assertion does not hold, with the clauses that decide there. `domain` is the one
-    in which that is so, if the ruleset has any."""
+    """A smallest situation in which an assertion does not hold, with the clauses that decide there. `domain` is its
+    domain, if the ruleset has domains."""
 
     witness: Witness
     deciding: tuple[DecidingClause, ...]
@@ -44,7 +44,8 @@ class Violation(NamedTuple):
 
 
 class AssertionResult(NamedTuple):
-    """The answer for one ruleset: None where the assertion holds, else the counterexample, or why it is not decided."""
+    """The answer for one ruleset: None if the assertion holds, otherwise the counterexample, or why the answer is
+    unknown."""
 
     assertion: Assertion
     ruleset: Ruleset

@@ -30,10 +30,11 @@ from sleec_verify.query.witness import smallest_situation
 def verify(
     ruleset: Ruleset, assertion: Assertion, domain: str | None = None, known: Vocabulary | None = None
 ) -> AssertionResult:
-    """Whether the assertion holds of the rules in every situation, in every domain, or in `domain`.
+    """Whether the assertion holds for the rules in every situation, in every domain, or in `domain`.
 
-    Unsatisfiable exactly when it holds: the situation of the assertion, and every literal of a `never` obliged, or some
-    literal of an `always` obliged by no rule. A model is a counterexample; the smallest is replayed by the evaluator.
+    Unsatisfiable exactly if it holds: the situation of the assertion, and every literal of a `never` obliged, or some
+    literal of an `always` not obliged by any rule. A model is a counterexample, and the evaluator replays the smallest
+    one.
     """
     apart = next(_read_otherwise(ruleset, assertion, known), None) if known is not None else None
     if apart is not None:
@@ -51,7 +52,7 @@ def verify(
 
 
 def _read_otherwise(ruleset: Ruleset, assertion: Assertion, known: Vocabulary) -> Iterator[str]:
-    """The names of the assertion that these rules take for something else than `known` does, by which it was read."""
+    """The names of the assertion that have another meaning in these rules than in `known`, by which it was parsed."""
     kinds = (
         ("a trigger", ruleset.triggers, known.triggers),
         ("a condition", ruleset.conditions, known.conditions),
@@ -90,7 +91,7 @@ def _broken(ruleset: Ruleset, assertion: Assertion, measures: Mapping[str, Measu
 
 
 def _called_for(ruleset: Ruleset, literal: Obligation) -> Formula:
-    """Where some clause that decides obliges the literal, whenever it is due."""
+    """The situations in which some clause that decides obliges the literal, at any time."""
     return disjunction(
         [
             guard

@@ -12,8 +12,8 @@ from sleec_runtime.model import (
 
 
 class Vocabulary:
-    """The names that assertions may use: those of some rulesets. Where these take a name for different things, the
-    first of them says what it is."""
+    """The names that assertions may use: those of some rulesets. If these use a name differently, the first one
+    decides."""
 
     def __init__(self, rulesets: Iterable[Ruleset]) -> None:
         self.triggers: set[str] = set()

@@ -1,10 +1,8 @@
-"""What changes between two rulesets: a comparison of what they mean, not of how they are written.
+"""Comparison of two rulesets by meaning, not by text (docs/comparison.md).
 
-A context is compared where the assumptions of both sides allow it and neither side conflicts in it; there the sets of
-literals that are due (Definition 1) are compared. Where only one side conflicts, or only one side allows the context,
-that is told by itself. Rules that are equal on both sides cancel; only what is left is given to a solver.
-
-Entry point: `compare`. The rest are the values that it returns.
+A context counts if the assumptions of both sides allow it and neither side conflicts in it. There, the sets of due
+literals (Definition 1) are compared. If only one side conflicts, or only one side allows the context, this is a
+separate entry. Rules that are equal on both sides cancel out. Only the others need a solver.
 """
 
 from __future__ import annotations

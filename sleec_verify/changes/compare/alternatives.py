@@ -1,4 +1,4 @@
-"""Responses with what is due in their place, told apart by the hedges in that: in each situation one of them counts."""
+"""Responses with their alternatives, separated by the hedges in these: in each situation, one of them counts."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ def _ways(obligation: Obligation, reading: Reading) -> Iterator[tuple[Formula, O
     for (where, otherwise), (there, instead) in product(
         list(_members(timing.otherwise, reading)), list(_members(timing.instead, reading))
     ):
-        # Where nothing is due in its place, the response may as well be left.
+        # If the alternative is empty, the response is optional.
         left = any(one is not None and not one.obligations for one in (otherwise, instead))
         plain = replace(obligation, timing=replace(timing, otherwise=otherwise, instead=instead))
         yield conjunction([where, there]), None if left else plain
 
 
 def _members(clause: Clause | None, reading: Reading) -> Iterator[tuple[Formula, Clause | None]]:
-    """The members of a chain of its own, each where it decides and with no hedges left in it."""
+    """The members of a separate chain without hedges, each with the situations in which it decides."""
     if clause is None:
         yield Truth(True), None
         return

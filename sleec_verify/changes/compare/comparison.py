@@ -1,8 +1,8 @@
 """Two rulesets in one domain, as formulas over the situations that both allow.
 
-What is asked about a rule concerns the rules of the triggers that its own trigger brings along (`cone`): any other
-trigger need not occur, and where it does not, its rules oblige nothing and conflict with nothing. So whatever differs
-anywhere differs in a situation in which nothing else occurs, and it is looked for only there.
+A question about a rule concerns the rules of the triggers in the cone of its trigger. No other trigger needs to occur,
+and without it, its rules oblige nothing and conflict with nothing. So every difference appears in a situation in which
+nothing else occurs, and only these are searched.
 """
 
 from __future__ import annotations
@@ -55,19 +55,19 @@ class AlignedRule(NamedTuple):
 
 
 class TriggerCone(NamedTuple):
-    """The rows that may have to be at work where some triggers occur, and the assumptions that count there: what these
-    say where no trigger of another row occurs."""
+    """The rows that may have to be active if some triggers occur, and the relevant assumptions, restricted to
+    situations without the triggers of other rows."""
 
     rows: list[int]
     assumed: RulesetIndex
 
     def in_force(self, formula: Formula) -> list[Formula]:
-        """The assumptions that share names with a formula, directly or through one another."""
+        """The assumptions that share names with a formula, directly or indirectly."""
         return [assumption.formula for assumption in self.assumed.assumptions_about(names_in(formula))]
 
 
 class Comparison:
-    """The rules of both sides, aligned, and what is due, contradictory and possible, as formulas."""
+    """The aligned rules of both sides, with the formulas for due, contradictory and possible."""
 
     def __init__(self, old: Ruleset, new: Ruleset, untimed: Untimed) -> None:
         self.untimed = untimed
@@ -112,7 +112,7 @@ class Comparison:
         return self.vocabulary.measures
 
     def situations_of(self, which: SideName) -> RulesetIndex:
-        """The assumptions of one side alone."""
+        """The assumptions of one side."""
         return self._situations[which]
 
     @cached_property
@@ -124,7 +124,7 @@ class Comparison:
         return {which: AssumptionSlicing([one.formula for one in self.sides[which].given], ()) for which in SIDES}
 
     def situations_about(self, which: SideName, formula: Formula) -> RulesetIndex:
-        """The assumptions of one side alone that may matter to the formula, where no trigger occurs that need not."""
+        """The assumptions of one side that can affect the formula, if no unnecessary trigger occurs."""
         slicing, named = self._slicing_of[which], set(names_in(formula))
         return self._index(
             (), slicing.kept_by(named, slicing.occurring_with(name for kind, name in named if kind == "trigger"))
@@ -135,16 +135,16 @@ class Comparison:
         return {which: RulesetIndex(Ruleset(tuple(self.sides[which].constraints))) for which in SIDES}
 
     def constraints_about(self, which: SideName, names: Iterable[str]) -> list[Exclusive | Never]:
-        """The constraints that may conflict with these obligations, and those that rule out a situation by
-        themselves. Raises `Undecided` where the constraints are too entangled."""
+        """The constraints that may conflict with these obligations, and those that exclude a situation by
+        themselves. Raises `Undecided` if the constraints are too entangled."""
         index = self._constraints[which]
         return list(dict.fromkeys((*index.constraints_about(names), *constraints_on_situations(index))))
 
     # The cone ----------------------------------------------------------------------------------------------
 
     def cone(self, triggers: Iterable[str]) -> TriggerCone:
-        """What may have to be at work where these triggers occur, by assumptions or because a constraint on what is due
-        then speaks of another trigger."""
+        """The cone of these triggers: through assumptions, or through constraints on obligations that name another
+        trigger."""
         given = frozenset(triggers)
         found = self._cone_of.get(given)
         if found is None:
@@ -153,11 +153,11 @@ class Comparison:
 
     def _cone(self, given: frozenset[str]) -> TriggerCone:
         wanted, names = self._slicing.reached(given, self._named_at)
-        # A situation that is shown keeps the other assumptions as well. It can, without any other trigger.
+        # The shown situation also satisfies the other assumptions, which need no other trigger.
         return TriggerCone(self.rows_of(wanted), self._index((), self._slicing.kept_by(names, wanted)))
 
     def _named_at(self, triggers: set[str]) -> Iterator[Name]:
-        """What the rules of these triggers speak of, and the constraints on them."""
+        """The names in the rules of these triggers, and in the constraints on them."""
         rows = self.rows_of(triggers)
         for row in rows:
             yield from names_of_rule(self._plain(self.rows[row]))
@@ -175,7 +175,7 @@ class Comparison:
 
     @cached_property
     def _triggers_forbidden(self) -> set[str]:
-        """The triggers that constraints speak of: without one of these, what was no conflict might be one."""
+        """The triggers in constraints. Without one of these, a conflict may appear."""
         return {
             name
             for which in SIDES
@@ -186,7 +186,7 @@ class Comparison:
         }
 
     def _constraints_on(self, rows: Iterable[int]) -> list[Never]:
-        """The constraints that speak of situations too, and may forbid something that these rows oblige."""
+        """The constraints that also name situations, and may forbid obligations of these rows."""
         return [
             constraint
             for which in SIDES
@@ -197,7 +197,7 @@ class Comparison:
     # Formulas ----------------------------------------------------------------------------------------------
 
     def guards(self, row: int, which: SideName) -> list[Implication]:
-        """Equation 1 of a rule on one side; nothing where it is not there."""
+        """Equation 1 of a rule on one side; nothing if the side does not have it."""
         key = row, which
         found = self._guards.get(key)
         if found is None:
@@ -207,7 +207,7 @@ class Comparison:
         return found
 
     def said(self, row: int, which: SideName) -> list[tuple[Formula, Obligation]]:
-        """What a rule obliges on one side, and where, in the order of the text."""
+        """The obligations of a rule on one side with their situations, in the order of the text."""
         key = row, which
         found = self._said.get(key)
         if found is None:
@@ -221,15 +221,15 @@ class Comparison:
         return found
 
     def literals(self, row: int, which: SideName) -> list[Obligation]:
-        """All that a rule obliges on one side, each once, in the order of the text."""
+        """All obligations of a rule on one side, each once, in the order of the text."""
         return list(dict.fromkeys(literal for _, literal in self.said(row, which)))
 
     def obliges(self, row: int, which: SideName, wanted: Callable[[Obligation], object]) -> Formula:
-        """Where the rule obliges a literal that is `wanted`."""
+        """The situations in which the rule obliges a literal that is `wanted`."""
         return disjunction(list(dict.fromkeys(where for where, literal in self.said(row, which) if wanted(literal))))
 
     def due(self, rows: Iterable[int], which: SideName, literal: Obligation) -> Formula:
-        """Where one of these rules obliges the literal, or one that asks for at least as much."""
+        """The situations in which one of these rules obliges the literal, or one that requires at least as much."""
 
         def enough(one: Obligation) -> bool:
             return implies(one, literal, self.untimed) is True
@@ -238,8 +238,8 @@ class Comparison:
         return disjunction([formula for formula in found if formula != Truth(False)])
 
     def conflict(self, rows: Sequence[int], which: SideName) -> Formula:
-        """Where what these rules oblige at once cannot all be done. Raises `Undecided` where constraints are too
-        entangled."""
+        """The situations in which the immediate obligations of these rules conflict. Raises `Undecided` if
+        constraints are too entangled."""
         key = which, tuple(rows)
         found = self._conflicts.get(key)
         if found is None:

@@ -1,5 +1,5 @@
-"""Situations in which what is due cannot all be done on one side only. Definition 1 to the letter would have everything
-due there, which is no list of things to do: so they are told as conflicts, and never as obligations gained."""
+"""Situations that conflict on one side only. By Definition 1, a conflict entails everything. So these situations
+are reported as conflicts, and never as added obligations."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ from sleec_verify.query.inconsistent_sets import InconsistentSet
 from sleec_verify.query.witness import smallest_situation
 
 MOST, MOST_PER_RULE = 2_000, 10
-"""How many causes are tried on each side: so many, and so many more for each rule. Contradicting rules multiply."""
+"""The maximal number of causes on each side: this number, plus more for each rule. Contradicting rules multiply."""
 
 
 def conflict_changes(comparison: Comparison) -> Iterator[Union[ConflictChange, Undecidable]]:
-    """For each minimal set of literals that clash and each set of rules that oblige them, where that is so on one side
-    and nothing conflicts on the other.
+    """For each minimal inconsistent set of literals and each set of rules that oblige them, the situations in which
+    they do so on one side and nothing conflicts on the other.
 
-    Complete: a situation that conflicts on one side only has a clash there of which either a literal is obliged by a
-    rule that is not the same on both sides, or a constraint of it is not.
+    Complete: if a situation conflicts on one side only, then either a changed rule obliges a literal of an inconsistent
+    set, or a constraint of it has changed.
     """
     for way, which in (("removed", SIDES[0]), ("added", SIDES[1])):
         try:
@@ -61,8 +61,8 @@ def _on(comparison: Comparison, which: SideName, way: Way) -> Iterator[Union[Con
 
 
 def _causes(comparison: Comparison, which: SideName) -> Iterator[tuple[InconsistentSet, frozenset[int]]]:
-    """The clashes that a changed rule or a changed constraint may bring, each with the rules that oblige its literals;
-    smaller sets of rules first."""
+    """The inconsistent sets that a changed rule or constraint may cause, each with the rules that oblige its
+    literals, smaller sets of rules first."""
     changed = {places[which] for _, places in comparison.changed if which in places}
     mine, theirs = (_constraints(comparison, side) for side in (which, other(which)))
     new_constraints = [constraint for constraint in mine if constraint not in theirs]
@@ -95,8 +95,8 @@ def _names(constraint: Exclusive | Never) -> Iterator[str]:
 
 
 def _obliging(comparison: Comparison, which: SideName, names: set[str]) -> dict[Obligation, list[int]]:
-    """The rows that oblige each literal of these names at once. Where no constraint ties names, a literal that nothing
-    forbids matters to no clash."""
+    """The rows that oblige each literal of these names at once. Without a constraint, a literal that nothing
+    forbids is irrelevant."""
     found: dict[Obligation, list[int]] = {}
     for row, (old, new) in enumerate(comparison.rows):
         rule = old if which == "old" else new
@@ -112,7 +112,7 @@ def _obliging(comparison: Comparison, which: SideName, names: set[str]) -> dict[
 
 
 def _region(comparison: Comparison, which: SideName, clash: InconsistentSet, rows: Iterable[int]) -> Formula:
-    """Where these rules oblige every literal of the clash, and the situation allows it to come true."""
+    """The situations in which these rules oblige every literal of the inconsistent set, and its labels hold."""
     parts = [
         disjunction(
             [f for f in (comparison.obliges(row, which, literal.__eq__) for row in sorted(rows)) if f != Truth(False)]

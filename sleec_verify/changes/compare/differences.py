@@ -32,12 +32,12 @@ _Any = Union[Change, ConflictChange, SituationChange, Undecidable]
 
 
 def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Untimed = "at") -> Difference:
-    """What differs between what `old` and `new` mean, in each domain of either, or in `domain` alone.
+    """The differences in meaning between `old` and `new`, in each domain of either, or only in `domain`.
 
-    Each ruleset is read in its own reading. `untimed` is what a response without a window means where rules speak of
-    time. Nothing is missed and nothing invented, but for what `Difference.undecided` names. O(size of the rules) for
-    those that are equal; for each of the others, questions about the rules of its trigger (NP-hard, as all
-    satisfiability is, and small), and a count that is given up past the bounds of `changes.diagram`.
+    Each ruleset is read in its own reading. `untimed` is the meaning of a response without a window in rules with time.
+    The result is complete and exact, except for `Difference.undecided`. O(size of the rules) for equal rules. Each
+    other rule needs questions about the rules of its trigger (satisfiability, NP-hard and small), and a count that
+    stops at the limits of `changes.diagram`.
     """
     with for_file(len(old.source.text) + len(new.source.text)):
         return _difference(old, new, domain, untimed)
@@ -99,7 +99,7 @@ def _compared(comparison: Comparison, domain: str | None) -> list[_Any]:
 
 
 def _conditions_that_are_measures(comparison: Comparison) -> Iterator[Undecidable]:
-    """Names that one text compares as numbers or on a scale, and the other takes as true or false."""
+    """Names that are a number or a scale in one text, and true or false in the other."""
     for which in SIDES:
         measures = comparison.sides[other(which)].stated.measures
         for name in sorted(condition_names(_formulas(comparison, which)) & measures.keys()):
@@ -107,7 +107,7 @@ def _conditions_that_are_measures(comparison: Comparison) -> Iterator[Undecidabl
 
 
 def _formulas(comparison: Comparison, which: SideName) -> Iterator[Formula]:
-    """The formulas of one side, but for those in rules that both sides have."""
+    """The formulas of one side, except those in rules that both sides have."""
     for pair, _ in comparison.changed:
         rule = pair.old if which == "old" else pair.new
         if rule is not None:
@@ -117,10 +117,10 @@ def _formulas(comparison: Comparison, which: SideName) -> Iterator[Formula]:
 
 
 def _merged(found: Sequence[_Told]) -> tuple[_Told, ...]:
-    """Equal findings of several domains as one."""
+    """Equal findings of several domains, merged."""
     merged: dict[str, list[_Told]] = {}
     for number, one in enumerate(found):
-        # Only what several domains say can be the same twice.
+        # Only several domains can have the same entry.
         key = repr(one._replace(domains=())) if one.domains else str(number)
         merged.setdefault(key, []).append(one)
     return tuple(
@@ -129,7 +129,7 @@ def _merged(found: Sequence[_Told]) -> tuple[_Told, ...]:
 
 
 def _rewritten(comparison: Comparison, difference: Difference) -> tuple[tuple[str, ...], ...]:
-    """The rules that are on both sides, written otherwise, and make no difference."""
+    """The rules of both sides with another text and the same meaning."""
     if difference.undecided:
         return ()
     at_work = {change.new_rule for change in difference.changes}
@@ -142,11 +142,11 @@ def _rewritten(comparison: Comparison, difference: Difference) -> tuple[tuple[st
     )
 
 
-# What is not compared -------------------------------------------------------------------------------------
+# Unsupported constructs -----------------------------------------------------------------------------------
 
 
 def _not_comparable(old: Ruleset, new: Ruleset) -> Iterator[Undecidable]:
-    """Relations that speak of several instants, where the two sides have others."""
+    """Relations about several instants that differ between the sides."""
     if not (old.is_timed or new.is_timed):
         return
     from sleec_runtime.model import relation_name

@@ -1,4 +1,4 @@
-"""What rules oblige on one side and not on the other, in situations that both allow and in which neither conflicts."""
+"""Obligations on one side only, in situations that both sides allow and in which neither conflicts."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from sleec_verify.results.finding import Witness
 
 
 class _Candidate(NamedTuple):
-    """A literal that a rule obliges on one side, and where the other side does not call for it."""
+    """A literal that a rule obliges on one side, with the situations in which the other side does not oblige it."""
 
     which: SideName
     literal: Obligation
@@ -44,10 +44,10 @@ Found = Union[Change, Undecidable]
 
 
 def changes(comparison: Comparison) -> Iterator[Found]:
-    """For each rule that is not the same on both sides, the changes that it makes.
+    """For each rule that differs between the sides, its changes.
 
-    Complete: where a situation has a literal due on one side only, some clause of this side obliges it there, whose
-    rule is not the same on both sides. Exact: each change is shown by a situation, replayed.
+    Complete: if a literal is due on one side only, some clause of this side obliges it there, and its rule differs.
+    Exact: each change has a replayed situation.
     """
     for pair, places in comparison.changed:
         label = next(rule.label for rule in (pair.new, pair.old) if rule is not None)
@@ -86,7 +86,7 @@ def _of_pair(comparison: Comparison, pair: RulePair, places: dict[SideName, int]
     for group in groups:
         witness = smallest_situation(cone.assumed, group.situation)
         if witness is None:
-            # Only without a diagram: it has no node for what no situation makes true.
+            # Only without a diagram, which finds unsatisfiable formulas itself.
             assert group.extent.affected is None, "a solver and a diagram disagree"
             continue
         yield _change(comparison, pair, group, witness)
@@ -100,7 +100,7 @@ def _grouped(
     triggers: set[str],
     cone: TriggerCone,
 ) -> list[_Group]:
-    """The candidates that some situation shows, together where the same situations do."""
+    """The candidates that some situation shows, grouped by equal situations."""
     both = zip(SIDES, (pair.old, pair.new))
     own = conditions_of(comparison.sides[which].plain(rule) for which, rule in both if rule is not None)
     regions = [one.region for one in found]
@@ -132,7 +132,7 @@ def _change(comparison: Comparison, pair: RulePair, group: _Group, witness: Witn
 
 
 def _incomparable(comparison: Comparison, rows: list[int], which: SideName, literal: Obligation) -> str | None:
-    """Why the other side's literals cannot be compared with it, if that is so."""
+    """Why the other side's literals cannot be compared with it, if they cannot."""
     if literal.timing is None and not comparison.sides[other(which)].stated.is_timed:
         return None
     against = [o for row in rows for o in comparison.literals(row, other(which))]

@@ -1,4 +1,4 @@
-"""Every situation that a comparison shows is replayed: the evaluator must find in it what is said of both sides."""
+"""Replay of comparisons: the evaluator must confirm each shown situation on both sides."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from sleec_verify.changes.compare.timing_order import implies
 
 
 def deciding(comparison: Comparison, which: SideName, context: Context) -> tuple[DecidingClause, ...]:
-    """The clauses that decide on one side, in the order of its text, as the evaluator has it."""
+    """The clauses that decide on one side according to the evaluator, in the order of its text."""
     stated = comparison.sides[which].stated
 
     def true(formula: Formula) -> bool:
@@ -35,7 +35,7 @@ def deciding(comparison: Comparison, which: SideName, context: Context) -> tuple
 
 
 def possible(comparison: Comparison, which: SideName, context: Context) -> bool:
-    """Whether the situation keeps what the side takes for granted."""
+    """Whether the situation satisfies the assumptions of the side."""
     stated = comparison.sides[which].stated
     fits = all(
         context.conditions[name] in values
@@ -48,7 +48,7 @@ def possible(comparison: Comparison, which: SideName, context: Context) -> bool:
 
 
 def conflicts(comparison: Comparison, which: SideName, context: Context, said: Iterable[DecidingClause]) -> bool:
-    """Whether what these clauses oblige at once cannot all be done."""
+    """Whether the immediate obligations of these clauses conflict."""
     literals = tuple(dict.fromkeys(o for one in said for o in one.obligations if o.timing is None))
     stated = comparison.sides[which].stated
     forbidding = [c for c in stated.constraints if isinstance(c, (Exclusive, Never))]
@@ -56,7 +56,7 @@ def conflicts(comparison: Comparison, which: SideName, context: Context, said: I
 
 
 def is_due(comparison: Comparison, said: Iterable[DecidingClause], literal: Obligation) -> bool:
-    """Whether one of these clauses obliges the literal, or one that asks for at least as much."""
+    """Whether one of these clauses obliges the literal, or one that requires at least as much."""
     return any(implies(o, literal, comparison.untimed) is True for one in said for o in one.obligations)
 
 
@@ -67,7 +67,7 @@ def shows_change(
     added: Sequence[Obligation],
     removed: Sequence[Obligation],
 ) -> bool:
-    """Whether both sides allow the situation, neither conflicts in it, and what is due differs as is said."""
+    """Whether both sides allow the situation, neither conflicts in it, and the due literals differ as claimed."""
     if not all(possible(comparison, which, context) for which in SIDES):
         return False
     if any(conflicts(comparison, which, context, said[which]) for which in SIDES):

@@ -1,4 +1,4 @@
-"""What a comparison says, as values: no solver, no text."""
+"""The results of a comparison, as values."""
 
 from __future__ import annotations
 
@@ -15,12 +15,11 @@ Way = Literal["added", "removed"]
 
 
 class Extent(NamedTuple):
-    """How many situations a change concerns.
+    """The number of situations of a change.
 
-    `affected` of `possible` situations, counted over `over`: what these names may be together, as far as the
-    comparisons of the rules involved can tell their values apart. `possible` are those that the assumptions of both
-    sides allow and in which `given` (the triggers of the rules concerned) occur. Both are None where counting was given
-    up, and `why` says at which bound.
+    `affected` of `possible` situations, counted over `over`: the values of these names that the comparisons in the
+    rules distinguish. `possible` are those that the assumptions of both sides allow and in which `given` (the triggers
+    of the rules) occur. Both are None if counting stopped, and `why` is the limit.
     """
 
     affected: int | None
@@ -31,7 +30,8 @@ class Extent(NamedTuple):
 
 
 class DecidingClause(NamedTuple):
-    """A clause that decides in the situation shown, and all that it obliges. `span` is a place in its side's text."""
+    """A clause that decides in the shown situation, with all of its obligations. `span` is a place in its side's
+    text."""
 
     rule: str
     clause: int
@@ -40,10 +40,10 @@ class DecidingClause(NamedTuple):
 
 
 class Change(NamedTuple):
-    """Obligations that a rule brings or no longer brings in the same situations: one cause, however many of these.
+    """Obligations that a rule adds or removes in the same situations.
 
-    `old_rule` and `new_rule` are the labels of the rule that changed; None where it is new, or gone. `witness` is a
-    smallest situation, in which nothing else occurs; `before` and `after` are all clauses that decide in it.
+    `old_rule` and `new_rule` are the labels of the changed rule; None if it is new or deleted. `witness` is a smallest
+    situation, in which nothing else occurs. `before` and `after` are all clauses that decide in it.
     """
 
     old_rule: str | None
@@ -63,9 +63,9 @@ class Change(NamedTuple):
 
 
 class ConflictChange(NamedTuple):
-    """Situations in which what is due cannot all be done on one side only: the new one, where `way` is added.
+    """Situations that conflict on one side only: the new side if `way` is added.
 
-    `literals` are those at odds, `rules` what obliges them on that side, `origins` the constraints that rule them out.
+    `literals` are inconsistent, `rules` oblige them on that side, and `origins` are the constraints that exclude them.
     """
 
     way: Way
@@ -80,8 +80,8 @@ class ConflictChange(NamedTuple):
 
 
 class SituationChange(NamedTuple):
-    """Situations that only one side allows, by its assumptions or by what a measure can be: the new one, where `way` is
-    added. `what` is what the other side takes for granted; `witness` is None where it is not a matter of examples."""
+    """Situations that only one side allows, by its assumptions or the values of a measure: the new side if `way` is
+    added. `what` is the assumption of the other side. `witness` is None if there is no example."""
 
     way: Way
     what: str
@@ -91,7 +91,7 @@ class SituationChange(NamedTuple):
 
 
 class NameChange(NamedTuple):
-    """A name that only one side knows as this kind: the new one, where `way` is added."""
+    """A name that only one side uses as this kind: the new side if `way` is added."""
 
     way: Way
     kind: str
@@ -99,17 +99,17 @@ class NameChange(NamedTuple):
 
 
 class Undecidable(NamedTuple):
-    """What was not decided, and why. It never counts as equal."""
+    """An inconclusive comparison, and the reason. It never counts as equivalent."""
 
     what: str
     why: str
 
 
 class Difference(NamedTuple):
-    """What differs between two rulesets.
+    """The differences between two rulesets.
 
-    `renamed` are labels of rules that say the same, `rewritten` those of rules that are written otherwise and oblige
-    the same; `same` counts the rules that are equal. `notes` says what is left out of the comparison, and why.
+    `renamed` are the labels of rules that differ only in their labels, and `rewritten` those of rules with another text
+    and the same meaning. `same` is the number of equal rules. `notes` says what is left out of the comparison, and why.
     """
 
     old: Ruleset
@@ -127,22 +127,22 @@ class Difference(NamedTuple):
 
     @property
     def more(self) -> bool:
-        """Whether the new rules oblige more somewhere, or speak of situations that the old ones rule out."""
+        """Whether the new rules oblige more in some situation, or allow situations that the old ones exclude."""
         return any(c.added for c in self.changes) or any(s.way == "added" for s in self.situations)
 
     @property
     def less(self) -> bool:
-        """Whether they oblige less somewhere, or rule situations out."""
+        """Whether they oblige less in some situation, or exclude situations."""
         return any(c.removed for c in self.changes) or any(s.way == "removed" for s in self.situations)
 
     @property
     def relation(self) -> Relation:
-        """How the new rules stand to the old ones. Where only one side conflicts, neither obliges more."""
+        """The relation of the new rules to the old ones. If only one side conflicts, neither obliges more."""
         return relation(self.more, self.less, bool(self.conflicts), bool(self.undecided))
 
 
 def relation(more: bool, less: bool, conflicts: bool, undecided: bool) -> Relation:
-    """One word for it all; "unknown" where what is undecided could change the word."""
+    """The combined relation; "unknown" if an inconclusive comparison could change it."""
     if conflicts or (more and less):
         return "incomparable"
     if undecided:

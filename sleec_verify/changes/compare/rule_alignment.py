@@ -1,6 +1,6 @@
-"""Which rules of two rulesets are the same, and which belong together though they differ.
+"""Alignment: the equal rules of two rulesets, and pairs of rules that correspond although they differ.
 
-Equal rules oblige equally, so they are never compared again: what is left is what somebody changed.
+Equal rules oblige equally, so only the other rules are compared.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Counting situations, exactly, over the names that a change involves."""
+"""Exact counts of situations over the names in a change."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sleec_verify.query.names import Name, names_in
 
 
 class SituationCounter:
-    """The diagram of one question: some formulas, under assumptions, where the `given` triggers occur."""
+    """The diagram of one question: some formulas, under assumptions, if the `given` triggers occur."""
 
     def __init__(
         self,
@@ -22,7 +22,7 @@ class SituationCounter:
         given: Iterable[str],
         measures: dict[str, Measure],
     ) -> None:
-        """Raises `TooLarge` past a bound of the diagram, as the methods do."""
+        """Raises `TooLarge` at a limit of the diagram, as the methods do."""
         self.given = tuple(sorted(given))
         occurring = [Atom("trigger", name) for name in self.given]
         self.diagram = FormulaDiagram([*occurring, *formulas, *assumed], measures)
@@ -42,7 +42,7 @@ class SituationCounter:
         return self.diagram.both(node, self.diagram.node(formula)) != FALSE
 
     def extent(self, node: int, named: Iterable[Name]) -> Extent:
-        """How many situations the node has, counted over these names and all others that it depends on."""
+        """The number of situations of the node, counted over these names and all others on which it depends."""
         wanted = set(named)
         over = self.diagram.support(node)
         over.update(at for at, variable in enumerate(self.diagram.variables) if not wanted.isdisjoint(variable.names))
@@ -64,7 +64,7 @@ def unknown_extent(given: Iterable[str], why: str) -> Extent:
 
 
 def conditions_of(rules: Iterable[Rule | None]) -> list[Formula]:
-    """The guards and hedges' conditions of some rules, without those of what is due in place of a response."""
+    """The guards and the conditions of hedges of some rules, without those of alternatives."""
     found: list[Formula] = []
     for rule in rules:
         if rule is not None:
@@ -79,5 +79,5 @@ def names_of_formulas(formulas: Iterable[Formula]) -> list[Name]:
 
 
 def all_of(formulas: Iterable[Formula]) -> Formula:
-    """The conjunction of formulas, those that are always true left out."""
+    """The conjunction of formulas, without those that are always true."""
     return conjunction([formula for formula in formulas if formula != Truth(True)])

@@ -1,4 +1,4 @@
-"""Situations that only one side allows: its assumptions, its relations and its scales leave others than the other's."""
+"""Situations that only one side allows, because assumptions, relations or scales differ."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from sleec_verify.query.witness import smallest_situation
 
 
 def situation_changes(comparison: Comparison) -> Iterator[Union[SituationChange, Undecidable]]:
-    """For each thing that one side takes for granted and the other does not say, the situations that only the other
-    side allows, if there are any: what the other side's assumptions give anyway is no change."""
+    """For each assumption of one side that the other side lacks, the situations that only the other side allows, if
+    any. Assumptions that follow from the other side's assumptions are no change."""
     for which in ("old", "new"):
         mine: SideName = "old" if which == "old" else "new"
         theirs = {given.formula for given in comparison.sides[other(mine)].given}
@@ -36,7 +36,7 @@ def situation_changes(comparison: Comparison) -> Iterator[Union[SituationChange,
 
 
 def _allowed(comparison: Comparison, by: SideName, given: Assumption, way: Way) -> SituationChange | None:
-    """The situations that `by` allows and that break `given`."""
+    """The situations that `by` allows and that violate `given`."""
     broken = Not(given.formula)
     index = comparison.situations_about(by, broken)
     witness = smallest_situation(index, broken)
@@ -58,7 +58,8 @@ def _allowed(comparison: Comparison, by: SideName, given: Assumption, way: Way) 
 
 
 def _fractions(comparison: Comparison) -> Iterator[SituationChange]:
-    """Numbers that one side takes for whole ones. The DSL has only these: between the languages it is a note."""
+    """Numbers that are whole on one side only. The DSL has only whole numbers, so this is a note between the
+    languages."""
     if comparison.sides["old"].stated.syntax != comparison.sides["new"].stated.syntax:
         return
     for name in comparison.vocabulary.whole:

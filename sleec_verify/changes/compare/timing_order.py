@@ -1,8 +1,8 @@
-"""Which of two literals asks for more, where they say when.
+"""The order of literals with windows: which of two requires more.
 
-"X within 5 minutes" asks for more than "X within 10 minutes", and a prohibition for less. So a literal is taken for
-due wherever one is due that asks for at least as much, and a longer window is laxer without being a case of its own.
-With what is due in its place, a literal is a formula over what occurs when, and asks for more if the other follows.
+"X within 5 minutes" requires more than "X within 10 minutes", and a prohibition requires less. So a literal counts as
+due if one is due that requires at least as much, and a longer window is laxer without a special case. With
+alternatives, a literal is a formula over timed occurrences, and requires more if it implies the other.
 """
 
 from __future__ import annotations
@@ -21,12 +21,11 @@ if TYPE_CHECKING:
     from sleec_verify.traces.demands import Demand, Occurs
 
 MOST_WAYS = 10_000
-"""Ways to keep one response, times ways to break another, that are looked at."""
+"""The maximal number of ways to meet one response, times ways to violate another."""
 
 
 def implies(one: Obligation, other: Obligation, untimed: Untimed = "at") -> bool | None:
-    """Whether whoever keeps `one` keeps `other`, of two literals with no hedges in what is due in their place; None
-    where that is not known."""
+    """Whether meeting `one` meets `other`, for two literals without hedges in their alternatives; None if unknown."""
     if one == other:
         return True
     if _has_alternatives(one) or _has_alternatives(other):
@@ -67,7 +66,7 @@ def _has_alternatives(obligation: Obligation) -> bool:
 
 @lru_cache(maxsize=10_000)
 def _follows(one: Obligation | None, other: Obligation, untimed: Untimed) -> bool | None:
-    """Whether every way to keep `one` (None: of doing anything) leaves no way to break `other`."""
+    """Whether every way to meet `one` (None: of doing anything) leaves no way to violate `other`."""
     try:
         kept = [[]] if one is None else _ways(_demand(one, untimed))
         broken = _ways(_demand(other, untimed, kept=False))
@@ -89,7 +88,7 @@ _DECIDES = 1
 
 
 def _ways(demand: Demand) -> list[list[Occurs]]:
-    """The ways to meet a demand, each as what has to occur and what must not."""
+    """The ways to meet a demand, each as required and forbidden occurrences."""
     from sleec_verify.traces.demands import Every, Some
 
     if isinstance(demand, int):
@@ -107,7 +106,7 @@ def _ways(demand: Demand) -> list[list[Occurs]]:
 
 
 def _possible(way: Sequence[Occurs]) -> bool:
-    """Whether each thing that has to occur has a time at which it may. Events have nothing to do with each other."""
+    """Whether each required occurrence has an allowed time. Events are independent."""
     return all(
         _has_room(what, [ban for ban in way if ban.negated and ban.event == what.event])
         for what in way
@@ -116,7 +115,7 @@ def _possible(way: Sequence[Occurs]) -> bool:
 
 
 def _has_room(what: Occurs, bans: Sequence[Occurs]) -> bool:
-    """Whether some second of a window is in none of the others."""
+    """Whether some second of a window is outside all others."""
     second = what.start or 0
     for ban in sorted(bans, key=lambda ban: ban.start or 0):
         if (ban.start or 0) <= second:
@@ -130,7 +129,7 @@ def _has_room(what: Occurs, bans: Sequence[Occurs]) -> bool:
 
 
 def _span_of_time(timing: Timing | None, untimed: Untimed) -> tuple[Rational, Rational | None] | None:
-    """From when to when, in seconds after the trigger; None where a measure says it."""
+    """The first and last second after the trigger; None if the length is a measure."""
     window: Window | None = None if timing is None else timing.window
     if window is None:
         return (0, None) if untimed == "eventually" else (0, 0)

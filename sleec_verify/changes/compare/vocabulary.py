@@ -1,4 +1,4 @@
-"""The names that only one of two rulesets uses. A name that is declared and used nowhere says nothing."""
+"""The names that only one of two rulesets uses. Names that are only declared do not count."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ KINDS = ("trigger", "condition", "measure", "obligation", "domain")
 
 
 def name_changes(old: Ruleset, new: Ruleset, aligned: Alignment) -> Iterator[NameChange]:
-    """The new names and those that vanished, by kind. Names of equal rules are looked at only where one of the others
-    is missing on a side: O(size of the rules) at most."""
+    """The added and removed names, by kind. Names of equal rules are checked only if one of the others is missing
+    on a side. O(size of the rules) at most."""
     sides = [
         {*_of_rules(rule for pair in aligned.changed if (rule := pair[at]) is not None), *_of_constraints(ruleset)}
         for at, ruleset in enumerate((old, new))

@@ -1,1 +1,1 @@
-"""Formulas as decision diagrams, to count the situations that make them true."""
+"""Decision diagrams of formulas, to count the situations that make them true."""

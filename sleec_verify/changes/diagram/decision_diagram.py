@@ -1,7 +1,7 @@
-"""Reduced ordered decision diagrams with many values (Bryant 1986).
+"""Reduced ordered multi-valued decision diagrams (Bryant 1986).
 
-Variables are numbers from 0, in their order; each has values from 0. Two nodes are equal exactly when they are the same
-number. The size may grow exponentially with the variables: past `MOST_NODES` it is given up.
+Variables are numbered from 0, in their order, and so are their values. Two nodes are equivalent exactly if they have
+the same number. The size may grow exponentially with the variables, up to `MOST_NODES`.
 """
 
 from __future__ import annotations
@@ -10,17 +10,17 @@ from collections.abc import Sequence
 from math import prod
 
 MOST_NODES = 200_000
-"""Nodes of one diagram."""
+"""The maximal number of nodes of one diagram."""
 
 FALSE, TRUE = 0, 1
 
 
 class TooLarge(Exception):
-    """A diagram past its bound; the message says which."""
+    """A diagram at its limit, which the message names."""
 
 
 class DecisionDiagram:
-    """Nodes over variables, of which `sizes` are the numbers of values."""
+    """Nodes over variables with `sizes` values."""
 
     def __init__(self, sizes: Sequence[int]) -> None:
         self._sizes = sizes
@@ -89,7 +89,7 @@ class DecisionDiagram:
         return found
 
     def some(self, node: int, kept: set[int]) -> int:
-        """The node of "the variables that are not `kept` can be chosen so that `node` is true"."""
+        """The node of "some values of the variables outside `kept` make `node` true"."""
         known = {FALSE: FALSE, TRUE: TRUE}
 
         def walk(at: int) -> int:
@@ -108,7 +108,8 @@ class DecisionDiagram:
         return walk(node)
 
     def count(self, node: int, over: set[int]) -> int:
-        """How many choices for the variables `over`, which hold all that `node` depends on, make it true."""
+        """The number of values of the variables `over` that make the node true. `over` contains all variables on
+        which it depends."""
         order = sorted(over)
         place = {variable: at for at, variable in enumerate(order)}
         sizes = [self._sizes[variable] for variable in order]

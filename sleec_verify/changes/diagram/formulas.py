@@ -24,8 +24,8 @@ from sleec_verify.encoding.regions import Cut, cut_at
 
 
 class FormulaDiagram(DecisionDiagram):
-    """The diagrams of any formulas over the names of `formulas`. Two formulas are equal in every situation exactly when
-    they are the same node."""
+    """The diagrams of formulas over the names of `formulas`. Two formulas are equivalent exactly if they have the
+    same node."""
 
     def __init__(self, formulas: Sequence[Formula], measures: Mapping[str, Measure]) -> None:
         """Raises `TooLarge` as `Variables` does."""
@@ -36,7 +36,7 @@ class FormulaDiagram(DecisionDiagram):
         super().__init__([variable.ways for variable in self.variables])
 
     def node(self, formula: Formula) -> int:
-        """The node of a formula, whose names and comparisons are among those that the diagram was made for."""
+        """The node of a formula whose names and comparisons occur in the formulas of the diagram."""
         built = self._built.get(id(formula))
         if built is None:
             # The formula is kept, so that its id stays its own.
@@ -107,5 +107,5 @@ class FormulaDiagram(DecisionDiagram):
 
 
 def compares(sign: int, operator: Operator) -> bool:
-    """Whether two things compare so, where `sign` is -1, 0 or 1 for less, equal or more."""
+    """Whether a comparison holds, if `sign` is -1, 0 or 1 for less, equal or greater."""
     return {"<": sign < 0, "<=": sign <= 0, "=": sign == 0, "!=": sign != 0, ">=": sign >= 0, ">": sign > 0}[operator]

@@ -1,8 +1,8 @@
 """The variables of a diagram over formulas, each with a few values.
 
-A condition or trigger has two values, a scale its own, a number one for each region that the comparisons at hand can
-tell apart. Numbers that are compared with one another are one variable, whose values are the orders and regions that
-numbers can have.
+A condition or trigger has two values, a scale its own, and a number one for each region that the comparisons
+distinguish. Numbers that are compared with each other are one variable, whose values are their possible orders and
+regions.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.query.names import Name
 
 MOST_NAMES = 250
-"""Variables of one diagram. What is asked of it recurs once for each, and twice in `some`."""
+"""The maximal number of variables of one diagram. Operations recur once for each, and twice in `some`."""
 
 MOST_CELLS = 2_000
-"""Combinations of regions and orders that are tried for numbers compared with one another."""
+"""The maximal number of combinations of regions and orders for numbers that are compared with each other."""
 
 
 @dataclass(frozen=True)
 class Variable:
-    """What a situation can say of some names that go together: one of `ways` values.
+    """The possible values of one name or of connected names: one of `ways` values.
 
-    `names` is one name, or numbers that are compared with one another. `cuts` are the bounds between the regions of
-    each number, in their order; `orders` the pairs that are compared.
+    `names` is one name, or numbers that are compared with each other. `cuts` are the bounds between the regions of each
+    number, in their order. `orders` are the pairs that are compared.
     """
 
     names: tuple[Name, ...]
@@ -41,11 +41,11 @@ class Variable:
 
 
 class Variables:
-    """The variables of some formulas, in the order in which these first name them. `cells` are, for a variable of
-    several numbers, the regions of each and the sign of each order, by value."""
+    """The variables of some formulas, in the order of their first use. `cells` are, for a variable of several
+    numbers, the regions of each and the sign of each order, by value."""
 
     def __init__(self, formulas: Sequence[Formula], measures: Mapping[str, Measure]) -> None:
-        """Raises `TooLarge` for too many names, or where numbers compared with one another have too many regions."""
+        """Raises `TooLarge` for too many names, or too many regions of numbers that are compared with each other."""
         self._measures = measures
         self.all: list[Variable] = []
         self._place: dict[Name, int] = {}
@@ -108,7 +108,7 @@ class Variables:
     def _possible(
         self, bounds: Sequence[tuple[str, tuple[Cut, ...]]], orders: Sequence[tuple[str, str]]
     ) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
-        """The regions of each number, and -1, 0 or 1 for each pair, that numbers can have together."""
+        """The possible combinations of a region for each number and -1, 0 or 1 for each pair."""
         tried = 3 ** len(orders)
         for _, cuts in bounds:
             tried *= len(cuts) + 1
@@ -148,7 +148,7 @@ def against_number(comparison: Comparison) -> tuple[str, Operator, Number]:
 
 
 def _clusters(pairs: Iterable[tuple[str, str]]) -> dict[str, tuple[str, ...]]:
-    """For each name of a pair, all names that are tied to it, sorted."""
+    """For each name in a pair, all names that are connected with it, sorted."""
     sets = UnionFind()
     for x, y in pairs:
         sets.join(x, y)

@@ -1,10 +1,7 @@
-"""One verdict on a change to the rules: checks, comparison with the base, assertions, conformance of the robot's code,
-coverage by cases, each as far as the policy asks (docs/gate.md).
+"""The gate: one verdict on a change to the rules, by the team's policy (docs/gate.md).
 
-Only rulesets that differ from the base, byte for byte, are examined, unless all are asked for: the others passed
-before.
-
-Entry points: `read_sides` reads the settings, `gate` gives the verdict, `findings_now` the findings for a baseline.
+It combines checks, comparison with the base, assertions, conformance of the robot's code, and coverage by cases. By
+default, only rulesets that differ from the base in at least one byte are examined, because the others passed before.
 """
 
 from __future__ import annotations

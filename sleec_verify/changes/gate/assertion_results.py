@@ -1,4 +1,4 @@
-"""Asking assertions of the rulesets that they are about."""
+"""Checks assertions for the rulesets that they are about."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class AssertionSources:
-    """The assertions of the configuration and the command line, as texts; files of them are read already."""
+    """The assertions of the configuration and the command line, as texts, with the content of assertion files."""
 
     def __init__(self, texts: Sequence[str] = (), sources: Sequence[Source] = ()) -> None:
         self.texts = texts
@@ -27,7 +27,7 @@ class AssertionSources:
 
 
 class RulesetVersions(NamedTuple):
-    """A ruleset as it is now, and as it was."""
+    """A ruleset in its current version and in that of the base."""
 
     new: Ruleset
     old: Ruleset
@@ -36,8 +36,8 @@ class RulesetVersions(NamedTuple):
 def verify_assertions(
     found: GateResult, asked: Sequence[RulesetVersions], asserting: AssertionSources
 ) -> tuple[AssertionResult, ...]:
-    """The answers. An assertion is asked of each ruleset that knows one of its names, or did in the base: others are
-    about other things, and a ruleset that is gone obliges nothing."""
+    """The answers. An assertion is checked for each ruleset that uses one of its names, now or in the base. A
+    deleted ruleset obliges nothing."""
     from sleec_runtime.errors import LanguageError
     from sleec_verify.changes.assertions.parser import parse_assertion, parse_assertions
     from sleec_verify.changes.assertions.verification import verify

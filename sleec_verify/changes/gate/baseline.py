@@ -1,6 +1,6 @@
-"""Findings that were there when a team began: a file of them, so that only new ones block.
+"""The baseline: a file of known findings, so that only new findings block.
 
-A finding is known again by its ruleset, its code, and the rules, clauses and obligations that it names; lines may move.
+A finding is identified by its ruleset, its code, and the rules, clauses and obligations that it names; lines may move.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ _VERSION = 1
 
 
 def key(path: str, finding: Finding) -> Key:
-    """What a finding is known by."""
+    """The identity of a finding."""
     clauses = tuple((clause.rule, clause.clause) for clause in finding.clauses)
     return path, finding.code, finding.rules, clauses, finding.obligations
 
 
 class KnownFindings:
-    """The findings of a baseline, and those of them that there are still."""
+    """The findings of a baseline, and those of them that still exist."""
 
     def __init__(self, keys: Collection[Key] = ()) -> None:
         self.keys = frozenset(keys)
         self.met: set[Key] = set()
 
     def has(self, finding: Finding, paths: Sequence[str]) -> bool:
-        """Whether it is known under one of the paths that its ruleset has had."""
+        """Whether a finding is known under one of the paths that its ruleset has had."""
         its = {key(path, finding) for path in paths}
         self.met |= its
         return not its.isdisjoint(self.keys)

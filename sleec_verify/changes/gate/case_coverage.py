@@ -1,4 +1,4 @@
-"""How many clauses the cases beside a ruleset reach: ``household.cases.toml`` beside ``household.sleec``."""
+"""The clauses that the cases beside a ruleset reach: ``household.cases.toml`` beside ``household.sleec``."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from sleec_verify.conformance.cases.reader import SUFFIX, read_cases
 
 
 def coverage(ruleset: Ruleset, errors: list[SleecError]) -> Coverage | None:
-    """The coverage of one ruleset; a ruleset without cases has none of its clauses reached. What is wrong with the
-    cases goes to `errors`."""
+    """The coverage of one ruleset. Without cases, no clause is reached. Errors in the cases go to `errors`."""
     every = {(rule.label, number): rule for rule in ruleset.rules for number, _ in enumerate(rule.clauses())}
     path = Path(ruleset.source.path)
     cases = path.with_name(path.name.removesuffix(".sleec") + SUFFIX)

@@ -1,4 +1,4 @@
-"""Whether the certificate beside a ruleset holds: ``household.certificate/`` beside ``household.sleec``."""
+"""Whether the certificate beside a ruleset is valid: ``household.certificate/`` beside ``household.sleec``."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ SUFFIX = ".certificate"
 
 
 def certificate(ruleset: Ruleset, untimed: Untimed, policy: Policy) -> Manifest | str:
-    """What the certificate beside a ruleset says, or why none holds of the ruleset as it is checked: its whole text in
-    its own reading, with `untimed`, and with what the `policy` requires. Costs what ``certify --check`` does."""
+    """The content of the certificate beside a ruleset, or why there is no valid one for its use: its whole text in
+    its own reading, with `untimed`, and with the requirements of `policy`. Costs as much as ``certify --check``."""
     from sleec_verify.certificates.checker import checker
     from sleec_verify.certificates.theory.oracle import built
     from sleec_verify.certificates.verification import check_certificate

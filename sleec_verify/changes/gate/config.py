@@ -1,4 +1,4 @@
-"""What a team has set: ``sleec-verify.toml``, or ``[tool.sleec-verify]`` of pyproject.toml."""
+"""The configuration of a team: ``sleec-verify.toml``, or ``[tool.sleec-verify]`` of pyproject.toml."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ TABLE = "sleec-verify"
 
 
 class Config(NamedTuple):
-    """All settings. `path` is where they were read, None where there are none; `folder` is what their paths are from.
-    Both are themselves from the top of the repository."""
+    """All settings. `path` is their file, None if there is none. `folder` is the folder to which their paths are
+    relative. Both are relative to the top of the repository."""
 
     path: str | None = None
     folder: str = "."
@@ -30,16 +30,16 @@ class Config(NamedTuple):
     block: Policy = Policy()
 
     def at(self, path: str) -> str:
-        """A path of the configuration, from the top of the repository."""
+        """A path of the configuration, relative to the top of the repository."""
         return joined(self.folder, path)
 
 
 def find_config(tree: Tree, folder: str) -> Config:
-    """The settings of the nearest folder, from `folder` up to the top of the repository, that has any; the defaults
-    where none has.
+    """The settings of the nearest folder with a configuration, from `folder` up to the top of the repository; otherwise
+    the defaults.
 
     Raises:
-        SleecError: what is found cannot be used.
+        SleecError: the configuration is invalid.
     """
     here = folder
     while True:

@@ -1,4 +1,4 @@
-"""Examining one ruleset of a change: its checks, what differs from the base, its cases and its certificate."""
+"""Examination of one ruleset of a change: its checks, its difference from the base, its cases and its certificate."""
 
 from __future__ import annotations
 
@@ -24,24 +24,24 @@ if TYPE_CHECKING:
     from sleec_verify.changes.revisions.versions import Versions
 
 Check = Callable[[Ruleset], tuple[CheckResult, ...]]
-"""What checks a ruleset, or knows what came of it."""
+"""A function that checks a ruleset, or reads the result from a cache."""
 
 Locate = Callable[[str], str]
-"""From a path of the repository to the file that it is now. Raises `SleecError` for one outside the repository."""
+"""From a path of the repository to the current file. Raises `SleecError` for a path outside the repository."""
 
 CONFLICT = "conflict"
 
 
 def evidence(path: str, policy: Policy) -> list[str]:
-    """The files and folders beside a ruleset that the policy asks for."""
+    """The files and folders beside a ruleset that the policy requires."""
     stem = path.removesuffix(".sleec")
     cases = [f"{stem}.cases.toml"] if policy.clause_coverage is not None else []
     return cases + ([f"{stem}.certificate"] if policy.certificates else [])
 
 
 class Examiner(NamedTuple):
-    """How rulesets are examined: against the base, which messages call `base`, by `policy` and with the `known`
-    findings. A response without a window is read as `untimed`."""
+    """The examination of rulesets against the base, which messages call `base`, by `policy` and with the `known`
+    findings. `untimed` is the meaning of a response without a window."""
 
     base: str
     policy: Policy
@@ -51,7 +51,7 @@ class Examiner(NamedTuple):
     untimed: Untimed
 
     def examine(self, versions: Versions, was: str | None) -> RulesetExamination:
-        """A ruleset in two versions, the older one at the path `was` if that is another."""
+        """A ruleset in two versions. `was` is the path of the older one, if it differs."""
         found = RulesetExamination(versions.path, was)
         try:
             with internal_errors_of(versions.path):
@@ -111,7 +111,7 @@ def _conflicting(ruleset: Ruleset, untimed: Untimed) -> frozenset[frozenset[str]
 
 
 def _nothing(other: Ruleset | None, called: str) -> Ruleset:
-    """No rules, on the side that has no such file."""
+    """An empty ruleset, for the side without this file."""
     assert other is not None, "one side has it"
     return replace(other, statements=(), inferred=(), defects=(), source=Source(called, ""))
 
@@ -129,7 +129,7 @@ def check_ruleset(
     allowing: Sequence[Suppression],
     refused: Collection[Suppression] = (),
 ) -> None:
-    """Check a ruleset. Of what is `allowing`, the suppressions that are `refused` allow nothing."""
+    """Check a ruleset. The suppressions in `refused` have no effect, even if they are in `allowing`."""
     found.results = check(ruleset)
     used = set()
     paths = [found.path, *([] if found.was is None else [found.was])]

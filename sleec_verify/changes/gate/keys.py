@@ -1,7 +1,6 @@
-"""The keys of a configuration, and the values that they take.
+"""The keys of a configuration, and their values.
 
-Every key is checked, because a misspelt one would let through what it was meant to block. Paths stay inside the
-repository.
+Every key is checked, because a misspelled one would allow what it was meant to block. Paths stay inside the repository.
 """
 
 from __future__ import annotations
@@ -15,11 +14,12 @@ from sleec_verify.results.finding import SEVERITIES, Severity
 
 
 class ConfigError(SleecError):
-    """A configuration that cannot be used: missing, no TOML, or with a key or value that there is not."""
+    """An invalid configuration: missing, not TOML, or with an unknown key or value."""
 
 
 class Target(NamedTuple):
-    """A robot's code, and the rules whose structure it is to have. Paths are from `folder`, that of the settings."""
+    """A robot's code, and the rules whose structure it must have. Paths are relative to `folder`, the folder of the
+    settings."""
 
     code: str
     rules: str
@@ -27,22 +27,22 @@ class Target(NamedTuple):
     folder: str = "."
 
     def at(self, path: str) -> str:
-        """One of its paths, from the top of the repository."""
+        """One of its paths, relative to the top of the repository."""
         return joined(self.folder, path)
 
 
 class Policy(NamedTuple):
-    """What blocks.
+    """What blocks a change.
 
-    `findings`: findings of `check` and `conform` at least as grave as this; "never" for none. `new_conflicts`:
+    `findings`: findings of `check` and `conform` of at least this severity; "never" for none. `new_conflicts`:
     situations that conflict now and did not in the base. `lost_obligations`: patterns (``Call*``, ``NOT Speak``) of
-    obligations that some situation loses. `ruled_out_situations`: situations that the assumptions of now do not allow,
-    and those of the base did. `dead_hedges`: a hedge that decides nowhere. `unknown`: whatever is not
-    decided. `unused_suppressions`: a suppression that nothing needs. `clause_coverage`: fewer clauses than this, in
-    percent, reached by the cases beside a ruleset; None asks nothing. `certificates`: a ruleset without one beside it
-    that holds. `require_proved` and `require_tied` ask for `certificates`, and for more of them
-    (`certificate.manifest.Required`). `policy_changes`: a change to the configuration, the baseline or the
-    assertions. `new_suppressions`: a suppression that the base does not have, which allows nothing then.
+    obligations that some situation loses. `ruled_out_situations`: situations that the current assumptions exclude and
+    those of the base allowed. `dead_hedges`: a hedge that never decides. `unknown`: every inconclusive answer.
+    `unused_suppressions`: a suppression that no finding needs. `clause_coverage`: cases that reach fewer clauses than
+    this percentage; None for no limit. `certificates`: a ruleset without a valid certificate beside it.
+    `require_proved` and `require_tied` imply `certificates` and require more of them (`certificate.manifest.Required`).
+    `policy_changes`: a change to the configuration, the baseline or the assertions. `new_suppressions`: a suppression
+    that the base does not have, which then allows nothing.
     """
 
     findings: Severity | Literal["never"] = "error"
@@ -60,30 +60,30 @@ class Policy(NamedTuple):
     new_suppressions: bool = True
 
     def requiring(self, proved: bool, tied: bool) -> Policy:
-        """This policy, with what is required of certificates besides. Whoever requires anything asks for them."""
+        """This policy with further requirements for certificates. Each of them implies `certificates`."""
         proved, tied = proved or self.require_proved, tied or self.require_tied
         asked = self.certificates or proved or tied
         return self._replace(certificates=asked, require_proved=proved, require_tied=tied)
 
 
 def settings(table: object, called: str, where: str, folder: str) -> dict[str, Any]:
-    """The fields of a `Config` that a table sets, for paths from `folder`. Messages call the file `called`, and the
-    table in it `where`. Raises `ConfigError`."""
+    """The fields of a `Config` that a table sets, with paths relative to `folder`. Messages call the file `called`,
+    and the table in it `where`. Raises `ConfigError`."""
     return _Reader(called, where, folder).read(table, SETTINGS, "")
 
 
 def is_assertion(entry: str) -> bool:
-    """Whether an entry of `assertions` is an assertion; the others are files of them."""
+    """Whether an entry of `assertions` is an assertion; other entries are files."""
     return entry.split(" ")[0].lower() in ("never", "always")
 
 
 def joined(folder: str, path: str) -> str:
-    """A path of `folder`, from the top of the repository."""
+    """A path in `folder`, relative to the top of the repository."""
     return posixpath.normpath(posixpath.join(folder, path))
 
 
 class _Reader:
-    """Reads tables, and says of what does not fit where it stands."""
+    """Reads tables, and reports errors with their places."""
 
     def __init__(self, path: str, where: str, folder: str) -> None:
         self._path = path

@@ -1,4 +1,4 @@
-"""From what was found to what blocks."""
+"""Applies the policy: from findings to reasons to block."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ POLICIES: Mapping[str, str] = {
     "assertions": "an assertion does not hold",
     "comparison": "the comparison is inconclusive",
 }
-"""What blocks, or is unknown, besides the findings of checks, by the name that it has in reports."""
+"""What blocks or is unknown, other than findings of checks, by its name in reports."""
 
 
 def judge(found: GateResult, policy: Policy) -> None:
@@ -75,7 +75,7 @@ _HELP = "this change is still judged by the policy of the base; an owner of the 
 
 
 def _heeded(changes: Iterable[Block], blocking: bool) -> Iterator[Block]:
-    """Changes of what decides, as errors if they block."""
+    """Changes to settings, as errors if they block."""
     for change in changes:
         assert change.finding is not None, "it is shown as a finding"
         severity: Severity = "error" if blocking else "note"
@@ -141,7 +141,7 @@ def _block(
     witness: Witness | None = None,
     domains: tuple[str, ...] = (),
 ) -> Block:
-    """One that is no finding of a check: it is made one, so that it can be shown beside them."""
+    """A reason to block that is not a finding of a check, as a finding, so that reports can show it."""
     rules = tuple(dict.fromkeys(clause.rule for clause in clauses))
     made = Finding(
         policy, policy, "error", what, span, rules, clauses, obligations, witness, related=related, domains=domains
@@ -152,7 +152,7 @@ def _block(
 def _places(
     deciding: Sequence[DecidingClause],
 ) -> tuple[Span, tuple[tuple[Span, str], ...], tuple[ClauseRef, ...]]:
-    """Where clauses stand that decide now: the first, the others, and all by their rules."""
+    """The places of clauses that decide in the current version: the first, the others, and all by their rules."""
     if not deciding:
         return NOWHERE, (), ()
     others = tuple((one.span, f"rule `{one.rule}` also applies here") for one in deciding[1:])
@@ -160,13 +160,14 @@ def _places(
 
 
 def _new_conflicts(one: RulesetExamination) -> Iterator[Block]:
-    """Those that no suppression allows and no baseline has: both speak of the conflict's finding, by its rules. Where
-    these rules conflicted in the base already, they do so in more situations now, of which a baseline says nothing."""
+    """The new conflicts that no suppression allows and that are not in the baseline, which both identify a conflict
+    by its rules. If these rules conflicted in the base already, they now do so in more situations, which the
+    baseline does not cover."""
     if one.difference is None:
         return
     kept = {frozenset(f.rules) for f, _ in one.allowed if f.code == CONFLICT}
     kept |= {frozenset(f.rules) for f in one.known if f.code == CONFLICT} - one.conflicting
-    # Rules may conflict twice, and only one of it be allowed.
+    # Rules may have two conflicts, of which only one is allowed.
     kept -= {frozenset(f.rules) for f in one.findings if f.code == CONFLICT}
     for conflict in one.difference.conflicts:
         if conflict.way == "added" and frozenset(conflict.rules) not in kept:

@@ -1,4 +1,4 @@
-"""What a gate finds, as values."""
+"""The results of a gate, as values."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 POLICY_CHANGES = "policy-changes"
 NEW_SUPPRESSIONS = "new-suppressions"
-"""Policies about what decides."""
+"""The names of policies about settings."""
 
 Status = Literal["passed", "blocked", "unknown", "unusable"]
 
 
 class Block(NamedTuple):
-    """A reason not to let a change in: by which policy, in which ruleset or code, and what it is. `finding` says where
-    in the text, and why; what is unknown has none."""
+    """A reason to block a change: the policy, the ruleset or code, and the problem. `finding` has the place and the
+    explanation; an unknown answer has none."""
 
     policy: str
     where: str
@@ -33,7 +33,7 @@ class Block(NamedTuple):
 
 
 class Coverage(NamedTuple):
-    """How many of a ruleset's clauses its cases reach; `why` says why that is not known."""
+    """How many of a ruleset's clauses its cases reach. `why` says why that is unknown."""
 
     reached: int
     clauses: int
@@ -47,13 +47,13 @@ class Coverage(NamedTuple):
 
 @dataclass
 class RulesetExamination:
-    """One ruleset that changed (or that all were asked for).
+    """One examined ruleset.
 
-    `was` is its path in the base, where that was another. `ruleset` is what it is now; None where it is gone or cannot
-    be read. `findings` count; `allowed` are suppressed, with the suppression, and `known` stand in the baseline. `new`
-    suppressions are not in the base, `unused` ones meet nothing, `problems` are suppressions that are none.
-    `conflicting` are the rules of each conflict of the base, where the baseline has some of now. `certificate` is what
-    the one that holds says, or why there is none, where one is asked for.
+    `was` is its path in the base, if that differs. `ruleset` is the current one; None if it was deleted or cannot be
+    read. `findings` count. `allowed` are suppressed, each with its suppression, and `known` are in the baseline. `new`
+    suppressions are not in the base, `unused` ones match no finding, and `problems` are invalid suppressions.
+    `conflicting` are the rules of each conflict of the base, if the baseline has some of the current ones.
+    `certificate` is the content of the valid one, or why there is none, if one is required.
     """
 
     path: str
@@ -73,14 +73,14 @@ class RulesetExamination:
     errors: list[SleecError] = field(default_factory=list)
 
     def line(self, span: Span) -> int:
-        """The line of a place in the text as it is now."""
+        """The line of a place in the current text."""
         assert self.ruleset is not None, "what cannot be read has no places"
         return self.ruleset.source.place(span).line
 
 
 @dataclass
 class TargetConformance:
-    """A target: its verdict and the findings that count, or why there is none."""
+    """A target: its verdict and the findings that count, or why there is no verdict."""
 
     target: Target
     ruleset: Ruleset | None = None
@@ -93,12 +93,12 @@ class TargetConformance:
 
 @dataclass
 class GateResult:
-    """All that came of a gate.
+    """All results of a gate.
 
-    `base` is what the base is called, `unchanged` how many rulesets were left out. `paths` says what the rulesets are
-    called of which assertions were asked, by the paths of their texts. `changes` are those of the settings, and new
-    suppressions; those that the policy does not allow are among `blocks`. `heeded` is whether what is unknown keeps a
-    change out.
+    `base` is the name of the base in messages, and `unchanged` the number of rulesets that were left out. `paths` has
+    the names of the rulesets whose assertions were checked, by the paths of their texts. `changes` are those of the
+    settings, and new suppressions; those that the policy does not allow are among `blocks`. `heeded` says whether
+    unknown answers block.
     """
 
     base: str
@@ -120,12 +120,12 @@ class GateResult:
 
     @property
     def unusable(self) -> bool:
-        """Whether something could not be read, so that nothing is said of it."""
+        """Whether something could not be read, so that there is no answer about it."""
         return any(one.errors for one in self.examined) or any(one.error is not None for one in self.conformed)
 
     @property
     def status(self) -> Status:
-        """What to do with the change: what blocks weighs more than what is unknown, what is unusable most."""
+        """The status of the change: invalid input has priority over blocks, and blocks over unknown answers."""
         if self.unusable:
             return "unusable"
         if self.blocks:

@@ -1,4 +1,4 @@
-"""What decides a verdict, as one side of a change has it: the configuration, the baseline, and files of assertions."""
+"""The settings of one side of a change: the configuration, the baseline, and files of assertions."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from sleec_verify.changes.revisions.single_file import Tree
 
 
 class Settings(NamedTuple):
-    """`known` are the findings of the baseline at the path `baseline`, `assertions` the files of assertions by their
-    paths."""
+    """`known` are the findings of the baseline at the path `baseline`. `assertions` are the files of assertions by
+    their paths."""
 
     config: Config
     baseline: str | None
@@ -27,7 +27,7 @@ class Settings(NamedTuple):
 
 
 class GateSettings(NamedTuple):
-    """Settings of the base, by which a change is judged; of where the change began; and of the change."""
+    """The settings of the base, by which a change is judged; of the start of the change; and of the change."""
 
     base: Settings
     start: Settings
@@ -35,11 +35,11 @@ class GateSettings(NamedTuple):
 
 
 def read_sides(base: Tree, start: Tree | None, now: Tree, file: str | None, baseline: str | None) -> GateSettings:
-    """The settings of the trees; the change began at the base where `start` is None. `file` and `baseline` are named on
-    the command line, in place of the nearest configuration and of the baseline that it names.
+    """The settings of the trees. If `start` is None, the change starts at the base. `file` and `baseline` are from the
+    command line, in place of the nearest configuration and its baseline.
 
     Raises:
-        SleecError: a file cannot be used, or neither the base nor the change has it.
+        SleecError: a file is invalid, or neither the base nor the change has it.
     """
     configs = [config_of(tree, file) for tree in (base, now)]
     if configs == [None, None]:
@@ -51,11 +51,11 @@ def read_sides(base: Tree, start: Tree | None, now: Tree, file: str | None, base
 
 
 def config_of(tree: Tree, file: str | None) -> Config | None:
-    """The configuration: `file`, as the command line names it, or the nearest one. None where the file is not on this
-    side. One outside the repository is the same on every side; its paths are from the top of the repository.
+    """The configuration: `file` from the command line, or the nearest one. None if the file is not on this side. A file
+    outside the repository is the same on every side, and its paths are relative to the top of the repository.
 
     Raises:
-        SleecError: it cannot be used.
+        SleecError: it is invalid.
     """
     if file is None:
         return find_config(tree, tree.repository.position(os.curdir) or os.curdir)
@@ -64,17 +64,17 @@ def config_of(tree: Tree, file: str | None) -> Config | None:
 
 
 def no_config(file: str) -> ConfigError:
-    """The error of a configuration that neither side has."""
+    """The error if neither side has the configuration."""
     return ConfigError(f"there is no file {file}", "check its name and folder")
 
 
 def no_baseline(file: str) -> ConfigError:
-    """The error of a baseline that neither side has."""
+    """The error if neither side has the baseline."""
     return ConfigError(f"there is no baseline {file}", "write it: sleec-verify gate --write-baseline …")
 
 
 class _File(NamedTuple):
-    """A file by its path in the repository, by what messages call it, and by its content if there is any."""
+    """A file: its path in the repository, its name in messages, and its content, if any."""
 
     path: str
     called: str
@@ -82,7 +82,7 @@ class _File(NamedTuple):
 
 
 def _read(tree: Tree, other: Tree, config: Config, baseline: str | None) -> Settings:
-    """What `config` names, on its side. A file that only the `other` side has is empty here."""
+    """The files that `config` names, on its side. A file that only the `other` side has is empty here."""
     path, known = None, frozenset[Key]()
     if baseline is not None or config.baseline is not None:
         found, elsewhere = (
@@ -109,7 +109,7 @@ def _at(tree: Tree, path: str) -> _File:
 
 
 def _named(tree: Tree, file: str) -> _File:
-    """A file as the command line names it."""
+    """A file from the command line."""
     path = tree.repository.position(file)
     if path is not None:
         return _at(tree, path)

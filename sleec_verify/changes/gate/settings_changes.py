@@ -1,4 +1,4 @@
-"""What a change does to the settings that decide about changes."""
+"""The changes to the settings of the gate."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from sleec_verify.results.finding import Finding
 from sleec_verify.results.phrases import counted, listed
 
 _MOST = 5
-"""Entries of a file that are listed."""
+"""The maximal number of listed entries of a file."""
 
 
 def policy_changes(tree: Tree, old: Settings, new: Settings) -> list[Block]:
-    """Each key of the configuration that changes, and each file that it names, `tree` being that of now."""
+    """Each changed key of the configuration, and each changed file that it names. `tree` is the current one."""
     return [_block(tree, where, what) for where, what in _changes(old, new)]
 
 
@@ -47,7 +47,7 @@ def _changes(old: Settings, new: Settings) -> Iterator[tuple[str, str]]:
 
 
 def _keys(config: Config) -> Mapping[str, Any]:
-    """The settings by their keys, with paths from the top of the repository."""
+    """The settings by their keys, with paths relative to the top of the repository."""
     keys: dict[str, Any] = {
         "rulesets": [*map(config.at, config.rulesets)],
         "base": config.base,
@@ -75,7 +75,7 @@ def _lines(source: Source | None) -> list[str]:
 
 
 def _moves(noun: str, old: Collection[str], new: Collection[str]) -> Iterator[str]:
-    """What is added and what is removed, in so many words."""
+    """Added and removed entries, in words."""
     from collections import Counter
 
     for word, more in (("added", Counter(new) - Counter(old)), ("removed", Counter(old) - Counter(new))):

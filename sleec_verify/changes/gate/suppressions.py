@@ -1,6 +1,7 @@
-"""``# sleec: allow SLEEC202 because …`` in the text of rules: a finding that the team knows and keeps, with the reason.
+"""Suppressions, ``# sleec: allow SLEEC202 because …`` in the text of rules: a finding that the team accepts, with the
+reason.
 
-Behind a line it is about that line; on a line of its own about the rule, or the line, below it.
+After a statement, it is about that line. On its own line, it is about the rule or line below it.
 """
 
 from __future__ import annotations
@@ -20,9 +21,9 @@ _EXAMPLE = "write: # sleec: allow SLEEC202 because the sensor comes next year"
 
 
 class Suppression(NamedTuple):
-    """What is allowed (a code, or a check) in the lines from `first` to `last`, and why. `span` is the comment, which
-    may list several codes: each is a suppression of its own. `about` are the words of the line that it is about, and of
-    the first line of the rule that this belongs to."""
+    """An allowed code or check in the lines from `first` to `last`, with the reason. `span` is the comment; a
+    comment with several codes has a suppression for each. `about` are the words of its line, and of the first line
+    of the rule of that line."""
 
     allowed: str
     reason: str
@@ -32,7 +33,7 @@ class Suppression(NamedTuple):
     about: tuple[str, str]
 
     def covers(self, ruleset: Ruleset, finding: Finding) -> bool:
-        """Whether a finding is what is allowed here: one of its places in the rules lies in these lines."""
+        """Whether it allows a finding: one of the finding's places in the rules is in these lines."""
         if self.allowed not in (finding.code, finding.check) or finding.source is not None:
             return False
         places = map(ruleset.source.place, (finding.span, *(span for span, _ in finding.related)))
@@ -40,7 +41,7 @@ class Suppression(NamedTuple):
 
 
 def suppressions(ruleset: Ruleset, known: Collection[str]) -> tuple[list[Suppression], list[Problem]]:
-    """The suppressions of a text, and what is wrong with those that are none. `known` are all codes and checks."""
+    """The suppressions of a text, and the errors of invalid ones. `known` are all codes and checks."""
     found: list[Suppression] = []
     problems: list[Problem] = []
     if "sleec" not in ruleset.source.text:
@@ -68,8 +69,8 @@ def suppressions(ruleset: Ruleset, known: Collection[str]) -> tuple[list[Suppres
 
 
 def new_suppressions(old: Iterable[Suppression], new: Iterable[Suppression]) -> list[Suppression]:
-    """Those of `new` that `old` does not have: of the same finding, for the same reason, about the same line of the
-    same rule, wherever that has moved to."""
+    """Those of `new` that `old` does not have: for the same code, with the same reason, at the same line of the
+    same rule, wherever that has moved."""
     before = Counter(map(_identity, old))
     found = []
     for one in new:
@@ -100,7 +101,7 @@ def _wrong(said: re.Match[str] | None, known: Collection[str]) -> tuple[str, str
 
 
 def _rules(ruleset: Ruleset) -> Iterator[tuple[int, int]]:
-    """The lines of each rule, its label's included."""
+    """The lines of each rule, including that of its label."""
     place = ruleset.source.place
     for rule in ruleset.rules:
         first = min(place(span).line for span in (rule.span, rule.label_span) if span.end)
@@ -113,12 +114,12 @@ def _about(lines: list[str], number: int, extents: Iterable[tuple[int, int]]) ->
 
 
 def _words(lines: list[str], number: int) -> str:
-    """The words of a line without its suppression; a comment at the end of the text is about no line."""
+    """The words of a line without its suppression. A comment at the end of the text is about no line."""
     return " ".join(_MARK.sub("", lines[number - 1]).split()) if number <= len(lines) else ""
 
 
 def _lines_below(lines: list[str], number: int, extents: Iterable[tuple[int, int]]) -> tuple[int, int]:
-    """The rule, or else the line, that the comment in line `number` stands above."""
+    """The lines of the rule, or otherwise the line, below the comment in line `number`."""
     below = number + 1
     while below <= len(lines) and (not lines[below - 1].strip() or lines[below - 1].lstrip().startswith(("#", "//"))):
         below += 1

@@ -43,12 +43,12 @@ def gate(
     untimed: Untimed = "at",
     touched: Set[str] = frozenset(),
 ) -> GateResult:
-    """The verdict on rulesets in two versions, the older one called `base`.
+    """The verdict on rulesets in two versions. Messages call the older one `base`.
 
-    `changes` are those of the settings, `known` the findings of the baseline, `touched` what differs from the base of
-    the `evidence` beside the rulesets. A ruleset that is the same is left out, unless `everything` is examined or the
-    cases or the certificate beside it changed; only the assertions are asked of all. Raises `LanguageError` for
-    assertions that are none. Linear in the rulesets that are the same; for the others, what `check` and `diff` cost.
+    `changes` are those of the settings, `known` the findings of the baseline, and `touched` the changed parts of the
+    `evidence` beside the rulesets. An unchanged ruleset is left out, unless `everything` is examined or its cases or
+    certificate changed. Assertions are checked for all rulesets. Raises `LanguageError` for invalid assertions. Linear
+    in the unchanged rulesets; the others cost as much as `check` and `diff`.
     """
     versions, before = with_renames(versions)
     found = GateResult(base, changes=[*changes])
@@ -82,17 +82,16 @@ def gate(
 
 
 def _read(one: Versions) -> Ruleset:
-    """A ruleset that is the same in the base. Raises `SleecError`."""
+    """An unchanged ruleset. Raises `SleecError`."""
     assert one.new is not None, "what is the same is there"
     return parse_source(one.new.read())
 
 
 def findings_now(places: Mapping[str, Version], targets: Sequence[Target], check: Check, locate: Locate) -> set[Key]:
-    """All findings of these rulesets, by what they are called, and of the targets that no suppression allows: what a
-    baseline holds.
+    """All findings of these rulesets and targets that no suppression allows, by their keys: the content of a baseline.
 
     Raises:
-        SleecError: something cannot be read.
+        SleecError: a file cannot be read.
     """
     known = KnownFindings()
     for name, place in places.items():

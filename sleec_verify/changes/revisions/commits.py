@@ -1,4 +1,4 @@
-"""What revisions mean, in the repository of the current folder."""
+"""The meaning of revisions, in the repository of the current folder."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from sleec_verify.changes.revisions.git import GitError
 NOW = "the current files"
 
 Named = tuple[str, str]
-"""What messages call a commit, and the commit."""
+"""The name of a commit in messages, and the commit."""
 
 
 def commit(revision: str) -> str:
-    """The commit that a revision means. Raises `GitError`."""
+    """The commit of a revision. Raises `GitError`."""
     found = _commit(revision)
     if found is None:
         raise GitError(f"there is no revision {revision or '(empty)'} in this repository", _hint(revision))
@@ -22,7 +22,7 @@ def commit(revision: str) -> str:
 def _commit(revision: str) -> str | None:
     if not revision or revision.startswith(("-", "^")):
         return None
-    # Behind the text of `:/text`, which is always in a message of a commit, `^{commit}` would be part of the text.
+    # After `:/text`, which always names a commit, `^{commit}` would be part of the text.
     kind = "" if revision.startswith(":/") else "^{commit}"
     done = git.run("rev-parse", "--verify", "--quiet", f"{revision}{kind}")
     return None if done.returncode else done.stdout.decode().strip()
@@ -43,7 +43,7 @@ def _hint(revision: str) -> str:
         return "in CI, fetch the whole history"
     done = git.run("for-each-ref", "--format=%(refname:short)")
     names = done.stdout.decode("utf-8", "replace").split()
-    # A clone has branches of others under the name of where it got them, too.
+    # A clone also has the branches of its remotes, under their names.
     near = next((name for name in names if name.endswith(f"/{revision}")), nearest(revision, names))
     if near is not None:
         return f"did you mean {near}?"
@@ -54,7 +54,7 @@ def _hint(revision: str) -> str:
 
 
 def merge_base(one: Named, other: Named) -> str:
-    """The newest commit that two commits have in common. Raises `GitError`."""
+    """The newest common commit of two commits. Raises `GitError`."""
     done = git.run("merge-base", one[1], other[1])
     if done.returncode:
         raise GitError(
@@ -65,8 +65,8 @@ def merge_base(one: Named, other: Named) -> str:
 
 
 def revision_range(written: str) -> tuple[Named, tuple[str, str | None]]:
-    """What ``REV``, ``OLD..NEW`` and ``OLD...NEW`` (from what they have in common) mean: for each side how to call
-    it, and its commit; None for the current files. An empty end is HEAD. Raises `GitError`."""
+    """The sides of ``REV``, ``OLD..NEW`` and ``OLD...NEW`` (from the newest common commit): for each its name, and
+    its commit; None for the current files. An empty end is HEAD. Raises `GitError`."""
     dots = "..." if "..." in written else ".." if ".." in written else None
     whole = _commit(written) if dots is not None else commit(written)
     if dots is None or whole is not None:  # the text behind `:/` may have dots

@@ -1,4 +1,4 @@
-"""A ruleset that has moved is the same ruleset: one that is gone and one that is new belong together if alike."""
+"""Renamed rulesets: a deleted ruleset and a new one belong together if they are similar."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from sleec_runtime.errors import SleecError
 from sleec_verify.changes.revisions.versions import Version, Versions
 
 ALIKE = 0.5
-"""The share of lines that a file has kept at least, if it has moved; git takes the same."""
+"""The minimal share of equal lines of a renamed file, as in git."""
 
 _MOST = 2_500
-"""Pairs that are compared line by line. Of more, only those of equal texts are put together."""
+"""The maximal number of pairs that are compared line by line. Above it, only equal texts are paired."""
 
 
 def with_renames(versions: Sequence[Versions]) -> tuple[list[Versions], Mapping[str, str]]:
-    """The versions with what has moved put together under its new path, and the old path of each that has.
+    """The versions with renamed rulesets paired under their new paths, and the old path of each.
 
-    Equal texts first, then the most alike. O(texts), and O(pairs of what is gone and what is new) up to a bound.
+    Equal texts come first, then the most similar. O(texts), and O(pairs of deleted and new texts) up to a limit.
     """
     gone = {one.path: one for one in versions if one.new is None}
     new = {one.path: one for one in versions if one.old is None}
@@ -43,7 +43,7 @@ _Pairs = Iterator[tuple[Versions, Versions]]
 
 
 def _equal(gone: Sequence[Versions], new: Sequence[Versions]) -> _Pairs:
-    """Of several that are equal, each moved to one place."""
+    """Pairs of equal texts, each paired once."""
     by_content: dict[str, list[Versions]] = {}
     for old in gone:
         if old.old is not None and old.old.blob is not None:
@@ -56,7 +56,7 @@ def _equal(gone: Sequence[Versions], new: Sequence[Versions]) -> _Pairs:
 
 
 def _alike(gone: Sequence[Versions], new: Sequence[Versions]) -> _Pairs:
-    """The most alike first."""
+    """The most similar first."""
     if len(gone) * len(new) > _MOST:
         return
     lines = {one.path: _lines(one.old or one.new) for one in (*gone, *new)}
@@ -67,7 +67,7 @@ def _alike(gone: Sequence[Versions], new: Sequence[Versions]) -> _Pairs:
 
 
 def _lines(place: Version | None) -> Counter[str]:
-    """How often each line stands there; none of what cannot be read, which is told where it is read."""
+    """How often each line occurs; nothing if the text cannot be read, which is reported elsewhere."""
     if place is None:
         return Counter()
     try:

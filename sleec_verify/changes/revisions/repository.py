@@ -44,21 +44,22 @@ class Repository:
         self.folder = os.path.realpath(folder)
 
     def position(self, path: str) -> str | None:
-        """Where a path is in the repository; None outside of it, and for what git keeps for itself.
+        """The path relative to the top of the repository; None outside of it, and for git's own files.
 
-        A link in the working tree stays one: in the place of a folder, it must not lead to the rules of another.
+        A link in the working tree remains a link. A link in place of a folder must not lead to the rules of another
+        folder.
         """
         return next(iter(self._positions(path)), None)
 
     def _positions(self, path: str) -> list[str]:
-        """That of the path as it is written, and that of what it leads to."""
+        """The positions of the path itself, and of the target of its links."""
         ways = (os.path.join(os.path.realpath(os.curdir), path), os.path.realpath(path))
         found = (os.path.relpath(os.path.normpath(way), self.folder).split(os.sep) for way in ways)
         inside = (parts for parts in found if parts[0] != os.pardir and GIT not in map(str.lower, parts))
         return list(dict.fromkeys("/".join(parts) for parts in inside))
 
     def here(self, path: str) -> str:
-        """The path, from the current folder, of a file or folder of the working tree.
+        """The path of a file or folder of the working tree, relative to the current folder.
 
         Raises:
             GitError: a link leads out of the working tree.
@@ -73,7 +74,7 @@ class Repository:
         return self._entries(commit, path).get(path)
 
     def files(self, commit: str, path: str) -> dict[str, str]:
-        """The rulesets at or below a path in a commit, and the file of that very path, with their objects."""
+        """The rulesets at or below a path in a commit, and the file at exactly that path, with their objects."""
         return {name: blob for name, blob in self._tree(commit, path).items() if name == path or name.endswith(SUFFIX)}
 
     def _tree(self, commit: str, path: str) -> dict[str, str]:
@@ -148,7 +149,7 @@ class Repository:
         return list(found.values())
 
     def now(self, paths: Sequence[str]) -> dict[str, Version]:
-        """The rulesets at or below `paths` as they are now.
+        """The current rulesets at or below `paths`.
 
         Raises:
             GitError, UnreadableFile: a path without rulesets.
@@ -162,7 +163,7 @@ class Repository:
         return found
 
     def touched(self, commit: str, paths: Collection[str]) -> set[str]:
-        """Those of `paths`, files or folders of the repository, at or below which something is not as in a commit."""
+        """Those of `paths`, files or folders of the repository, that differ from a commit, or contain a difference."""
         before = self._tree(commit, ".")
         files = [file for path in paths for file in files_at(os.path.join(self.folder, path))]
         now = {os.path.relpath(file, self.folder): Version(file).named(len(commit)) for file in files}
@@ -175,15 +176,15 @@ class Repository:
         }
 
     def _inside(self, path: str) -> list[str]:
-        """The positions of a path, at least one. Raises `GitError` where there is none."""
+        """The positions of a path, at least one. Raises `GitError` if there is none."""
         found = self._positions(path)
         if not found:
             raise GitError(f"{path} is not in the working tree of {self.folder}", "name a path below it")
         return found
 
     def _now(self, path: str, inside: str) -> dict[str, Version]:
-        """The rulesets at or below a path as they are now. A file that is named is taken as it is, unless it is a link
-        that leads out of the working tree."""
+        """The current rulesets at or below a path. A named file is used as it is, unless it is a link that leads
+        out of the working tree."""
         if not leads_below(path, self.folder, ""):
             self._skipped(path)
             return {}
@@ -213,18 +214,18 @@ class Repository:
                     self._skipped(shown)
                 elif _is_file(shown) and os.path.realpath(shown) == os.path.join(self.folder, name):
                     found[name] = Version(shown)
-                elif status == b"S":  # left out of a sparse checkout: it is as it is in the index
+                elif status == b"S":  # left out of a sparse checkout: use the version in the index
                     found[name] = Version(shown, about.split()[1].decode(), self.content)
         return found
 
 
 def _as_file(path: str) -> str:
-    """A path that is never taken for standard input."""
+    """A path that never stands for standard input."""
     return os.path.join(os.curdir, path) if path == "-" else path
 
 
 def _is_file(path: str) -> bool:
-    """Whether there is a file, not a link to one. Raises `UnreadableFile` where that may not be known."""
+    """Whether the path is a file and not a link. Raises `UnreadableFile` if this is unknown."""
     try:
         return stat.S_ISREG(os.lstat(path).st_mode)
     except PermissionError:

@@ -1,4 +1,4 @@
-"""Two versions of rulesets: what is on each side, and under which path."""
+"""Two versions of rulesets: the text of each side, and its path."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class MissingSide(SleecError):
 
 
 class Version(NamedTuple):
-    """Where one version is: a file (`name` is its path), or an object (`blob`) of a repository, which
+    """The location of one version: a file (`name` is its path), or an object (`blob`) of a repository, which
     `content` reads."""
 
     name: str
@@ -26,7 +26,7 @@ class Version(NamedTuple):
     content: Callable[[str], bytes] | None = None
 
     def named(self, digits: int) -> str | None:
-        """What git calls, or would call, the content in so many digits; None where it cannot be read."""
+        """Git's name for the content, with this number of digits; None if it cannot be read."""
         return self.blob or _blob_of(self.name, digits)
 
     def read(self) -> Source:
@@ -40,7 +40,7 @@ class Version(NamedTuple):
 
 
 class Versions(NamedTuple):
-    """A ruleset on both sides; None on the side that has it not. `path` is what it is called."""
+    """A ruleset on both sides; None for a side without it. `path` is its name."""
 
     path: str
     old: Version | None
@@ -48,13 +48,13 @@ class Versions(NamedTuple):
 
     @property
     def unchanged(self) -> bool:
-        """Whether both texts are the same, byte for byte, as far as that is seen without reading rules."""
+        """Whether both texts have the same bytes, as far as this is known without parsing."""
         if self.old is None or self.new is None or self.old.blob is None:
             return False
         return self.old.blob == self.new.named(len(self.old.blob))
 
     def one_sided(self, old: str, new: str) -> MissingSide | None:
-        """What to say where only one of the sides, called `old` and `new`, has it."""
+        """The message if only one of the sides, called `old` and `new`, has it."""
         if self.old is None:
             return MissingSide(
                 f"{self.path} was added: it is not in {old}",
@@ -69,8 +69,8 @@ class Versions(NamedTuple):
 
 
 def of_paths(old: str, new: str, skipped: Callable[[str], None]) -> list[Versions]:
-    """The rulesets of two files, or of two folders, in which those of one path below them belong together. `skipped` is
-    called for each link that is not followed.
+    """The rulesets of two files, or of two folders, paired by their paths below the folders. `skipped` is called for
+    each link that is not followed.
 
     Raises:
         UnreadableFile: a file and a folder, a folder without rulesets, or both are standard input.
@@ -100,7 +100,8 @@ def of_paths(old: str, new: str, skipped: Callable[[str], None]) -> list[Version
 
 
 def _below(folder: str, skipped: Callable[[str], None]) -> set[str]:
-    """The paths, from `folder`, of the rulesets below it. Raises `UnreadableFile` for a folder that may not be read."""
+    """The paths of the rulesets below a folder, relative to `folder`. Raises `UnreadableFile` for an unreadable
+    folder."""
 
     def refuse(error: OSError) -> None:
         raise UnreadableFile(f"the folder {os.fspath(error.filename)} cannot be read: {error.strerror}")
@@ -109,7 +110,7 @@ def _below(folder: str, skipped: Callable[[str], None]) -> set[str]:
 
 
 def _blob_of(path: str, digits: int) -> str | None:
-    """What git would call the content of a file; None where it cannot be read, which is told when it is read."""
+    """Git's name for the content of a file; None if it cannot be read, which is reported when it is read."""
     from hashlib import sha1, sha256
 
     try:

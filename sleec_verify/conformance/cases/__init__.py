@@ -1,1 +1,1 @@
-"""Situations with what they oblige: written down, read, and chosen so that few of them reach all of a ruleset."""
+"""Test cases: situations with what is due in them, written, read, and selected so that few of them cover a ruleset."""

@@ -1,4 +1,4 @@
-"""All situations that the assumptions allow and in which what is due can be done, as one question to the solver."""
+"""All situations that the assumptions allow and that do not conflict, as one question to the solver."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sleec_verify.query.ruleset_index import RulesetIndex
 
 
 class Goal(NamedTuple):
-    """Something that a situation may reach: true where `literal` is. It asks for `trigger` to occur."""
+    """Something that a situation can cover: it does if `literal` is true. It needs `trigger` to occur."""
 
     name: str
     trigger: str
@@ -21,15 +21,15 @@ class Goal(NamedTuple):
 
 
 class AllowedSituations:
-    """The question, with the rules of one domain in it. `single` allows no two triggers at once, `peaceful` False also
-    situations in which the rules conflict."""
+    """The question, with the rules of one domain. With `single`, no two triggers occur at once. With `peaceful`
+    False, situations in which the rules conflict are allowed, too."""
 
     def __init__(self, index: RulesetIndex, single: bool = False, peaceful: bool = True) -> None:
         self.index = index
         self.question = Question(index)
         self.encoder = self.question.encoder
         self.guards = [self.question.guards(position) for position in range(len(index.rules))]
-        # Also those that share no name with a rule: a situation is to keep every one.
+        # Including those that share no name with a rule: a situation must satisfy every one.
         for assumption in index.assumptions:
             self.question.require_formula(assumption.formula)
         if peaceful:
@@ -63,7 +63,7 @@ class AllowedSituations:
                 self.question.require(*(-due[obligation] for obligation in clash.literals), *labels)
 
     def _at_most_one(self, literals: Sequence[int]) -> None:
-        """By a ladder: one variable for "one of those so far", which rules out the next."""
+        """By a ladder encoding: one variable for "one of those so far", which excludes the next."""
         before: int | None = None
         for literal in literals:
             so_far = self.encoder.fresh()
@@ -74,8 +74,8 @@ class AllowedSituations:
             before = so_far
 
     def smallest(self, literals: Sequence[int]) -> Context:
-        """A situation that makes `literals` true, in which no trigger occurs and no condition holds without need. It
-        values everything that the rules of its triggers look at, and what else must hold for the constraints."""
+        """A situation that makes `literals` true, with a minimal set of triggers and true conditions. It values all
+        names in the rules of its triggers, and in the constraints."""
         kept = list(literals)
         assert self.reaches(*kept), "asked for what was found to be reachable"
         found = self.question.situation()

@@ -1,4 +1,4 @@
-"""One situation and what is to be done in it, as a cases file has it."""
+"""One test case: a situation and what is due in it, as in a cases file."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from sleec_runtime.model import Context, Value
 
 
 class CasesError(SleecError):
-    """A file of cases that cannot be used: malformed, or at odds with the names of its ruleset."""
+    """An invalid file of cases: malformed, or with names that its ruleset does not have."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """When these occur and this is given (all else is false), this is obliged.
+    """What is due if these triggers occur and these values hold (all others are false).
 
-    `prohibitions` None says nothing of them. `conflict`: the rules cannot all be obeyed, and nothing is due. `reaches`
-    are the goals that a chosen case was chosen for.
+    If `prohibitions` is None, they are not tested. `conflict`: the rules conflict, and nothing is due. `reaches` are
+    the goals of a selected case.
     """
 
     name: str

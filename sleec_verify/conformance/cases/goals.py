@@ -1,9 +1,9 @@
-"""What a set of situations is to reach, by criterion. Each criterion asks for every clause, and for more.
+"""The goals of a set of situations, by criterion. Each criterion includes every clause.
 
 - ``clause``: every clause is active once.
-- ``condition``: every condition of a rule is true once and false once, while the rule is asked.
+- ``condition``: every condition of a rule is true once and false once, while the rule is triggered.
 - ``pairwise``: every two conditions of a rule in all four combinations.
-- ``mcdc``: every condition of a rule decides once which clause is active, all other conditions being the same.
+- ``mcdc``: every condition of a rule decides once which clause is active, with all other conditions unchanged.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from sleec_verify.conformance.cases.mcdc import deciding_vectors
 
 
 def conditions_of(rule: Rule) -> list[Atom | Comparison]:
-    """The conditions of a rule that are true or false by themselves, each once, in the order of the text."""
+    """The atomic conditions of a rule, each once, in the order of the text."""
     return list(dict.fromkeys(leaf for formula in formulas_of(rule) for leaf in leaves(formula)))
 
 
@@ -47,7 +47,7 @@ def _no_more(world: AllowedSituations, position: int) -> Iterator[Goal]:
 
 
 def _literals(world: AllowedSituations, position: int) -> list[tuple[str, int]]:
-    """Each condition of a rule by its text, and the literal of it."""
+    """Each condition of a rule by its text, with its literal."""
     return [(print_formula(c), world.literal(c)) for c in conditions_of(world.index.rules[position])]
 
 

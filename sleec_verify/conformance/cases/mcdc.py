@@ -1,9 +1,9 @@
-"""Modified condition/decision coverage of a rule: for each condition, two situations that differ in it only, and in
-which another clause is active.
+"""Modified condition/decision coverage of a rule: for each condition, two situations that differ only in it, and in
+which different clauses are active.
 
-The decision is the whole rule, which decides among its clauses (and none, where its guard is false). Two situations
-differ in one condition only if every other condition of the rule, comparisons as they stand, has the same truth value
-in both.
+The decision is the whole rule, which selects one of its clauses (or none, if its guard is false). Two situations differ
+in one condition only if every other condition of the rule has the same truth value in both. A comparison counts as one
+condition.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _Condition = Atom | Comparison
 
 
 class DecidingVectors(NamedTuple):
-    """The truth values of the conditions in each situation that is needed, and the conditions, by place, that never
+    """The truth values of the conditions in each necessary situation, and the conditions, by position, that never
     decide."""
 
     vectors: tuple[Vector, ...]
@@ -29,8 +29,8 @@ class DecidingVectors(NamedTuple):
 
 
 def deciding_vectors(index: RulesetIndex, position: int, conditions: Sequence[_Condition]) -> DecidingVectors:
-    """Few vectors that show every condition to decide. A condition is tried first as a change of what is there already,
-    which gives one vector more for each condition where that works out. Raises `Undecided`."""
+    """Few vectors that show every condition to decide. Each condition is first tried as a change of an existing
+    vector, which needs only one new vector. Raises `Undecided`."""
     rule = index.rules[position]
     undecided: list[int] = []
     with Question(index) as question:
@@ -67,7 +67,7 @@ def deciding_vectors(index: RulesetIndex, position: int, conditions: Sequence[_C
 def _pair(
     index: RulesetIndex, position: int, conditions: Sequence[_Condition], place: int
 ) -> tuple[Vector, Vector] | None:
-    """Two vectors that differ at `place` only and let another clause be active, or None if there are none."""
+    """Two vectors that differ only at `place` and have different active clauses, or None."""
     rule = index.rules[position]
     blocked: list[list[tuple[int, bool]]] = []
     while True:
@@ -87,7 +87,7 @@ def _pair(
             flipped = _flipped(vector, place)
             if question.ask(*_signed(literals, flipped)):
                 return vector, flipped
-            # Comparisons may exclude one another: what makes the other side impossible is ruled out on this one.
+            # Comparisons may exclude each other: exclude values whose other side is impossible.
             core = set(question.core())
             blocked.append([(n, v) for n, v in enumerate(vector) if n != place and _sign(literals[n], v) in core])
 

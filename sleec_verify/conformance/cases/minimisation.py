@@ -1,4 +1,5 @@
-"""A smaller set of situations than a greedy search finds: the question in as many copies as there may be situations."""
+"""Minimization: a smaller set of situations than that of a greedy search, by a question with one copy for each
+situation."""
 
 from __future__ import annotations
 
@@ -10,7 +11,7 @@ from sleec_verify.encoding.solver import MiniSat
 _MOST_COPIES = 12
 _MOST_CLAUSES = 100_000
 _BUDGET = 20_000
-"""Conflicts, after which the set stays as it is: near-smallest, and not proved to be smallest."""
+"""The number of conflicts after which the set stays as it is: small, and not proved to be smallest."""
 
 
 def minimise(world: AllowedSituations, sets: list[list[Goal]]) -> list[list[Goal]]:
@@ -26,13 +27,13 @@ def minimise(world: AllowedSituations, sets: list[list[Goal]]) -> list[list[Goal
 
 
 def _least(world: AllowedSituations, goals: Sequence[Goal]) -> int:
-    """A rule has one active clause at a time, so that there are as many situations as it has clauses to reach."""
+    """A lower bound: a rule has one active clause at a time, so it needs one situation for each of its clauses."""
     wanted = {goal.literal for goal in goals}
     return max((len(wanted.intersection(guards)) for guards in world.guards), default=0)
 
 
 def _in(world: AllowedSituations, goals: Sequence[Goal], copies: int) -> list[list[Goal]] | None:
-    """The goals in that many sets, or None where there are no such sets or too much would have to be tried."""
+    """The goals in this number of sets, or None if there are none or the search is too large."""
     clauses, top = world.encoder.clauses, world.encoder.top
     if copies > _MOST_COPIES or copies * len(clauses) > _MOST_CLAUSES:
         return None

@@ -1,4 +1,4 @@
-"""Which clauses some situation makes active, and which conditions decide in some situation."""
+"""Reachability: the clauses that some situation makes active, and the conditions that decide in some situation."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ from sleec_verify.results.finding import ClauseRef
 
 
 def reachable_clauses(ruleset: Ruleset) -> frozenset[ClauseRef]:
-    """The clauses that are active in some situation of some domain in which their rule applies. One question a clause.
+    """The clauses that are active in some situation of some domain in which their rule applies. One question for each
+    clause.
 
-    Raises `Undecided` where the solver did not decide.
+    Raises `Undecided` if the solver gave up.
     """
     found: set[ClauseRef] = set()
     for index in _index(ruleset):
@@ -29,10 +30,10 @@ def reachable_clauses(ruleset: Ruleset) -> frozenset[ClauseRef]:
 
 
 def deciding_conditions(ruleset: Ruleset) -> frozenset[tuple[str, Atom | Comparison]]:
-    """The conditions, each with the label of its rule, that decide by themselves somewhere which clause of the rule is
+    """The conditions, each with the label of its rule, that alone decide in some situation which clause of the rule is
     active (MC/DC).
 
-    Raises `Undecided` where the solver did not decide.
+    Raises `Undecided` if the solver gave up.
     """
     found: set[tuple[str, Atom | Comparison]] = set()
     for index in _index(ruleset):

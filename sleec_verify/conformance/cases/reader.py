@@ -6,8 +6,8 @@
     given = { UserUndressed = true }
     obligations = ["RefuseRequest", "ExplainWhy"]
 
-`when` and `given` may also be texts as on the command line. Every key is checked, because a misspelt one would make a
-test that tests something else.
+`when` and `given` may also be texts as on the command line. Every key is checked, because with a misspelled key a test
+would test something else.
 """
 
 from __future__ import annotations
@@ -33,24 +33,24 @@ if TYPE_CHECKING:
 SUFFIX = ".cases.toml"
 _FILE_KEYS = {"ruleset", "reading", "coverage", "unreachable", "case"}
 _MAX_DIGITS = 100
-"""Of a number, before the point and after it, as on the command line."""
+"""The maximal number of digits before and after the point, as on the command line."""
 _FRACTION = re.compile(r"(-?[0-9]{1,100})/(-?0*[1-9][0-9]{0,99})")
 """What is no finite decimal, such as 1/3."""
 _CASE_KEYS = {"name", "when", "given", "obligations", "prohibitions", "conflict", "domain", "reaches"}
 
 
 class CaseFile(NamedTuple):
-    """The cases of one file, and the ruleset that they speak of."""
+    """The cases of one file, and their ruleset."""
 
     ruleset: Ruleset
     cases: tuple[Case, ...]
 
 
 def read_cases(path: Path, ruleset: Ruleset | None = None) -> CaseFile:
-    """The cases in the file at `path`. Their ruleset is `ruleset`, else the file that they name, else the one beside
-    them with the same name.
+    """The cases in the file at `path`. Their ruleset is `ruleset`, otherwise the file that they name, otherwise the one
+    beside them with the same name.
 
-    Raises CasesError, and what reading the ruleset raises.
+    Raises `CasesError`, and the errors of reading the ruleset.
     """
     # Decimals, so that 36.6 is 36.6.
     table = read_toml(path, str(path), CasesError, Decimal)

@@ -1,4 +1,4 @@
-"""Few situations that together reach every goal that can be reached."""
+"""Selection of a small set of situations that reaches every reachable goal."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sleec_verify.conformance.oracle import Oracle
 from sleec_verify.query.ruleset_index import RulesetIndex
 
 _SEVERAL_ORDERS = 150
-"""Up to this many goals, the search is made more than once and the best is taken."""
+"""With at most this number of goals, the search runs in several orders, and the best result counts."""
 
 
 @dataclass(frozen=True)
@@ -42,11 +42,11 @@ class _Found:
 
 
 def choose_cases(ruleset: Ruleset, criterion: str, domain: str | None = None, single: bool = False) -> Cases:
-    """A near-smallest set of situations for a criterion of `goals`, with what is due in each.
+    """A small set of situations for a criterion of `goals`, with what is due in each.
 
-    A situation lets several triggers occur where that helps, unless `single`. Rules of several domains are reached in
-    each domain in turn, as far as it is still needed. No situation breaks an assumption, or is one in which the rules
-    conflict. O(goals²) questions in the worst case. Raises `Undecided`.
+    Several triggers may occur in a situation if that helps, unless `single`. Rules of several domains are covered in
+    each domain in turn, as far as still needed. No situation violates an assumption, or conflicts. O(goals²) questions
+    in the worst case. Raises `Undecided`.
     """
     found: list[Case] = []
     missed: dict[str, UnreachedGoal] = {}
@@ -77,7 +77,7 @@ def _cover(world: AllowedSituations, wanted: Sequence[Goal]) -> tuple[list[_Foun
 
 
 def _greedily(world: AllowedSituations, wanted: Iterable[Goal]) -> tuple[list[list[Goal]], list[Goal]]:
-    """Set after set, each with as many of the goals as one situation reaches together with its first."""
+    """One set after the other, each with as many goals as one situation can reach together with its first goal."""
     left = {goal.name: goal for goal in wanted}
     found: list[list[Goal]] = []
     unreached: list[Goal] = []
@@ -115,7 +115,8 @@ def _case(oracle: Oracle, found: _Found, number: int, done: set[str]) -> Case:
 
 
 def _reasons(index: RulesetIndex, criterion: str, unreached: Sequence[Goal], single: bool) -> Iterable[UnreachedGoal]:
-    """Asks again with less asked for: where a goal can be reached then, that is why it was not."""
+    """Why goals are not reached: asks again with fewer requirements, and the goal that is reachable then names the
+    reason."""
     if not unreached:
         return
     names = {goal.name for goal in unreached}

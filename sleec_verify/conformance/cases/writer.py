@@ -1,4 +1,4 @@
-"""Cases as TOML, just as the pytest plugin collects it, and as JSON."""
+"""Cases as TOML, in the form that the pytest plugin collects, and as JSON."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def toml(ruleset: Ruleset, criterion: str, found: Cases, path: str | None) -> str:
-    """The text of a ``*.cases.toml`` file; `path` is that of the ruleset from the file's folder, if it has one."""
+    """The text of a ``*.cases.toml`` file. `path` is that of the ruleset relative to the file's folder, if there is
+    one."""
     return "".join(line + "\n" for line in _toml(ruleset, criterion, found, path))
 
 

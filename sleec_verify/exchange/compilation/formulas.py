@@ -32,14 +32,14 @@ if TYPE_CHECKING:
 
 
 class Line(NamedTuple):
-    """A formula and what it is: ``dress_assist, hedge 1`` or the constraint it comes from."""
+    """A formula and its origin: ``dress_assist, hedge 1`` or the constraint."""
 
     title: str
     formula: sympy.Basic
 
 
 def lines(ruleset: Ruleset) -> Iterator[Line]:
-    """Equation 1 of every rule, a line for each clause that obliges something, then constraints and assumptions."""
+    """Equation 1 of every rule, one line for each clause that obliges something, then constraints and assumptions."""
     import sympy
 
     translate = Translator(ruleset)
@@ -47,7 +47,7 @@ def lines(ruleset: Ruleset) -> Iterator[Line]:
         for number, guard, clause in implications(rule, ruleset.reading):
             title = f"{rule.label}, {f'hedge {number}' if number else 'default'}"
             if clause.obligations:
-                # Not evaluated: sympy would turn the implication into something shorter and harder to read.
+                # Not evaluated, because sympy would change the implication into a less readable form.
                 response = translate.response(clause.obligations)
                 yield Line(title, sympy.Implies(translate(guard), response, evaluate=False))
     for constraint in ruleset.constraints:
@@ -63,7 +63,7 @@ def lines(ruleset: Ruleset) -> Iterator[Line]:
 
 
 class Translator:
-    """Formulas of a ruleset as sympy's."""
+    """Translates formulas of a ruleset to sympy."""
 
     def __init__(self, ruleset: Ruleset) -> None:
         self._ruleset = ruleset
@@ -106,12 +106,12 @@ class Translator:
 
 
 def as_sympy(ruleset: Ruleset) -> str:
-    """One formula a line, each under a comment that says what it is."""
+    """One formula per line, each below a comment with its origin."""
     return "\n".join(f"# {title}\n{formula}" for title, formula in lines(ruleset)) + "\n"
 
 
 def as_latex(ruleset: Ruleset) -> str:
-    """One aligned block, a line for each formula, ready for a document that loads amsmath."""
+    """One aligned block with one line for each formula, for a document that loads amsmath."""
     from sympy import latex
     from sympy.core.symbol import Symbol
 

@@ -6,6 +6,6 @@ from sleec_runtime.model import Kind, Ruleset
 
 
 def symbol(ruleset: Ruleset, kind: Kind, name: str) -> str:
-    """What to call a name where triggers and obligations share one space: an obligation that is a trigger too is
-    ``due(name)``, as that it happened and that it is to be done are two things."""
+    """The symbol of a name, if triggers and obligations share one name space: an obligation that is also a trigger
+    is ``due(name)``, because its occurrence and its obligation are different atoms."""
     return f"due({name})" if kind == "obligation" and name in ruleset.triggers else name

@@ -1,6 +1,6 @@
-"""A ruleset in another language or reading, obliging the same in every situation (docs/dsl.md).
+"""Conversion of a ruleset to another language or reading, without changing what any situation obliges (docs/dsl.md).
 
-What the other language cannot say is refused, never dropped.
+Constructs that the other language does not have are rejected, never dropped.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _DIALECTS: dict[Target, Dialect] = {"dsl": "sleec-tk", "legos": "legos"}
 
 @dataclass(frozen=True)
 class Conversion:
-    """A text that obliges the same, the ruleset that it spells out, and what to know about it."""
+    """The converted text, its ruleset, and notes about the differences."""
 
     text: str
     ruleset: Ruleset
@@ -41,10 +41,11 @@ class Conversion:
 
 
 def of_domain(ruleset: Ruleset, domain: str) -> Ruleset:
-    """What counts in `domain`, as a ruleset without domains. Rules keep their labels, also those that are numbers.
+    """The rules and constraints that apply in `domain`, as a ruleset without domains. Rules keep their labels, also
+    numbers.
 
     Raises:
-        Unsayable: no rule counts there, and a text needs one.
+        Unsayable: no rule applies there, and a text needs one.
     """
     statements: list[Statement] = []
     rules = 0
@@ -65,9 +66,8 @@ def of_domain(ruleset: Ruleset, domain: str) -> Ruleset:
 
 
 def _declared(part: Ruleset) -> Ruleset:
-    """`part` with declarations of the names that it would take for something else than the whole ruleset did, which has
-    more rules to tell by."""
-    # A text that declares its conditions takes no other name in a condition, and one that declares a trigger all.
+    """`part` with declarations of the names whose kind would differ without the other rules of the whole ruleset."""
+    # If a text declares names of a kind, it must declare all names of that kind.
     undeclared = part.triggers - part.declared["trigger"]
     if not undeclared <= {rule.trigger for rule in part.rules}:
         part = replace(part, statements=(Declaration("trigger", tuple(sorted(undeclared))), *part.statements))
@@ -82,12 +82,12 @@ def _declared(part: Ruleset) -> Ruleset:
 
 
 def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Conversion:
-    """`ruleset` in the language `to`, its hedges rewritten for `reading` if that is another than its own.
+    """`ruleset` in the language `to`, with its hedges rewritten for `reading` if that differs from its own.
 
     Without `reading`, structured English keeps the ruleset's reading and states it; the DSL has only `priority`.
 
     Raises:
-        Unsayable: something in it cannot be said there.
+        Unsayable: the language does not have a construct of the ruleset.
     """
     notes: list[str] = []
     if to == "english":

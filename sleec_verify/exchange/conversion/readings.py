@@ -1,6 +1,6 @@
-"""From one reading of a chain of hedges to the other: each rewriting obliges the same in every situation.
+"""Conversion between the readings of a chain of hedges, without changing what any situation obliges.
 
-From `priority` to `cascade` a condition Ci becomes Ci ∨ … ∨ Cn, from `cascade` to `priority` C1 ∧ … ∧ Ci.
+From `priority` to `cascade`, a condition Ci becomes Ci ∨ … ∨ Cn; from `cascade` to `priority`, C1 ∧ … ∧ Ci.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def with_reading(ruleset: Ruleset, reading: Reading) -> Ruleset:
 
 
 def _joined(kind: type[And] | type[Or], parts: Sequence[Formula]) -> Formula:
-    """The parts as one chain, with those that are chains of the same kind opened up, and none twice."""
+    """The parts as one chain of operands, with nested chains of the same kind flattened, and no repeats."""
     operands: dict[Formula, None] = {}
     for part in parts:
         operands.update(dict.fromkeys(part.operands if isinstance(part, kind) else (part,)))

@@ -1,4 +1,4 @@
-"""Refusals of what the DSL cannot say, with the place in the text."""
+"""Errors for constructs that the DSL does not have, with their places in the text."""
 
 from __future__ import annotations
 

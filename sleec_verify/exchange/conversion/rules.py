@@ -1,8 +1,8 @@
-"""Rules of structured English in the shape that the DSL has words for, read by priority.
+"""Rules of structured English in the form of the DSL, read by priority.
 
-A response of several obligations becomes several rules, or responses of a claim; a chain in the parentheses of the
-default goes before the rule's own; a hedge that only holds others gives them its condition. Where one of several is due
-in place of another obligation, that one is repeated: A or (B and C) is (A or B) and (A or C).
+A response with several obligations becomes several rules, or several responses of a claim. A chain in the parentheses
+of the default comes before the rule's own chain. A hedge that only contains others gives them its condition. If one of
+several is an alternative to another obligation, that one is repeated: A or (B and C) is (A or B) and (A or C).
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from sleec_runtime.errors import Unsayable
 from sleec_runtime.model import NO_COMMENTS, And, Claim, Clause, Obligation, Rule
 
 MAX_RULES = 1000
-"""More rules than this from one are refused: choices between choices multiply."""
+"""The maximal number of rules from one rule, because nested choices multiply."""
 
 
 def split(rule: Rule, labels: set[str]) -> Iterator[Rule]:
-    """Rules that oblige together what `rule` does, each one event at a time. New labels go into `labels`.
+    """Rules that together oblige the same as `rule`, each with one event. New labels are added to `labels`.
 
     Raises:
         Unsayable: there would be too many.
@@ -33,7 +33,7 @@ def split(rule: Rule, labels: set[str]) -> Iterator[Rule]:
 
 
 def narrow(claim: Claim) -> Claim:
-    """`claim` with one event a response.
+    """`claim` with one event for each response.
 
     Raises:
         Unsayable: there would be too many responses.
@@ -46,7 +46,7 @@ def narrow(claim: Claim) -> Claim:
 
 
 def _narrowed(clause: Clause, label: str) -> list[Clause]:
-    """Clauses that oblige together what `clause` does, each with one obligation, and hedges with one at most."""
+    """Clauses that together oblige the same as `clause`, each with one obligation, and hedges with at most one."""
     wide = _wide(replace(clause, hedges=tuple(_flat(clause.hedges))), label)
     return [_one(wide, number) for number in range(_width(wide))]
 
@@ -83,7 +83,7 @@ def _flat(hedges: Sequence[Clause]) -> Iterator[Clause]:
         if hedge.obligations or not inner:
             yield replace(hedge, hedges=inner)
             continue
-        # The last true condition wins, and each of these is true only where the hedge's own is.
+        # The last true condition decides, and each of these implies the hedge's own.
         yield replace(hedge, hedges=())
         for clause in inner:
             assert hedge.condition is not None, "a hedge has a condition"
@@ -92,7 +92,7 @@ def _flat(hedges: Sequence[Clause]) -> Iterator[Clause]:
 
 
 def _one(clause: Clause, number: int) -> Clause:
-    """The clause with its obligation of this number, or its last one where it has fewer."""
+    """The clause with only its obligation of this number, or its last one if it has fewer."""
     return replace(
         clause,
         obligations=clause.obligations[number : number + 1] or clause.obligations[-1:],

@@ -1,4 +1,4 @@
-"""What SLEEC-TK's dialect has no words for, though the DSL has, and what it means by others."""
+"""Constructs of the DSL that SLEEC-TK does not have, or reads differently."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from sleec_verify.exchange.conversion.refusals import defined_names, refuse
 
 
 def refuse_unsayable(ruleset: Ruleset, statements: Iterable[Statement]) -> None:
-    """Raises Unsayable for the first thing that SLEEC-TK cannot say."""
+    """Raises `Unsayable` for the first construct that SLEEC-TK does not have."""
     refuse_unsayable_calculations(ruleset, "SLEEC-TK", _HINT)
     for statement in statements:
         if isinstance(statement, (Claim, *RELATIONS)):
@@ -33,7 +33,7 @@ def refuse_unsayable(ruleset: Ruleset, statements: Iterable[Statement]) -> None:
 
 
 def has_untimed(statements: Iterable[Statement]) -> bool:
-    """Whether a rule has a response without a window, which SLEEC-TK reads in another way."""
+    """Whether a rule has a response without a window, which SLEEC-TK reads differently."""
     return any(
         literal.timing is None or literal.timing.window is None
         for rule in statements
@@ -43,7 +43,7 @@ def has_untimed(statements: Iterable[Statement]) -> bool:
 
 
 def taken_names(statements: Iterable[Statement]) -> list[str]:
-    """The names that SLEEC-TK's editor refuses, as the processes that it makes of rules have them."""
+    """The names that SLEEC-TK's editor rejects, because its generated processes use them."""
     names = {name for statement in statements for name in defined_names(statement)}
     return sorted(names & _TAKEN)
 

@@ -1,4 +1,4 @@
-"""From structured English, or the other dialect, to a dialect of the DSL."""
+"""Conversion to a dialect of the DSL, from structured English or the other dialect."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def to_dsl(ruleset: Ruleset, dialect: Dialect) -> tuple[Ruleset, list[str]]:
 
 
 def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
-    """The statements with every name defined: declared ones where they are declared, the others first."""
+    """The statements with every name defined: declared names at their declarations, the others first."""
     defined: set[str] = set()
     declared = {name for names in ruleset.declared.values() for name in names}
     agents = {name: s.agent for s in ruleset.statements if isinstance(s, Declaration) for name in s.names if s.agent}
@@ -128,7 +128,7 @@ def _undeclared(names: Iterable[str], declared: set[str]) -> list[str]:
 def _declarations(
     ruleset: Ruleset, statement: Declaration, defined: set[str], agents: Mapping[str, Agent]
 ) -> Iterator[Declaration]:
-    """A definition for each name; what is declared as a trigger and as an obligation is one event."""
+    """A definition for each name. A name that is declared as a trigger and as an obligation is one event."""
     comments = statement.comments
     kind: DeclaredKind = "condition" if statement.kind == "condition" else "event"
     for name, span in zip(statement.names, statement.name_spans or [statement.span] * len(statement.names)):
@@ -152,7 +152,7 @@ def _measure(ruleset: Ruleset, measure: Measure, notes: list[str]) -> Measure:
 
 
 def _comments(rule: Rule) -> Comments:
-    """The comments of a rule's two lines in structured English, the label's and the one below, for one line."""
+    """The comments of a rule's two lines in structured English, the label and the next one, for one line."""
     own, default = rule.comments, rule.default.comments
     one_too_many = (default.behind,) if own.behind is not None and default.behind is not None else ()
     return Comments((*own.above, *default.above, *one_too_many), own.behind or default.behind)
@@ -174,7 +174,7 @@ def _label(ruleset: Ruleset, label: str, span: Span) -> None:
 
 
 def _name(ruleset: Ruleset, name: str, span: Span | None = None) -> str:
-    """A name that SLEEC-TK can say; LEGOS has more keywords."""
+    """A name that SLEEC-TK accepts; LEGOS has more keywords."""
     is_keyword = name in KEYWORDS - LEGOS_KEYWORDS
     if _NAME.fullmatch(name) is None or is_keyword:
         what = "is a keyword of the DSL" if is_keyword else "is not a name of the DSL: use only letters, digits and _"
@@ -186,7 +186,7 @@ def _name(ruleset: Ruleset, name: str, span: Span | None = None) -> str:
 
 
 def _in_pairs(formula: Formula) -> Formula:
-    """A formula whose chains of `and`, and of `or`, do not end in one of the same kind, as LEGOS's are read."""
+    """A formula whose chains of `and`, and of `or`, do not end in one of the same kind, as in LEGOS."""
     if isinstance(formula, Not):
         return replace(formula, operand=_in_pairs(formula.operand))
     if isinstance(formula, (And, Or)):

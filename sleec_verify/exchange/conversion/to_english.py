@@ -1,4 +1,4 @@
-"""From the DSL to structured English."""
+"""Conversion from the DSL to structured English."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def _defined_once(statements: Iterable[Statement]) -> list[Statement]:
 
 
 def _new_label(label: str, labels: set[str]) -> str:
-    """A label for the second ``R1``, which is called ``R1#2``."""
+    """A label for the second ``R1``, whose internal label is ``R1#2``."""
     new = label.replace("#", "_")
     while new in labels:
         new += "_"
