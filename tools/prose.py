@@ -126,7 +126,8 @@ def lines(text: str) -> Iterable[tuple[int, str]]:
 
 def files() -> list[Path]:
     """The files that prose.toml names."""
-    return sorted(path for pattern in SETTINGS["files"] for path in ROOT.glob(pattern))
+    excluded = {ROOT / name for name in SETTINGS["exclude"]}
+    return sorted({path for pattern in SETTINGS["files"] for path in ROOT.glob(pattern)} - excluded)
 
 
 def main(arguments: list[str]) -> int:

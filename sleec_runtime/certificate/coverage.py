@@ -31,7 +31,7 @@ def read_manifest(folder: str | Path, key: str | Path | None = None) -> Manifest
         data = read_file(path)
     except OSError as error:
         raise CertificateRefused(
-            [("no-certificate", f"{folder} is no certificate: its {MANIFEST} cannot be read: {error.strerror}")],
+            [("no-certificate", f"{folder} is not a certificate: its {MANIFEST} cannot be read: {error.strerror}")],
             "`sleec-verify certify FILE -o DIR` makes one",
         ) from None
     if key is not None:

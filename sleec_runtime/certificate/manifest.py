@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 FORMAT = 2
-"""The version of the format. Other versions are refused."""
+"""The version of the format. Other versions are rejected."""
 
 
 class Required(NamedTuple):

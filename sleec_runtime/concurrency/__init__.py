@@ -1,1 +1,1 @@
-"""Concurrency: changes that exclude one another, and what a forked process renews."""
+"""Concurrency: changes that exclude each other, and state that a forked process replaces."""

@@ -15,7 +15,7 @@ P = ParamSpec("P")
 
 
 class CriticalSection:
-    """Makes one change at a time. Other threads wait; the same thread is refused.
+    """Makes one change at a time. Other threads wait; the same thread gets an error.
 
     The same thread enters again if a signal handler or a finalizer, which Python runs between any two steps of a
     thread, uses the object that is being changed. It cannot wait, and must not see a part of a change.

@@ -45,7 +45,7 @@ class GlobalActivation:
         Raises UnsupportedTimes for rules with times; ConflictInContext (or UndeterminedDecision) if a trigger would
         raise it in this context; Unbindable for a bound method that a plain call cannot dispatch; SleecError if global
         activation is already on, or other code has activated one of the layers. Then nothing is activated. While it is
-        on, changes of context and bindings with these problems are refused.
+        on, changes of context and bindings with these problems are rejected.
         """
         self._sleec.hold(lambda snapshot: _GLOBAL_LAYERS.run(partial(self._start, snapshot)))
         return self

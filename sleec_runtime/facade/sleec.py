@@ -182,7 +182,7 @@ class Sleec(Host):
     def trigger(self, name: str, /, *args: Any, **kwargs: Any) -> Done:
         """A trigger occurs: decides all its rules in one context, and runs their variants with these arguments.
 
-        Everything that can be refused is refused before anything runs: UnknownTrigger, NotBound, UndeterminedDecision
+        All errors are raised before anything runs: UnknownTrigger, NotBound, UndeterminedDecision
         (in strict mode), ConflictInContext, WrongArguments, NeedsAwait. If a variant raises, those of other rules still
         run; then its error is raised (VariantsFailed for several). O(rules of the trigger) the first time in a context,
         then O(rules that apply), however many other rules there are.

@@ -111,7 +111,7 @@ class Agenda:
             yield from islice((task for task in reversed(tasks) if task.covers(now)), 1)
 
     def all_prohibitions(self, name: str) -> tuple[Task, ...]:
-        """The prohibitions of `name` that are or will be in force."""
+        """The current and future prohibitions of `name`."""
         return tuple(self._forbidden.get(name, ()))
 
     def __iter__(self) -> Iterator[Task]:

@@ -13,7 +13,7 @@ from sleec_runtime.timed.plain_data import PLAIN, copied, is_plain, number_to_pl
 from sleec_runtime.timed.task import Origin, Task
 
 FORMAT = 1
-"""The version of the format. Other versions are refused."""
+"""The version of the format. Other versions are rejected."""
 
 
 def identity(index: RuleIndex, chains: bool) -> dict[str, object]:

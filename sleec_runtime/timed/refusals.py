@@ -1,4 +1,4 @@
-"""Refusals: what is forbidden, now or until some time, is refused before anything runs."""
+"""Refusals: errors for what is forbidden, now or until some time, before anything runs."""
 
 from __future__ import annotations
 

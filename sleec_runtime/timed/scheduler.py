@@ -64,7 +64,7 @@ class Scheduler:
     ) -> tuple[Run, Snapshot]:
         """Decides and checks what the triggers ask for, and puts it on the agenda. Returns the run of its code.
 
-        Coroutine functions are refused unless the run is `in_loop`. Prohibitions do not refuse triggers that are
+        Coroutine functions are rejected unless the run is `in_loop`. Prohibitions do not refuse triggers that are
         `settled`. Raises as `Sleec.trigger`.
         """
         moment = self._admission.moment(args, kwargs)
@@ -81,7 +81,7 @@ class Scheduler:
 
     @transaction
     def due(self, names: tuple[str, ...]) -> Due:
-        """`Sleec.due`: the decisions. Raises if they are refused now."""
+        """`Sleec.due`: the decisions. Raises if they are forbidden now."""
         moment = self._admission.moment()
         stage = triggered_stage(names, moment, code=False)
         refuse([stage], self._ledger.agenda, moment.now, names if self._chains else ())

@@ -128,7 +128,7 @@ def rebuild(
 
 
 def _ask_what_is_possible(index: RulesetIndex) -> bool:
-    """Asked before all else, so that what the assumptions rule out is no part of the first check that needs it."""
+    """Asked first, so that the question about assumptions is not part of the first check that needs it."""
     return not index.assumptions or is_possible(index)
 
 

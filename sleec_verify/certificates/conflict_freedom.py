@@ -1,9 +1,9 @@
-"""Conflict-freeness in few formulas, in the place of a question for each cause.
+"""Conflict-freeness in few formulas, instead of a question for each cause.
 
-The check looks for causes, so it asks of one set of clauses after the other. That nothing can conflict is told by fewer
-questions, one for each smallest set of obligations that cannot all be due (`query.inconsistent_sets`): in some context,
-does each of them follow from some clause that decides there? They share the clauses of all the rules that oblige any of
-them; what shares neither rules nor assumptions is asked apart, so that a solver need not look at everything each time.
+The check looks for causes, so it asks about one set of clauses after the other. To show that there is no conflict, one
+question for each minimal inconsistent set is enough (`query.inconsistent_sets`): in some context, is each of its
+obligations due? The questions share the clauses of all rules that oblige any of them. Questions that share neither
+rules nor assumptions are separate formulas, which are smaller for a solver.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ from sleec_verify.query.ruleset_index import RulesetIndex
 
 
 def conflict_free(index: RulesetIndex) -> bool:
-    """Whether no situation conflicts. The formulas are linear in the rules that oblige part of a clash and in the
-    assumptions."""
+    """Whether no situation conflicts. The formulas are linear in the assumptions and in the rules that oblige a
+    part of an inconsistent set."""
     # All are asked, so that all are recorded.
     answers = [_possible(index, group) for group in _groups(index)]
     return not any(answers)
 
 
 def _possible(index: RulesetIndex, group: Sequence[InconsistentSet | Exclusion]) -> bool:
-    """Whether any of these clashes comes true in some situation."""
+    """Whether any of these inconsistent sets is due in some situation."""
     at_odds = {literal for clash in group for literal in clash.literals}
     with Question(index) as question:
         due = question.due(_rules(index, group), at_odds)
@@ -44,12 +44,12 @@ def _possible(index: RulesetIndex, group: Sequence[InconsistentSet | Exclusion])
 
 
 def _rules(index: RulesetIndex, group: Iterable[InconsistentSet | Exclusion]) -> list[int]:
-    """The rules that oblige part of these clashes, in the order of the text."""
+    """The rules that oblige part of these inconsistent sets, in the order of the text."""
     return sorted({p.rule for clash in group for literal in clash.literals for p in index.by_obligation[literal]})
 
 
 def _groups(index: RulesetIndex) -> list[list[InconsistentSet | Exclusion]]:
-    """The clashes in groups that share neither rules nor names that the same assumptions speak of."""
+    """The inconsistent sets in groups that share neither rules nor names in the same assumptions."""
     union = UnionFind()
     assumed: set[Name] = set()
     for assumption in index.assumptions:

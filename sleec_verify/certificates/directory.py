@@ -1,4 +1,4 @@
-"""The folder of a certificate: written whole or not at all, never in the place of anything else."""
+"""The folder of a certificate: written atomically, and never in place of anything else."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 A solver's proof (DRUP) only lists what it learnt. Each of its lemmas follows from what came before by unit propagation;
 here it is found again which clauses that takes, from the last lemma back, and what no answer rests on is dropped.
-Nothing of this is trusted: whoever checks the refutation follows its hints and nothing else.
+Nothing of this is trusted: a checker of the refutation only follows its hints.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from sleec_runtime.errors import SleecError
 
 
 class NoModel(SleecError):
-    """A solver said yes, and what it showed is no model of the question."""
+    """A solver said yes, and its model does not satisfy the question."""
 
 
 @dataclass
@@ -49,7 +49,7 @@ class Recorder:
             return
         true = set(filter(holds, {*literals, *chain.from_iterable(clauses)}))
         if not true.issuperset(literals) or any(map(true.isdisjoint, clauses)):
-            raise NoModel("a solver's model does not satisfy the question", "this is a bug; please report it")
+            raise NoModel("a solver's model does not satisfy the question", "this is a bug; report it")
 
     def take(self) -> tuple[list[RecordedQuestion], int]:
         """The formulas with refuted questions since the last call, and how many models there were."""

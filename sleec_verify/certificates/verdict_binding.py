@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from sleec_verify.results.finding import CheckResult
 
 MOST_SECONDS = 60.0
-"""How long the oracle may take over one question. Many obligations that exclude one another take it long, and chains of
+"""How long the oracle may take over one question. Many obligations that exclude each other take it long, and chains of
 hundreds of hedges."""
 
 

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class Problem(NamedTuple):
-    """Why a certificate is refused: one of the reasons of docs/certificates.md, and a sentence on it."""
+    """Why a certificate is rejected: one of the reasons of docs/certificates.md, and an explanation."""
 
     reason: str
     message: str

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def cache_of_environment() -> Cache | None:
-    """The cache that the environment asks for; what is not as it should be is told. Raises `SleecError`."""
+    """The cache that the environment selects. Problems are reported. Raises `SleecError`."""
     from sleec_verify.cli.cache.store import Cache
     from sleec_verify.cli.output import note
 

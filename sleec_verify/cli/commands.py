@@ -1,4 +1,4 @@
-"""The group of commands. Each command's module is imported when it is called for, and no sooner."""
+"""The group of commands. Each command's module is imported when the command is used."""
 
 from __future__ import annotations
 

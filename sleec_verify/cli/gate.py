@@ -194,7 +194,7 @@ def _targets(base: Config, own: Config, repository: Repository) -> list[Target]:
 
 
 def _check_files(output: str | None, summary: str | None) -> None:
-    """Before anything is done: files must be such as can be written, and what is no summary is not replaced by one."""
+    """Check before any work that the output files can be written. Only an earlier summary may be overwritten."""
     from sleec_verify.files.placement import require_writable
     from sleec_verify.report.gate import MARK
 

@@ -1,4 +1,4 @@
-"""Pairs of contexts by which a half-made change shows: some mixture of the two calls for what neither does."""
+"""Pairs of contexts that reveal an incomplete change: some mixture of the two obliges what neither does."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The values of conditions and measures that rules can tell apart, and every context made of them.
+"""The values of conditions and measures that rules distinguish, and every context of these values.
 
 A measure compared with constants has a region below, at, between and above them. Each is stood for by the values at its
-ends, because that is where a wrong comparison shows. Measures that are compared with one another get enough values
+ends, because that is where a wrong comparison shows. Measures that are compared with each other get enough values
 in each region for every order of them.
 """
 
@@ -91,7 +91,7 @@ def number_values(kind: str, cuts: Iterable[Rational], places: int = 1) -> list[
 
 
 def values_of(measure: Measure, formulas: Sequence[Formula]) -> tuple[Value, ...]:
-    """Values for `measure` from every region that `formulas` can tell apart."""
+    """Values for `measure` from every region that `formulas` distinguish."""
     if measure.kind == "scale":
         return measure.values
     group = clusters(formulas).get(measure.name, frozenset())
@@ -110,9 +110,9 @@ def beside(measure: Measure, formulas: Sequence[Formula]) -> tuple[Rational, ...
 def givens(
     formulas: Sequence[Formula], measures: Mapping[str, Measure], unreported: bool = True, near: bool = False
 ) -> list[ValueRegion]:
-    """What `formulas` speak of, with the values to try: triggers, conditions, then measures, each by name.
+    """The names in `formulas`, with the values to try: triggers, conditions, then measures, each by name.
 
-    Raises UnsupportedCalculations: no values of single measures tell apart what is calculated from several.
+    Raises UnsupportedCalculations: values of single measures do not distinguish the results of calculations.
 
     `unreported` adds that a measure has no value, in which case whatever compares with it is false; `near` adds the
     numbers `beside` the bounds.

@@ -145,7 +145,7 @@ def _chains(
     negations: bool,
     depth: int,
 ) -> list[Clause]:
-    """A default and its hedges, each maybe with a chain of its own."""
+    """A default and its hedges, each optionally with its own chain."""
     obligation = st.builds(
         Obligation, st.sampled_from(known.obligations), st.booleans() if negations else st.just(False)
     )
@@ -204,7 +204,7 @@ def _constraints(
 
 @st.composite
 def _declarations(draw: st.DrawFn, statements: list[Statement]) -> list[Statement]:
-    """Declarations of whole kinds: of every name that is used, and maybe of one that is not."""
+    """Declarations of whole kinds: of every name that is used, and optionally of one that is not."""
     ruleset = Ruleset(tuple(statements))
     found: list[Statement] = []
     every: tuple[tuple[Kind, frozenset[str], str], ...] = (

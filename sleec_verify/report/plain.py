@@ -73,7 +73,7 @@ class Trouble(NamedTuple):
 
 
 def troubles(unusable: UnusableInput) -> Iterator[Trouble]:
-    """The problems of an unusable file, each with its hint."""
+    """The problems of an invalid file, each with its hint."""
     from sleec_runtime.errors import LanguageError
 
     error = unusable.error

@@ -28,7 +28,7 @@ class FormulaPrinter:
     """The operands that need parentheses. AND binds tighter than OR; an OR in an OR was written with parentheses."""
 
     grouped_guard: ClassVar[tuple[type[Formula], ...]] = (Or,)
-    """The guards that get parentheses, which people read more easily."""
+    """The guards that get parentheses, for readability."""
 
     def formula(self, formula: Formula) -> str:
         """A formula as text."""

@@ -14,7 +14,7 @@ def first_problems(problems: list[Problem]) -> list[Problem]:
     more = len(problems) - MAX_PROBLEMS
     if more > 0:
         span = problems[MAX_PROBLEMS].span
-        problems[MAX_PROBLEMS:] = [Problem(f"and {more:,} more problems", span, "mend the first ones and try again")]
+        problems[MAX_PROBLEMS:] = [Problem(f"and {more:,} more problems", span, "fix the first ones and try again")]
     return problems
 
 

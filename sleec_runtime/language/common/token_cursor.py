@@ -31,7 +31,7 @@ class TokenCursor:
     """A position in `tokens`, and the problems so far."""
 
     operators = "NOT"
-    """What else nests besides parentheses, for messages."""
+    """What nests, other than parentheses, for messages."""
 
     def __init__(self, source: Source, tokens: Tokens, problems: list[Problem]) -> None:
         self.source = source

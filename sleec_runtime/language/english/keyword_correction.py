@@ -25,7 +25,7 @@ def near_keyword(word: str, starts_line: bool = False) -> str | None:
     """The keyword that a word in capitals is near; a keyword that starts a statement only if the word starts a line.
 
     Short keywords are near only to themselves with two letters swapped or one doubled (`ADN`, `ORR`), because `ER` or
-    `ICU` in a phrase is no misspelling.
+    `ICU` in a phrase is not a misspelling.
     """
     if word in _SYNONYMS:
         return _SYNONYMS[word]

@@ -1,4 +1,4 @@
-"""Names and phrases of plain words, and the keywords that are misspelt or missing in them."""
+"""Names and phrases of plain words, and the keywords that are misspelled or missing in them."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class EnglishPhraseParser(EnglishCursor):
     def name(self, what: str, hint: str | None = None) -> str:
         """Reads a name, or a phrase of plain words that stands for one.
 
-        An empty string: its first word was a misspelt keyword, which has been reported and corrected; look again.
+        An empty string: its first word was a misspelled keyword, which has been reported and corrected; look again.
         """
         at = self.at
         if self.kinds[at] != "word":

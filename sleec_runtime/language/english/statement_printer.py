@@ -1,6 +1,6 @@
 """Rules, claims and relations as text: one line for each exception, and parentheses only where they are needed.
 
-A response of several obligations after IN WHICH CASE also has parentheses, because people read it more easily.
+A response of several obligations after IN WHICH CASE also has parentheses, for readability.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Rules whose conditions are names: comparisons of measures become conditions, and their order assumptions.
 
 The theory has no numbers. ``UserAge < 18`` is a condition there, named by its text. That one cut lies below another is
-an `Assume` for each pair of neighbours, and so is what orders measures that are compared with one another. All of these
+an `Assume` for each pair of neighbours, and so is the order of measures that are compared with each other. All of these
 are true of every value, so a context of the rules is one of these rules, and what holds of these in all contexts holds
-of the rules. The other way round it holds but for whole numbers that are compared with one another, whose order may
+of the rules. The other way round it holds but for whole numbers that are compared with each other, whose order may
 leave no room (`sleec_verify.encoding.measures`). Measures have values here, as they have in all checks.
 """
 
@@ -33,7 +33,7 @@ from sleec_verify.encoding.measures import Measures
 
 class Boolean:
     """`ruleset` is the rules without comparisons, the order of the cuts among its constraints. O(size of the rules),
-    but for measures compared with one another, where it is that of their order."""
+    except for measures compared with each other, where it is that of their order."""
 
     def __init__(self, ruleset: Ruleset) -> None:
         self._meanings: dict[int, Formula] = {}
@@ -48,7 +48,7 @@ class Boolean:
 
     @property
     def compared(self) -> set[str]:
-        """The measures that are compared with one another."""
+        """The measures that are compared with each other."""
         return {name for pair in self._measures.orders for name in pair}
 
     def facts(self, context: Context) -> Iterator[Atom]:

@@ -96,4 +96,4 @@ FOUND: Mapping[str, Callable[[Finding, str, RulesetIndex, Numbering], str]] = {
     "redundant-rule": _redundant_rule,
     "redundant-hedge": _redundant_hedge,
 }
-"""For each check whose findings the theory speaks of, a finding as the oracle is told it."""
+"""For each check that the theory covers, a finding in the format of the oracle."""

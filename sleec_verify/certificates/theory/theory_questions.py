@@ -26,7 +26,7 @@ ProofStep = tuple[int, tuple[int, ...], tuple[int, ...]]
 
 
 def not_modelled(ruleset: Ruleset, chains: bool = True) -> str | None:
-    """Why the theory does not speak of a ruleset, or None. `chains` is whether what is done triggers rules."""
+    """Why the theory does not cover a ruleset, or None. `chains` is whether responses trigger rules."""
     if speaks_of_traces(ruleset) or (chains and has_chains(ruleset)):
         return "the theory covers neither time nor consequences of responses"
     if calculated := calculations(ruleset):

@@ -19,7 +19,7 @@ from sleec_verify.query.witness import smallest_situation
 
 def situation_changes(comparison: Comparison) -> Iterator[Union[SituationChange, Undecidable]]:
     """For each assumption of one side that the other side lacks, the situations that only the other side allows, if
-    any. Assumptions that follow from the other side's assumptions are no change."""
+    any. Assumptions that follow from the other side's assumptions do not count."""
     for which in ("old", "new"):
         mine: SideName = "old" if which == "old" else "new"
         theirs = {given.formula for given in comparison.sides[other(mine)].given}

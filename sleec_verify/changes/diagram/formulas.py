@@ -84,7 +84,7 @@ class FormulaDiagram(DecisionDiagram):
         return self.make(variable, tuple(int(compares(sign, operator)) for sign in signs))
 
     def _measured(self, name: str, cuts: Sequence[Cut], number: Number, inclusive: bool) -> int:
-        """The last region that is below the number, or at most it; where no cut is there, none needs to be told."""
+        """The last region below the number (or at most it). Without a cut there, regions need no distinction."""
         wanted = cut_at(self._measures[name], number.value, inclusive)
         return max((at for at, cut in enumerate(cuts) if cut <= wanted), default=-1)
 

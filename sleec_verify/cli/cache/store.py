@@ -1,11 +1,11 @@
-"""What was decided once, kept for rules that did not change: results of `check`, by what they depend on.
+"""A cache of check results, by everything on which they depend.
 
-An entry is a file, named by a hash of all that its results depend on: the bytes of the rules, how they were read, what
-was asked, and the program itself. It holds a hash of its content, and what does not fit that is no entry: it is
-decided anew. Where a solver gave up nothing is kept, as another time it may not.
+An entry is a file whose name is a hash of the bytes of the rules, how they are read, what is asked, and the program
+itself. It also holds a hash of its content. An entry that does not match is recomputed. Inconclusive results are not
+stored, because another run may decide them.
 
-Entries are trusted as the program is, so they belong into a folder that only their user writes to; by default that is
-the user's cache folder, never the project's, in which a pull request could bring along results of its own.
+Entries are trusted like the program, so they belong in a folder that only their user can write to. The default is the
+user's cache folder, never the project's, where a pull request could add results of its own.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ MOST_ENTRIES = 64
 
 
 class Cache:
-    """Results in a folder. `tell` is told of what is not as it should be, in a sentence."""
+    """Results in a folder. `tell` reports problems."""
 
     def __init__(self, folder: str, tell: Callable[[str], None], chosen: bool = True) -> None:
         self._folder = folder
@@ -53,7 +53,7 @@ class Cache:
         or there is no such folder.
 
         Raises:
-            SleecError: SLEEC_VERIFY_CACHE names something that is no folder.
+            SleecError: SLEEC_VERIFY_CACHE is not a folder.
         """
         named = os.environ.get(VARIABLE, "")
         if named == OFF:
@@ -81,7 +81,7 @@ class Cache:
         return None
 
     def keep(self, ruleset: Ruleset, scope: Scope, results: tuple[CheckResult, ...]) -> None:
-        """Keep the results for a ruleset, unless one of them is unknown. That it cannot be done is no failure."""
+        """Store the results for a ruleset, unless one of them is unknown. A failure to store them is ignored."""
         path = self.path(ruleset, scope)
         if path is None or any(isinstance(result.verdict, Unknown) for result in results):
             return

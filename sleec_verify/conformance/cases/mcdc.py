@@ -40,7 +40,7 @@ def deciding_vectors(index: RulesetIndex, position: int, conditions: Sequence[_C
         outcomes: dict[Vector, int | None] = {}
 
         def outcome(vector: Vector) -> int | str | None:
-            """The active clause, or why there is none: "never" for values that do not go together."""
+            """The active clause, or why there is none: "never" for inconsistent values."""
             if not question.ask(*_signed(literals, vector)):
                 return "never"
             return next((number for number, guard in enumerate(guards) if question.true(guard)), None)

@@ -35,7 +35,7 @@ _FILE_KEYS = {"ruleset", "reading", "coverage", "unreachable", "case"}
 _MAX_DIGITS = 100
 """The maximal number of digits before and after the point, as on the command line."""
 _FRACTION = re.compile(r"(-?[0-9]{1,100})/(-?0*[1-9][0-9]{0,99})")
-"""What is no finite decimal, such as 1/3."""
+"""A number that is not a finite decimal, such as 1/3."""
 _CASE_KEYS = {"name", "when", "given", "obligations", "prohibitions", "conflict", "domain", "reaches"}
 
 

@@ -75,7 +75,7 @@ def _value(value: Value) -> str:
 
 
 def json_text(ruleset: Ruleset, criterion: str, found: Cases, path: str | None) -> str:
-    """The same as one JSON object. A number that is no finite decimal is a text such as ``1/3``."""
+    """The same as one JSON object. A number that is not a finite decimal is a string such as ``1/3``."""
     from sleec_verify.results.json_values import dump
 
     cases: list[Json] = [

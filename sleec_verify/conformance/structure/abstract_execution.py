@@ -33,10 +33,10 @@ from sleec_verify.conformance.structure.values import (
 
 _MOST_CALLS = 2_000
 _CHANGES = {"update", "replace"}
-"""What a runtime, or what reads its sensors, is told to change the context or the rules by."""
+"""The methods of a runtime, or of its sensors, that change the context or the rules."""
 _TRIGGERS = {"trigger", "trigger_all"}
 _TRIGGERS_ASYNC = {"trigger_async", "trigger_all_async"}
-"""What a runtime is told to trigger by: the names come first."""
+"""The methods of a runtime that trigger rules: the names come first."""
 REPLACERS = {f"builtins.{name}" for name in ("exec", "eval", "compile", "__import__", "globals", "locals", "vars")}
 
 

@@ -141,7 +141,7 @@ class MethodCheck:
         return [name for name in names if name is not None]
 
     def _trace(self, variant: Variant, around: list[Variant]) -> Execution:
-        """What a variant does with the advice of its layer: what stands below it in the text runs around it."""
+        """What a variant does with the advice of its layer: later advice in the text runs around it."""
         trace = self._one(variant)
         place = around.index(variant)
         for advice in around[place + 1 :]:

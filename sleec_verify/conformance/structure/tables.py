@@ -85,7 +85,7 @@ class Tables:
                 continue
             name = Text(key) if isinstance(key, str) else self.resolver.of(key, table.scope)
             if not isinstance(name, Text):
-                assert isinstance(key, ast.expr), "a key that is no text is an expression"
+                assert isinstance(key, ast.expr), "a key that is not a string is an expression"
                 self._unknown(key, table.scope, "the obligation of this entry is known only at run time")
                 continue
             self._entry(name.value, key if isinstance(key, ast.expr) else value, value, table.scope)

@@ -30,7 +30,7 @@ class NoTarget(SleecError):
 
 
 class NotPython(LanguageError):
-    """A file that is no Python, with the place where it stops being one."""
+    """A file that is not Python, with the place of the first error."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,7 +29,7 @@ class Api:
 
 @dataclass(frozen=True)
 class ForeignValue:
-    """What code that is not the target's returned, or a literal: whatever it is, it is no code of the robot."""
+    """A value returned by code outside the target, or a literal: it is not code of the robot."""
 
 
 @dataclass(frozen=True)

@@ -101,7 +101,7 @@ class Translator:
 
         if isinstance(term, Number):
             return sympy.Rational(term.value) if term.constant is None else sympy.Symbol(term.constant)
-        assert not isinstance(term, Calculation), "calculations are refused before"
+        assert not isinstance(term, Calculation), "calculations are rejected before"
         return sympy.Symbol(term.value if isinstance(term, ScaleValue) else term.name)
 
 

@@ -113,7 +113,7 @@ class _Writer:
             return f"(to_real {name})" if real and self._ruleset.measures[term.name].kind == "integer" else name
         if isinstance(term, Number):
             return _number(term.value, real)
-        assert isinstance(term, ScaleValue), "calculations are refused before"
+        assert isinstance(term, ScaleValue), "calculations are rejected before"
         return str(term.rank)
 
 

@@ -199,7 +199,7 @@ def test_it_is_written_whole_or_not_at_all(cli: Cli, tmp_path: Path, monkeypatch
         (["clean.sleec", "--check", "a", "--sign", "k"], "--sign needs -o"),
         (["clean.sleec", "--check", "a", "--force"], "--force needs -o"),
         (["clean.sleec", "--check", "a", "--checker", "nowhere"], "nowhere is not a program"),
-        (["clean.sleec", "--check", "nowhere"], "nowhere is no certificate"),
+        (["clean.sleec", "--check", "nowhere"], "nowhere is not a certificate"),
         (["clean.sleec", "-o", "a", "--domain", "kitchen"], "no rule has a domain"),
     ],
 )
