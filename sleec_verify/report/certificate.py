@@ -135,6 +135,6 @@ def _json(
 
 
 def render_refusal(folder: str, refusal: CertificateRefused) -> Iterator[str]:
-    """Why a certificate is refused, for programs."""
+    """Why a certificate is rejected, for programs."""
     problems: list[Json] = [{"reason": reason, "message": message} for reason, message in refusal.problems]
     yield dump({"certificate": folder, "holds": False, "problems": problems})

@@ -74,7 +74,7 @@ def conditions_of(rules: Iterable[Rule | None]) -> list[Formula]:
 
 
 def names_of_formulas(formulas: Iterable[Formula]) -> list[Name]:
-    """The names that formulas speak of, each once."""
+    """The names in formulas, each once."""
     return list(dict.fromkeys(name for formula in formulas for name in names_in(formula)))
 
 

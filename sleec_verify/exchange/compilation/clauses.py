@@ -43,7 +43,7 @@ def variable_names(encoder: Encoder) -> dict[int, tuple[str, str]]:
 
 
 def as_lines(ruleset: Ruleset) -> str:
-    """One clause a line, as a disjunction of names; ``-`` negates, kinds stand before the colon."""
+    """One clause per line, as a disjunction of names; ``-`` negates, and the kind precedes the colon."""
     encoder = encode_ruleset(ruleset)
     names = {
         v: f"{kind}:{name}" if kind != "auxiliary" else name for v, (kind, name) in variable_names(encoder).items()
