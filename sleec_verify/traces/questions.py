@@ -58,7 +58,7 @@ def find_decision(index: TraceIndex, rule: Rule, clause: int) -> Answer:
 
 
 def find_claim(index: TraceIndex, claim: Claim) -> Answer:
-    """A trace in which a concern or purpose occurs. Its `meanwhile` may occur at any other instant."""
+    """A trace in which a concern or purpose occurs. Its `meanwhile` may occur at any instant."""
 
     def at_instant(model: TraceModel, at: int, part: Claim) -> list[int]:
         return [
