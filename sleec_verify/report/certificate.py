@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 SHOWN_BY = {
     "trivial": "no question to refute",
     "witnesses": "witnesses",
-    "situations": "a situation for each finding, recomputed by --check",
+    "situations": "situations, recomputed by --check",
     "text": "from the text of the rules",
     "none": "no proof, because there is no verdict",
 }

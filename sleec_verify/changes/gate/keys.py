@@ -102,7 +102,7 @@ class _Reader:
 
                 near = nearest(key, sorted(keys))
                 hint = f"did you mean `{near}`?" if near else f"the keys are {', '.join(sorted(keys))}"
-                raise ConfigError(f"{self._path}: {self._where}the key `{name}` is unknown", hint)
+                raise ConfigError(f"{self._path}: {self._where}unknown key `{name}`", hint)
             found[key.replace("-", "_")] = keys[key](self, name, value)
         return found
 

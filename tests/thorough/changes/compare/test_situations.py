@@ -47,7 +47,7 @@ def test_a_number_that_becomes_a_whole_one() -> None:
     old = "MEASURE Age: number\nRULE r\nWHEN t THEN o\nUNLESS Age > 17 IN WHICH CASE p\n"
     found = edit(old, "number", "integer", "Age > 17", "Age >= 18")
     assert not found.changes
-    assert [situation.what for situation in found.situations] == ["Age is a whole number"]
+    assert [situation.what for situation in found.situations] == ["`Age` is a whole number"]
 
 
 @pytest.mark.parametrize(

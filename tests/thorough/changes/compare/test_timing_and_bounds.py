@@ -119,4 +119,4 @@ def test_a_condition_that_is_a_measure_in_the_other_text_is_undecided(one: str, 
     measure = f"MEASURE m: {'number' if '>' in comparison else 'low < high'} " + _PLACES[other].format(comparison)
     for found in (differ(condition, measure), differ(measure, condition)):
         assert found.relation == "unknown"
-        assert found.undecided == (("m", "m is true or false in the one text and a measure in the other"),)
+        assert found.undecided == (("m", "`m` is true or false in one version and a measure in the other"),)

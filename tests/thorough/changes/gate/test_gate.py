@@ -69,7 +69,7 @@ def test_unknown_is_exit_3_unless_it_may_pass(cli: Cli, repository: Repository) 
     config(repository, block="findings = 'never'")
     code, said = gated(cli)
     assert (code, said["status"]) == (3, "unknown")
-    assert "of a measure" in said["unknown"][0]["what"]
+    assert "is a measure" in said["unknown"][0]["what"]
     config(repository, block="findings = 'never'\nunknown = false")
     assert gated(cli)[0] == 0
 
@@ -100,7 +100,7 @@ def test_cases_that_are_none(cli: Cli, repository: Repository) -> None:
     config(repository, block="clause-coverage = 50")
     ran = cli("gate", "--base", "main")
     assert ran.code == 2
-    assert "did you mean when?" in ran.err
+    assert "did you mean `when`?" in ran.err
 
 
 def test_assertions(cli: Cli, repository: Repository) -> None:

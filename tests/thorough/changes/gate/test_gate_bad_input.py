@@ -16,13 +16,13 @@ pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no
 @pytest.mark.parametrize(
     ("text", "message", "hint"),
     [
-        ("[tool.sleec-verify]\nblok = {}", "has an unknown key blok", "did you mean block?"),
+        ("[tool.sleec-verify]\nblok = {}", "unknown key `blok`", "did you mean `block`?"),
         (
             "[tool.sleec-verify.block]\nnew-conflict = true",
-            "has an unknown key block.new-conflict",
-            "did you mean new-conflicts?",
+            "unknown key `block.new-conflict`",
+            "did you mean `new-conflicts`?",
         ),
-        ("[tool.sleec-verify.block]\nzzz = true", "has an unknown key block.zzz", "there are certificates, clause-"),
+        ("[tool.sleec-verify.block]\nzzz = true", "unknown key `block.zzz`", "the keys are certificates, clause-"),
         ("[tool.sleec-verify]\nbase = 3", "base is 3", "it is a text"),
         ("[tool.sleec-verify]\nrulesets = [3]", "rulesets is [3]", "it is a list of texts"),
         ("[tool.sleec-verify.block]\nunknown = 1", "block.unknown is 1", "true or false"),
@@ -30,8 +30,8 @@ pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no
         ("[tool.sleec-verify.block]\nclause-coverage = 101", "block.clause-coverage is 101", "0 to 100"),
         ("[tool.sleec-verify.block]\nclause-coverage = true", "block.clause-coverage is True", "0 to 100"),
         ("[tool]\nsleec-verify = 3", "the table is 3", "a table"),
-        ("[[tool.sleec-verify.targets]]\ncode = 'robot.py'", "targets has no rules", "belong together"),
-        ("[[tool.sleec-verify.targets]]\ncod = 'robot.py'", "has an unknown key targets.cod", "did you mean code?"),
+        ("[[tool.sleec-verify.targets]]\ncode = 'robot.py'", "targets has no rules", "needs both code and rules"),
+        ("[[tool.sleec-verify.targets]]\ncod = 'robot.py'", "unknown key `targets.cod`", "did you mean `code`?"),
     ],
 )
 def test_configurations_that_are_none(cli: Cli, repository: Repository, text: str, message: str, hint: str) -> None:
@@ -50,7 +50,7 @@ def test_its_own_file_comes_first(cli: Cli, repository: Repository) -> None:
     repository.put("sleec-verify.toml", "bse = 1\n")
     ran = cli("gate")
     assert ran.code == 2
-    assert "sleec-verify.toml: has an unknown key bse" in ran.err.replace("toml: ", "toml: ", 1)
+    assert "sleec-verify.toml: unknown key `bse`" in ran.err.replace("toml: ", "toml: ", 1)
 
 
 @pytest.mark.parametrize(
@@ -60,7 +60,7 @@ def test_its_own_file_comes_first(cli: Cli, repository: Repository) -> None:
         (["--base", "mian"], "did you mean main?"),
         (["--base", "main", "--config", "nothing.toml"], "there is no file nothing.toml"),
         (["--base", "main", "--config", "broken.toml"], "is no TOML"),
-        (["--base", "main", "--baseline", "nothing.json"], "there is not a baseline nothing.json"),
+        (["--base", "main", "--baseline", "nothing.json"], "there is no baseline nothing.json"),
         (["--base", "main", "--summary", "a.sleec"], "exists and is not a summary"),
         (["--base", "main", "nothing.sleec"], "there is no .sleec file at or below nothing.sleec"),
         (["--write-baseline"], "name the baseline file"),

@@ -200,7 +200,7 @@ def test_detached_shallow_and_other_worktrees(
     alone.write(a_sleec=OLD)
     monkeypatch.chdir(alone.folder)
     ran = cli("gate", "--base", "main")
-    assert (ran.code, "nothing has been committed yet" in ran.err) == (2, True)
+    assert (ran.code, "the repository has no commits" in ran.err) == (2, True)
 
 
 def test_a_repository_of_somebody_else(cli: Cli, repository: Repository, monkeypatch: pytest.MonkeyPatch) -> None:

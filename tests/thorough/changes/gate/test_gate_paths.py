@@ -192,12 +192,12 @@ def test_a_configuration_may_be_a_link_inside_the_repository(target: str, cli: C
     elif target == "sub":
         assert gated(cli)[1]["policy_changes"] == []
     else:
-        why = "cannot be read" if target == OWN else "leads out of the repository"
+        why = "cannot be read" if target == OWN else "points outside the repository"
         assert (ran.code, f"{OWN} {why}" in ran.err) == (2, True)
     (repository.folder / OWN).unlink()
     repository.put(OWN, "")
     ran = cli("gate", "--base", "main")
-    assert (f"main:{OWN} leads out of the repository" in ran.err) == (target in ("/etc/passwd", "../lax.toml", OWN))
+    assert (f"main:{OWN} points outside the repository" in ran.err) == (target in ("/etc/passwd", "../lax.toml", OWN))
 
 
 @pytest.mark.parametrize("side", ["base", "change"])
@@ -218,7 +218,7 @@ def test_files_that_cannot_be_read(cli: Cli, repository: Repository, outside: Pa
     assert (ran.code, "there is no file nothing.toml" in ran.err) == (2, True)
     (repository.folder / "known.json").symlink_to("nothing.json")
     ran = cli("gate", "--write-baseline", "--baseline", "known.json")
-    assert (ran.code, "there is not a baseline known.json" in ran.err) == (2, True)
+    assert (ran.code, "there is no baseline known.json" in ran.err) == (2, True)
     repository.put("large.json", " " * 1000)
     ran = cli("gate", "--write-baseline", "--baseline", "large.json", "--max-size", "200")
     assert (ran.code, "large.json cannot be read: it is larger than 200 bytes" in ran.err) == (2, True)
@@ -232,5 +232,5 @@ def test_links_beside_a_ruleset_stay_inside(name: str, cli: Cli, repository: Rep
     repository.put("a.sleec", LOST)
     ran = cli("gate", "--base", "main")
     assert ran.code == 2
-    assert f"{name} leads out of the repository" in ran.err
+    assert f"{name} points outside the repository" in ran.err
     assert "hunter2" not in ran.out + ran.err

@@ -51,8 +51,8 @@ def test_each_code_of_a_suppression_counts(cli: Cli, repository: Repository) -> 
         {"line": 1, "allowed": ["dead-rule"]},
     ]
     assert [block["what"] for block in said["blocks"]] == [
-        "line 1 allows SLEEC501, and there is no such finding",
-        "line 1 allows dead-rule, and there is no such finding",
+        "line 1 allows SLEEC501, but there is no such finding",
+        "line 1 allows dead-rule, but there is no such finding",
     ]
     ran = cli("gate", "--base", "main", "--summary", "out.md")
     assert ran.out.count("unused suppression: line 1 allows") == 2
@@ -74,8 +74,8 @@ def test_unused_suppressions_can_block(cli: Cli, repository: Repository, setting
         ("# sleec: allow SLEEC202", "a suppression needs a reason"),
         ("# sleec: allow SLEEC202 because", "a suppression needs a reason"),
         ("# sleec: alow SLEEC202 because x", "allows nothing"),
-        ("# sleec: allow SLEEC22 because x", "did you mean SLEEC"),
-        ("# sleec: allow ded-hedge because x", "did you mean dead-hedge?"),
+        ("# sleec: allow SLEEC22 because x", "did you mean `SLEEC"),
+        ("# sleec: allow ded-hedge because x", "did you mean `dead-hedge`?"),
     ],
 )
 def test_suppressions_that_are_none(cli: Cli, repository: Repository, comment: str, message: str) -> None:
