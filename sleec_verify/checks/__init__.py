@@ -11,7 +11,6 @@ from time import perf_counter
 from sleec_runtime.model import Ruleset
 from sleec_verify.checks.assumptions import ASSUMPTIONS
 from sleec_verify.checks.base import Check, FindingKind
-from sleec_verify.checks.causes import Enough
 from sleec_verify.checks.claims import CONCERN, PURPOSE
 from sleec_verify.checks.conflict import CONFLICT
 from sleec_verify.checks.confusable import CONFUSABLE
@@ -25,6 +24,7 @@ from sleec_verify.checks.redundant import REDUNDANT_HEDGE, REDUNDANT_RULE
 from sleec_verify.checks.text import EMPTY_HEDGE, PHRASE_KEYWORD, TRIGGER_OBLIGATION, UNUSED_NAME
 from sleec_verify.checks.text_defects import DEFECTS
 from sleec_verify.checks.unknown_events import STRAY_EVENT
+from sleec_verify.checks.untimed_conflicts import Enough
 from sleec_verify.checks.vacuous import VACUOUS_CONFLICT
 from sleec_verify.checks.windows import BARE_PROHIBITION, ZERO_WINDOW
 from sleec_verify.encoding.budget import Undecided, for_file, share

@@ -1,7 +1,7 @@
 """Situations in which not all obligations can be met: every distinct cause, each with a smallest situation.
 
-Rules without time, relations and chains are checked on situations (`sleec_verify.checks.causes`), the others on
-traces (`sleec_verify.traces.conflicts`). Both yield the same kind of finding in the same words.
+Rules without time, relations and chains are checked on situations (`checks.untimed_conflicts`), the others on
+traces (`traces.conflicts`). Both yield the same kind of finding in the same words.
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.model import Formula, Obligation, Rule, Span, literals
 from sleec_verify.checks.base import Check, FindingKind, clause_at
-from sleec_verify.checks.causes import Cause, Enough, causes
 from sleec_verify.checks.conflict_wording import exclusion, help_for, sides_in_words, subject
 from sleec_verify.checks.questions import ask_each
 from sleec_verify.checks.relevant_rules import kind_of, relation_in_words
+from sleec_verify.checks.untimed_conflicts import Cause, Enough, causes
 from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.query.inconsistent_sets import InconsistentSet, InconsistentSets, opposite
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex

@@ -6,7 +6,7 @@ import pytest
 
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context, Obligation
-from sleec_verify.checks import causes, run_checks
+from sleec_verify.checks import run_checks
 from sleec_verify.encoding import solver
 from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.entailment.entailment import entail
@@ -93,8 +93,8 @@ def test_a_witness_that_does_not_replay_is_never_shown(monkeypatch):
 
 
 def test_a_long_list_of_conflicts_says_that_it_is_cut(monkeypatch):
-    monkeypatch.setattr(causes, "MOST", 2)
-    monkeypatch.setattr(causes, "MOST_PER_RULE", 0)
+    monkeypatch.setattr("sleec_verify.checks.untimed_conflicts.MOST", 2)
+    monkeypatch.setattr("sleec_verify.checks.untimed_conflicts.MOST_PER_RULE", 0)
     (result,) = run_checks(parse("WHEN t THEN o\n" + "WHEN t THEN NOT o\n" * 5), ["conflict"])
     assert isinstance(result.verdict, Refuted)
     assert len(result.findings) == 2

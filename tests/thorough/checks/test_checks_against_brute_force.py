@@ -165,7 +165,7 @@ def test_constraints_as_large_ones_are_asked_about(check):
     def compare(ruleset):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr("sleec_verify.query.prime_implicates.MOST_LISTED", 1)
-            patch.setattr("sleec_verify.checks.causes.MANY_WAYS", 1)
+            patch.setattr("sleec_verify.checks.untimed_conflicts.MANY_WAYS", 1)
             check(ruleset)
 
     compare()
