@@ -8,12 +8,12 @@ situation. If there is none, the facts that no history produces are excluded.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import cached_property
 from typing import NamedTuple
 
 from sleec_runtime.model import Rule
-from sleec_verify.encoding.budget import OutOfBudget, Undecided
+from sleec_verify.encoding.budget import OutOfBudget, Undecided, share
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import drop_slots, minimal_rules, weakest_facts
 from sleec_verify.traces.event_conditions import event_of, is_of_state, named_atoms
@@ -108,19 +108,30 @@ class ConflictSearch:
 
     def _find_hidden(self) -> None:
         """Look for the conflicts whose rules contain those of another one, but with other pairs."""
-        self._situations.refine_exclusions()
+        search = ConflictSearch(self._index)
+        for conflict in self._found:
+            search.exclude(conflict, conflict.forced)
         try:
-            for _ in range(MOST_HIDDEN):
-                if not self._refinement.propose(copies=0):
-                    return
-                self._examine()
+            with share(1 / 4):
+                for _ in range(MOST_HIDDEN):
+                    if not search._refinement.propose(copies=0):
+                        break
+                    search._examine(hidden=True)
+                else:
+                    self.may_be_more = True
         except Undecided:
-            pass
-        self._undecided.clear()
-        self.may_be_more = True
+            self.may_be_more = True
+        self.may_be_more |= bool(search._undecided)
+        self._found += search._found
 
-    def _examine(self) -> None:
-        """Record the conflict in the proposed situation, if there is one."""
+    def exclude(self, conflict: Conflict, forced: Collection[str]) -> None:
+        """Exclude the situations of a conflict. A rule of `forced` counts even if it is not triggered now."""
+        pairs = ((pair.rule, None if pair.clause == LATER else pair.clause) for pair in conflict.pairs)
+        self._situations.exclude_pairs(pairs, forced)
+
+    def _examine(self, hidden: bool = False) -> None:
+        """Note the conflict in the situation proposed, unless that is none. Not `hidden`: exclude also the situations
+        in which its rules are not triggered now, which may hide conflicts with more rules."""
         try:
             conflict = self._look()
         except Undecided as error:
@@ -128,9 +139,7 @@ class ConflictSearch:
             return
         if conflict is not None:
             self._found.append(conflict)
-            self._situations.exclude_pairs(
-                ((pair.rule, None if pair.clause == LATER else pair.clause) for pair in conflict.pairs), conflict.forced
-            )
+            self.exclude(conflict, conflict.forced if hidden else conflict.rules)
 
     def _leave_open(self, error: Undecided) -> None:
         """Continue without the situations that have the rules, inputs and slots of the undecided one."""

@@ -65,11 +65,6 @@ class Situations:
         for law, active, node in self.lasting.values():
             self._pending_since(node, active, None if law.duration is None else last_second(law.duration))
         self._present: dict[tuple[str, int, bool], int] = {}
-        self.coarse: int | None = None
-        """A literal of the exclusions while `is_coarse`, when there are any."""
-        self.is_coarse = True
-        """Whether more situations are excluded than those of the conflicts that were found."""
-        self._excluded: list[tuple[list[tuple[str, int | None]], Collection[str]]] = []
         self.slots: list[Slot] = []
         self.several: list[Pending] = []
         """Responses of which a history can leave several demands, none of which implies the others."""
@@ -210,23 +205,9 @@ class Situations:
         """No further situation has all these rules, with their clauses that decide now or decided what is pending; None
         is any.
 
-        A rule of `forced`, and while `is_coarse` any rule, counts wherever its clause decides if the rule is triggered
-        now, even if it is not.
+        A rule of `forced` counts wherever its clause decides if the rule is triggered now, even if it is not.
         """
-        chosen = list(pairs)
-        if self.is_coarse:
-            if self.coarse is None:
-                self.coarse = self.formula.fresh()
-            self.add([-self.coarse, *(-self._present_literal(label, number, True) for label, number in chosen)])
-            self._excluded.append((chosen, forced))
-        else:
-            self.add([-self._present_literal(label, number, label in forced) for label, number in chosen])
-
-    def refine_exclusions(self) -> None:
-        """Exclude no more situations than those with the same rules triggered."""
-        self.is_coarse = False
-        for chosen, forced in self._excluded:
-            self.exclude_pairs(chosen, forced)
+        self.add([-self._present_literal(label, number, label in forced) for label, number in pairs])
 
     def _present_literal(self, label: str, number: int | None, forced: bool) -> int:
         selected = self.selected[label]
@@ -272,7 +253,6 @@ class Situations:
 
     def find(self, *assumed: int) -> bool:
         """Whether a situation is left, in which all these literals are true."""
-        assumed = (*assumed, self.coarse) if self.is_coarse and self.coarse is not None else assumed
         while True:
             self.instant.settle()
             self._solver.add(self.formula.clauses[self._sent :])
