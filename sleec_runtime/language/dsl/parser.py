@@ -111,7 +111,10 @@ class DslParser(DslRuleParser):
                 inside = kind == "def_start"
                 if inside and self.kinds[token + 1] not in ITEM_STARTS:
                     self.at = token + 1
-                    defined[token + 1] = self._read(self._refuse_definition, ""), self.at
+                    self._read(self._refuse_definition, "")
+                    # A keyword that is corrected in place is read as such.
+                    if self.at > token + 1:
+                        defined[token + 1] = None, self.at
             elif inside and kind in DEFINITIONS:
                 self.at = token
                 statement = self._read(self.definition, DEFINITION_END)

@@ -158,3 +158,10 @@ def test_names_of_rules_and_claims_have_no_colon():
         (17, "the concern in line 17 has no name"),
         (17, "the purpose in line 17 has no name"),
     ]
+
+
+def test_an_end_of_block_with_a_typo_instead_of_the_first_definition_is_corrected():
+    assert problems_of("def_start\n  deff_end\nrule_start\nR1 when A then A\nrule_end")[0] == (
+        2,
+        "`deff_end` is not a keyword; did you mean `def_end`?",
+    )
