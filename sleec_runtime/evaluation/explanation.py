@@ -31,9 +31,9 @@ def outcome_in_words(rule: Rule, outcome: Decision | None, context: Context) -> 
 
 def decision_in_words(decision: Decision, context: Context) -> str:
     """The active clause, its obligations, and the conditions that decided it, with their values."""
-    clause = "the default" if decision.layer is None else f"hedge {decision.layer}"
+    clause = "the default response" if decision.layer is None else f"exception {decision.layer}"
     what = ", ".join(map(str, decision.obligations)) or "nothing"
-    lines = [f"{decision.rule.label}: {clause} obliges {what}"]
+    lines = [f"{decision.rule.label}: {clause} requires {what}"]
     lines += [f"  {_step(step, context)}" for step in decision.steps]
     return "\n".join(lines)
 

@@ -1,7 +1,7 @@
 """The violations of a trace: which rules, constraints and relations it breaks, and when.
 
-A trace is evaluated as it stands, by recursion over the rules (docs/dsl.md defines their meaning), without compilation
-and search. The verifier replays each timed witness here before it shows it.
+A trace is evaluated directly, by recursion over the rules, without compilation or search. docs/times.md defines the
+meaning of the rules. The verifier replays each timed witness here before it shows it.
 
 The trigger and the obligation of one name are one event here, which happens or does not. All statements count; for
 rules with domains, pass the result of `Ruleset.in_domain`.
@@ -74,10 +74,10 @@ def violations_so_far(
 ) -> tuple[Violation, ...]:
     """The violations of `history` that no continuation can avoid. Its last instant is now, when more events may occur.
 
-    A statement is violated at an instant if no further events of now and no later instants satisfy it there. A guard or
-    hedge that names an event is decided by the events of the history. Statements are evaluated separately, so that a
-    contradiction between two of them is not a violation. The responses of the rule `apart` at now are evaluated
-    separately, too. Raises WrongType as `violations`.
+    A statement is violated at an instant if no further events of now and no later instants satisfy it there. If
+    a guard or hedge names an event, every case of further events of now is evaluated. Statements are evaluated
+    separately, so that a contradiction between two of them is not a violation. The responses of the rule `apart` at now
+    are evaluated separately, too. Raises WrongType as `violations`.
     """
     return tuple(_TraceEvaluation(ruleset, history.instants, untimed, goes_on=True, apart=apart).violations())
 

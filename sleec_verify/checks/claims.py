@@ -39,7 +39,7 @@ def _concerns(index: RulesetIndex) -> Iterator[Finding]:
             help="add a rule that prevents it, or an exception to the rule that causes it",
         )
 
-    yield from ask_each(((claim.label, claim) for claim in claims(index.ruleset, "concern")), of)
+    yield from ask_each(((quoted(claim.label), claim) for claim in claims(index.ruleset, "concern")), of)
 
 
 def _purposes(index: RulesetIndex) -> Iterator[Finding]:
@@ -65,7 +65,7 @@ def _purposes(index: RulesetIndex) -> Iterator[Finding]:
             help="add an exception for this case to the rules that block it, or remove the purpose",
         )
 
-    yield from ask_each(((claim.label, claim) for claim in claims(index.ruleset, "purpose")), of)
+    yield from ask_each(((quoted(claim.label), claim) for claim in claims(index.ruleset, "purpose")), of)
 
 
 _EVENTS = "def_start\n  event UserCalls\n  event Answer\n  event Ring\n  measure asleep: boolean\ndef_end\n"

@@ -40,7 +40,7 @@ def _conflicts(index: RulesetIndex) -> Iterator[Finding]:
     # A component of these rules without windows is about situations, too.
     found = [component for component in components(traces) if needs_traces(component)]
     rest = without(index, (rule for component in found for rule in component.rules), ())
-    named = [(listed(rule.label for rule in component.rules), component) for component in found]
+    named = [(listed(quoted(rule.label) for rule in component.rules), component) for component in found]
 
     incomplete: list[str] = []
 

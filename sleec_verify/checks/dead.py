@@ -177,9 +177,9 @@ DEAD_RULE = Check(
             "SLEEC201",
             "warning",
             "a rule that never applies",
-            "The condition of the rule can never be true, or an assumption says that its trigger never occurs. The "
-            "rule looks like a protection but protects nobody.",
-            "Correct the condition or the assumption, or remove the rule.",
+            "The restriction of the rule (`AND` after `WHEN`) can never be true, or an assumption says that its "
+            "trigger never occurs. The rule looks like a protection but protects nobody.",
+            "Correct the restriction or the assumption, or remove the rule.",
             "MEASURE UserAge: number\nWHEN UserCalls AND UserAge < 18 AND UserAge > 65 THEN Answer\n",
             "MEASURE UserAge: number\nWHEN UserCalls AND (UserAge < 18 OR UserAge > 65) THEN Answer\n",
         ),

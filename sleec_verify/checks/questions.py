@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 from sleec_verify.encoding.budget import Undecided, begin, share
 from sleec_verify.query.rule_shape import shape_at
 from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import quoted
 from sleec_verify.traces.partition import partition_of
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ def ask_each_shape(
         for label, position in index.labelled():
             key = shape_of(position)
             if key is None or key not in nothing_found:
-                yield label, position
+                yield quoted(label), position
 
     return ask_each(asked(), of)
 

@@ -36,7 +36,7 @@ def _readings(index: RulesetIndex) -> Iterator[Finding]:
             if parted is not None:
                 yield _finding(index, position, parted)
 
-    yield from ask_each(index.labelled(), of)
+    yield from ask_each(((quoted(label), position) for label, position in index.labelled()), of)
 
 
 class _Parted(NamedTuple):
@@ -193,10 +193,10 @@ READING = Check(
             "SLEEC401",
             "warning",
             "a rule whose meaning depends on the reading",
-            "There are two ways to read several exceptions. `cascade` stops at the first exception whose condition is "
-            "false. `priority` takes the last exception whose condition is true. If a later condition can be true "
-            "while an earlier one is false, the two readings can require different things, and another tool may read "
-            "this rule differently.",
+            "There are two ways to read several exceptions. `cascade` applies the last exception before the first "
+            "false condition. `priority` applies the last exception whose condition is true. If a later "
+            "condition can be true while an earlier one is false, the two readings can require different things, and "
+            "another tool may read this rule differently.",
             "Write the rule so that both readings agree. For example, repeat the condition of each exception in the "
             "next one. `sleec-verify convert --to english --reading …` does this for you.",
             "WHEN HumanOnFloor THEN CallEmergencyServices\n"

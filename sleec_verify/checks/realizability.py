@@ -61,7 +61,7 @@ _EVENTS = "def_start\n  event SmokeDetected\n  event NightBegins\n  event SoundA
 
 REALIZABILITY = Check(
     "realizability",
-    "Can the robot always follow the rules, whatever the environment does?",
+    "Can the robot always follow the rules, for up to N acts of the environment?",
     (
         FindingKind(
             "SLEEC106",
@@ -69,8 +69,8 @@ REALIZABILITY = Check(
             "rules that the robot cannot always follow",
             "After each act of the environment, the robot can act immediately and plan further acts. Here the "
             "environment has a strategy: whatever the robot does and plans, in the end it cannot follow every rule. "
-            "The finding shows the strategy act by act. This check runs only on request: `check --realizable N`, for "
-            "an environment that acts at most N times.",
+            "The finding shows the strategy act by act. This check runs only on request, for up to N acts of the "
+            "environment: `check --realizable N`.",
             "Choose which rule wins if both apply, and add an UNLESS to the other. Often it is enough to give the "
             "robot more time, or to shorten a prohibition. If the environment never acts like this, exclude it with a "
             "RELATION.",

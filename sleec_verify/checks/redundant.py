@@ -65,7 +65,7 @@ def _rules_in_traces(traces: TraceIndex) -> Iterator[Finding]:
             note=f"a robot that follows {listed(others)} follows it, too" if others else "nothing can break it",
         )
 
-    yield from ask_each(((rule.label, rule) for rule in traces.rules), of)
+    yield from ask_each(((quoted(rule.label), rule) for rule in traces.rules), of)
 
 
 def _rules_in_situations(index: RulesetIndex) -> Iterator[Finding]:
@@ -242,7 +242,7 @@ REDUNDANT_RULE = Check(
             "warning",
             "a rule without effect",
             "Other rules require everything that this rule requires, in the same situations. If you later change only "
-            "one of two rules that say the same, they differ.",
+            "one of two equal rules, they can start to contradict each other.",
             "Remove the rule. If two rules are reported because each makes the other redundant, keep one of them.",
             "RULE answer\nWHEN UserCalls THEN Answer\nRULE answer_kindly\nWHEN UserCalls THEN Answer AND Smile\n",
             "RULE answer_kindly\nWHEN UserCalls THEN Answer AND Smile\n",

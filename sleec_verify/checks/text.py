@@ -152,7 +152,7 @@ UNUSED_NAME = Check(
             "note",
             "a constraint on something that no rule requires or forbids",
             "An EXCLUSIVE or NEVER names an obligation that no rule requires or forbids. It has an effect only if "
-            "another constraint names it, too.",
+            "another constraint names the obligation, too.",
             "Usually the rules spell the name differently: use one spelling. Otherwise remove the name from the "
             "constraint.",
             "EXCLUSIVE Answer, StayQuiet\nWHEN UserCalls THEN Answer\nWHEN UserSleeps THEN StaySilent\n",

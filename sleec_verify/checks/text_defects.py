@@ -26,8 +26,9 @@ DEFECTS = Check(
             "SLEEC506",
             "error",
             "a label that two rules share",
-            "Tools identify a rule by its label, and some keep only the last rule with a label. sleec-verify keeps "
-            "both, and calls the second one label#2. The same holds for the labels of concerns and purposes.",
+            "Tools identify a rule by its label, and some keep only the last rule with a label. In the DSL, "
+            "sleec-verify keeps both, and calls the second one label#2. The same holds for the labels of concerns and "
+            "purposes. Structured English with such a label is rejected.",
             "Give each rule its own label.",
             _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nR1 when Answer then Wait\nrule_end\n",
             _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nR2 when Answer then Wait\nrule_end\n",
@@ -36,8 +37,9 @@ DEFECTS = Check(
             "SLEEC507",
             "error",
             "a value of another scale",
-            "A measure is compared with a value that is not on its scale. Tools that keep the values of all scales in "
-            "one table use the position of the value on its own scale, which is probably not what you mean.",
+            "In the DSL, a measure is compared with a value that is not on its scale. Tools that keep the values "
+            "of all scales in one table use the position of the value on its own scale. This is probably not what you "
+            "mean.",
             "Use a value of the measure's own scale.",
             _DEFINED + "measure noise: scale(quiet, loud)\ndef_end\nrule_start\n"
             "R1 when Called and ({noise} = high) then Answer\nrule_end\n",
@@ -48,9 +50,10 @@ DEFECTS = Check(
             "SLEEC508",
             "error",
             "a scale that is compared with a number",
-            "Tools that store the values of a scale as numbers accept this comparison: the number stands for the "
-            "value at that position, counted from 0. If there is no such position, the comparison is always true or "
-            "always false. sleec-verify does the same.",
+            "In the DSL, a scale is compared with a number. Tools that store the values of a scale as numbers accept "
+            "this: the number means the value at that position, counted from 0. If there is no such position, the "
+            "comparison is always true or always false. sleec-verify evaluates it in the same way, and reports this "
+            "error.",
             "Write the name of the value that you mean.",
             _DEFINED + "constant LIMIT = 20\ndef_end\nrule_start\n"
             "R1 when Called and ({risk} > LIMIT) then Answer\nrule_end\n",
@@ -60,8 +63,9 @@ DEFECTS = Check(
             "SLEEC519",
             "error",
             "a definition that is repeated",
-            "An event, a measure or a constant is defined twice in the same way. The second definition has no effect, "
-            "but some tools reject the text. Two different definitions of one name are an error.",
+            "In the DSL, an event, a measure or a constant is defined twice in the same way. The second definition has "
+            "no effect, but some tools reject the text. sleec-verify rejects a text with two different definitions of "
+            "one name.",
             "Delete one of the two definitions.",
             _DEFINED + "event Called\ndef_end\nrule_start\nR1 when Called then Answer\nrule_end\n",
             _DEFINED + "def_end\nrule_start\nR1 when Called then Answer\nrule_end\n",

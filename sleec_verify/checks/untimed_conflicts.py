@@ -18,7 +18,7 @@ from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Witness
-from sleec_verify.results.phrases import listed
+from sleec_verify.results.phrases import listed, quoted
 
 MOST, MOST_PER_RULE = 1_000, 3
 """The maximal number of causes that are listed: this number, plus more for each rule. Contradicting clauses
@@ -78,7 +78,7 @@ def _candidates(index: RulesetIndex) -> Iterator[tuple[str, tuple[Cause, Inconsi
             continue
         for cause in _covers(index, clash):
             rules = dict.fromkeys(index.rules[place.rule].label for place in cause)
-            yield listed(rules) if rules else "the constraints", (cause, clash)
+            yield listed(map(quoted, rules)) if rules else "the constraints", (cause, clash)
 
 
 def _all_due(index: RulesetIndex, clash: InconsistentSet) -> bool:

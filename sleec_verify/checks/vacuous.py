@@ -73,7 +73,7 @@ def _in_traces(index: RulesetIndex, traces: TraceIndex) -> Iterator[Finding]:
             "with",
         )
 
-    yield from ask_each(((rule.label, rule) for rule in traces.rules), of)
+    yield from ask_each(((quoted(rule.label), rule) for rule in traces.rules), of)
 
 
 def _alone(traces: TraceIndex, rule: Rule) -> str:
@@ -94,8 +94,8 @@ def _is_triggered_by_itself(index: RulesetIndex, rule: Rule) -> bool:
 
 
 def _by_trigger(index: RulesetIndex) -> Iterator[tuple[str, int]]:
-    """The label of each rule, with its position, grouped by trigger."""
-    return ((index.rules[position].label, position) for same in index.by_trigger.values() for position in same)
+    """The quoted label of each rule, with its position, grouped by trigger."""
+    return ((quoted(index.rules[position].label), position) for same in index.by_trigger.values() for position in same)
 
 
 def _finding(index: RulesetIndex, position: int, others: Sequence[int]) -> Finding:

@@ -83,8 +83,8 @@ ZERO_WINDOW = Check(
             "SLEEC513",
             "note",
             "a window without length",
-            "A response within 0 minutes is required at the instant of the trigger, like a response without a window. "
-            "A relation for 0 minutes has no effect. The number, or the constant that gives it, is probably wrong.",
+            "A response within 0 minutes is required at the instant of the trigger. A relation for 0 minutes has no "
+            "effect. The number, or the constant that gives it, is probably wrong.",
             "Write the length that you mean, or remove the window.",
             _DEFINED + "R1 when Called then Answer within 0 minutes\nrule_end\n",
             _DEFINED + "R1 when Called then Answer within 1 minute\nrule_end\n",
@@ -103,7 +103,7 @@ BARE_PROHIBITION = Check(
             "note",
             "a prohibition without a window, in SLEEC-TK's dialect",
             "SLEEC-TK rejects `not` without a window. sleec-verify reads it as LEGOS-SLEEC does: the event is "
-            "forbidden at the instant of the trigger, and allowed a second later. This is rarely what you mean.",
+            "forbidden only at that instant, and allowed a second later. This is rarely what you mean.",
             "Give a duration: `not E within 1 hour`.",
             _DEFINED + "R1 when Called and asleep then not Answer\nrule_end\n",
             _DEFINED + "R1 when Called and asleep then not Answer within 1 hour\nrule_end\n",

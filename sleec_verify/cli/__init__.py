@@ -1,7 +1,7 @@
 """The command ``sleec-verify``.
 
-Exit codes: 0 all checks hold; 1 findings of at least ``--fail-level``; 2 invalid input or usage; 3 a check was
-inconclusive; 130 interrupted by Ctrl-C; 141 the reader closed the output, for example ``| head``.
+Exit codes: 0 no findings at or above ``--fail-level``; 1 findings at or above ``--fail-level``; 2 invalid input or
+usage; 3 a check was inconclusive; 130 interrupted by Ctrl-C; 141 the reader closed the output, for example ``| head``.
 """
 
 from __future__ import annotations

@@ -75,7 +75,7 @@ def command(
 
     --require-proved and --require-tied apply when the certificate is written and whenever it is verified.
 
-    The exit codes are those of `check`. Rejected certificates exit with 2.
+    The exit codes are the same as for `check`. If a certificate is rejected, the exit code is 2.
     """
     if (output is None) == (checked is None):
         raise click.UsageError("use -o DIR to write a certificate, or --check DIR to verify one")

@@ -69,7 +69,7 @@ def command(
     watched: bool,
     timeout: float | None,
 ) -> int:
-    """Check rulesets: files, folders of *.sleec files, or - for standard input.
+    """Check rulesets. PATH is a file, a folder of *.sleec files, or - for standard input.
 
     Every check covers all situations. Findings show a smallest situation. `sleec-verify rules` lists all findings.
 

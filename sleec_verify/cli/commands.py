@@ -74,6 +74,6 @@ class _Lazy(click.Group):
 def sleec_verify() -> None:
     """Verify SLEEC rules for robots.
 
-    Exit codes: 0 all checks hold; 1 findings; 2 invalid input or usage; 3 a check was inconclusive;
-    130 interrupted (Ctrl-C); 141 the reader closed the output.
+    Exit codes: 0 no findings at or above --fail-level; 1 findings; 2 invalid input or usage; 3 a check was
+    inconclusive; 130 interrupted (Ctrl-C); 141 the reader closed the output.
     """

@@ -30,7 +30,7 @@ def command(path: str, form: str, domain: str | None, reading: Reading | None) -
     """Translate the rules in FILE (- for standard input) into classical logic.
 
     sympy and latex are for people: the guards and implications of Equation 1 of the paper. cnf, dimacs, smtlib and json
-    are for solvers: clauses of linear size, with a map from variables to names.
+    are for solvers: clauses, with a map from variables to names. The number of clauses grows linearly with the rules.
     """
     ruleset = one_ruleset(path, reading, domain)
     require_untimed(ruleset, "Equation 1")

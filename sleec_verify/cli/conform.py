@@ -40,8 +40,8 @@ def command(
     form: str,
     output: str | None,
 ) -> int:
-    """Check that the code in TARGET follows the rules: a Python file, a folder, the name of a module on sys.path, or -
-    for standard input. The code is read, but not imported or run.
+    """Check that the code in TARGET follows the rules. TARGET is a Python file, a folder, the name of a module on
+    sys.path, or - for standard input. The code is read, but not imported or run.
 
     Each rule needs a method with a variant for each clause. The variant must call the code of the obligations of its
     clause, in order. No other code may call these directly. Code that cannot be decided without running it is reported

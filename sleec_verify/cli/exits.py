@@ -1,4 +1,4 @@
-"""What the exit codes mean."""
+"""The exit codes and their meaning."""
 
 from __future__ import annotations
 
@@ -17,8 +17,11 @@ UNKNOWN = 3
 
 
 def code(results: Iterable[CheckResult], fail_level: Severity, ignored: str = "") -> int:
-    """The exit code of some results: whether there is a finding of at least the severity `fail_level`,
-    but for those with the code `ignored`."""
+    """The exit code of some results.
+
+    It depends on whether there is a finding of at least the severity `fail_level`. Findings with the code `ignored` do
+    not count.
+    """
     results = tuple(results)
     failing = SEVERITIES[: SEVERITIES.index(fail_level) + 1]
     findings = (finding for result in results for finding in result.findings)

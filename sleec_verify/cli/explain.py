@@ -25,7 +25,8 @@ def command(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Sco
     """Explain what the rules in FILE (- for standard input) require in one situation.
 
     For each triggered rule, the output says which response or exception applies, and because of which conditions.
-    Consequences of EXCLUSIVE and NEVER are listed separately: no rule requires them, so the robot does not act on them.
+    The output also lists what follows from EXCLUSIVE and NEVER. The robot executes only what rules require, and not
+    these consequences.
     """
     from sleec_verify.report.explanation import render
     from sleec_verify.report.palette import Palette

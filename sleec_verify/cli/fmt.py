@@ -61,8 +61,9 @@ def command(paths: tuple[str, ...], mode: str | None) -> int:
             _show(path, ruleset, laid_out, mode)
     if mode is not None:
         done = "changed" if mode == "write" else "to change"
-        more = f", {unusable} unusable" if unusable else ""
-        tell(f"{counted(len(found), 'file')}, {changed or 'none'} {done}{more}")
+        parts = [f"{each} {word}" for each, word in ((changed, done), (unusable, "unusable")) if each]
+        number = counted(len(found), "file")
+        tell(", ".join([number, *parts]) if parts else f"{number} {'is' if len(found) == 1 else 'are'} formatted")
     if unusable:
         return exits.UNUSABLE
     return exits.FINDINGS if changed and mode != "write" else exits.HOLDS

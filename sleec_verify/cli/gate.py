@@ -52,7 +52,9 @@ STEP_SUMMARY = "GITHUB_STEP_SUMMARY"
 )
 @options.untimed
 @click.option("--baseline", metavar="FILE", type=options.PATH, help="A file of known findings, which do not block.")
-@click.option("--write-baseline", is_flag=True, help="Only write all current findings to the baseline file.")
+@click.option(
+    "--write-baseline", is_flag=True, help="Write all current findings to the baseline file, and do nothing else."
+)
 @click.option(
     "--summary",
     metavar="FILE",
@@ -82,8 +84,15 @@ def command(
     output: str | None,
     no_cache: bool,
 ) -> int:
-    """Decide whether a change to the rules at or below PATH may be merged. The gate runs check, diff against the common
-    ancestor of the change and the base, assertions, conformance of the configured code, and clause coverage.
+    """Decide whether a change to the rules at or below PATH may be merged.
+
+    \b
+    The gate runs:
+    - check
+    - diff against the common ancestor of the change and the base
+    - the assertions
+    - conformance of the configured code
+    - clause coverage
 
     The policy is in [tool.sleec-verify] of pyproject.toml, or in sleec-verify.toml, in the version of the base.
 

@@ -30,8 +30,8 @@ def paths(several: bool) -> Callable[[_Command], _Command]:
 reading = click.option(
     "--reading",
     type=click.Choice(("cascade", "priority")),
-    help="Read several exceptions this way, whatever the file says: cascade stops at the first exception whose "
-    "condition is false, priority takes the last exception whose condition is true.",
+    help="Read several exceptions this way, whatever the file says: cascade applies the last exception before "
+    "the first false condition; priority applies the last exception whose condition is true.",
 )
 domain = click.option(
     "--domain", metavar="NAME", help="Use only the rules of this domain and the rules that apply everywhere."
@@ -41,7 +41,7 @@ untimed = click.option(
     type=click.Choice(("at", "eventually")),
     default="at",
     show_default=True,
-    help="In rules with time, a response without a window is required at the instant of its trigger (at, as in "
+    help="In rules with time, a response without a window is due at the instant of its trigger (at, as in "
     "LEGOS-SLEEC) or at any time from then on (eventually, as in SLEEC-TK).",
 )
 chains = click.option(
@@ -119,8 +119,8 @@ def _within(context: click.Context, parameter: click.Parameter, seconds: float |
 _TIMEOUT: dict[str, Any] = {
     "metavar": "SECONDS",
     "type": _Seconds(),
-    "help": "Stop after this time; checks that are not finished are unknown. Without this option, each file has a "
-    "limited number of steps, which is the same on every machine.",
+    "help": "Stop after this time; checks that are not finished are unknown. This limit replaces the default limit, "
+    "a number of steps for each file, which is the same on every machine.",
 }
 timeout = click.option("--timeout", callback=_within, expose_value=False, **_TIMEOUT)
 """The limit of a whole command."""

@@ -93,9 +93,9 @@ def witness_text(witness: Witness) -> str:
 
 
 def context_text(context: Context) -> str:
-    """``When `A` occurs, `C` is true (and nothing else holds)``"""
+    """``When `A` occurs, `C` is true (if nothing else holds)``"""
     occurs = f"When {occurring(sorted(context.triggers)) if context.triggers else 'nothing occurs'}"
-    return f"{', '.join([occurs, *given(context.conditions)])} (and nothing else holds)"
+    return f"{', '.join([occurs, *given(context.conditions)])} (if nothing else holds)"
 
 
 def occurring(triggers: Sequence[str]) -> str:

@@ -21,7 +21,7 @@ from sleec_verify.changes.gate.result import (
 from sleec_verify.checks import CHECKS
 from sleec_verify.results.deduplication import deduplicate
 from sleec_verify.results.finding import SEVERITIES, ClauseRef, Finding, Severity, Unknown
-from sleec_verify.results.phrases import in_short, listed
+from sleec_verify.results.phrases import in_short, listed, quoted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
@@ -186,7 +186,10 @@ def _lost(one: RulesetExamination, patterns: tuple[str, ...]) -> Iterator[Block]
     told = set()
     for change, obligation, way in by_obligation(one.difference.changes):
         if way == "removed" and any(fnmatchcase(str(obligation), pattern) for pattern in patterns):
-            what = f"{in_short(obligation)} is no longer required by {listed(change.rules)} in some situation"
+            one_rule = len(change.rules) == 1
+            rules = f"{'rule' if one_rule else 'rules'} {listed(map(quoted, change.rules))}"
+            verb = "requires" if one_rule else "require"
+            what = f"{rules} no longer {verb} {quoted(in_short(obligation))} in some situation"
             if what not in told:
                 told.add(what)
                 span, related, clauses = _places(change.after)

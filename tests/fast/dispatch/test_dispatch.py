@@ -186,7 +186,7 @@ def test_every_dispatch_says_which_rule_clause_and_conditions_decided() -> None:
     sleec.update({"g": True, "Age": 17.5})
     assert sleec.trigger("a").explain().splitlines() == [
         "a, in the context of change 1:",
-        "r1: hedge r1.hc1 obliges Help, NOT Leave",
+        "r1: exception r1.hc1 requires Help, NOT Leave",
         "  guard: g is true",
         "  clause 1: Age < LegalAge OR Ill is true (Age = 17.5, Ill = unreported)",
         "r2: nothing, because its guard is false",

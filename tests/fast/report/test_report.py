@@ -118,7 +118,7 @@ def test_situations_in_words() -> None:
         "When `a` and `b c` occur, `d` is false and `e` is 2 (whatever else holds)"
     )
     assert witness_text(Witness((), {"d": True})) == "When `d` is true (whatever else holds)"
-    assert context_text(Context(frozenset(), {})) == "When nothing occurs (and nothing else holds)"
+    assert context_text(Context(frozenset(), {})) == "When nothing occurs (if nothing else holds)"
 
 
 def test_lists() -> None:

@@ -157,7 +157,7 @@ def test_the_report_says_what_was_due_and_by_which_clause() -> None:
         check_conformance(make)
     assert str(caught.value).splitlines() == [
         "executed, although not required, OpenCurtains",
-        "  situation: When `Request` occurs, `Undressed` is true (and nothing else holds)",
+        "  situation: When `Request` occurs, `Undressed` is true (if nothing else holds)",
         "  executed:  RefuseRequest, ExplainWhy, OpenCurtains",
         "  required:  RefuseRequest, ExplainWhy",
         "    by rule curtains, clause 1, layer curtains.hc1: RefuseRequest AND ExplainWhy",

@@ -122,9 +122,9 @@ def test_one_hard_question_does_not_hide_what_others_find(monkeypatch):
     text = f"RULE hard\nWHEN T AND {hard} THEN O\nWHEN T THEN NOT O\n"
     text += "RULE a\nWHEN A THEN B\nRULE b\nWHEN A THEN NOT B\nRULE dead\nWHEN A AND c AND NOT c THEN D\n"
     results = {one.name: one for one in run_checks(parse(text))}
-    assert reasons(results.values())["conflict"].startswith("hard and rule_2: ")
+    assert reasons(results.values())["conflict"].startswith("`hard` and `rule_2`: ")
     assert [finding.rules for finding in results["conflict"].findings] == [("a", "b")]
-    assert reasons(results.values())["dead-rule"].startswith("hard: ")
+    assert reasons(results.values())["dead-rule"].startswith("`hard`: ")
     assert [finding.rules for finding in results["dead-rule"].findings] == [("dead",)]
 
 
