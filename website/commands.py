@@ -55,9 +55,13 @@ def _context(command: click.Command) -> click.Context:
 
 
 def _text(command: click.Command) -> str:
-    """The paragraphs of the help text. Options, files and patterns become code."""
+    """The paragraphs of the help text. Options, files and patterns become code, lists stay lists."""
     paragraphs = re.split(r"\n\s*\n", (command.help or "").strip())
-    return "\n\n".join(_code(" ".join(paragraph.split())) for paragraph in paragraphs)
+    # Click keeps the lines of a paragraph that starts with a backspace.
+    return "\n\n".join(
+        _code(paragraph.replace("\b\n", "") if paragraph.startswith("\b") else " ".join(paragraph.split()))
+        for paragraph in paragraphs
+    )
 
 
 def _options(command: click.Command) -> str:

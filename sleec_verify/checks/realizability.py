@@ -31,7 +31,7 @@ def _losses(index: RulesetIndex, steps: int) -> Iterator[Finding]:
         try:
             loss = question()
         except Undecided as error:
-            named = [rule.label for rule in part]
+            named = [quoted(rule.label) for rule in part]
             unknown[f"{', '.join(named[:5])}{f' and {len(named) - 5:,} more' if named[5:] else ''}: {error}"] = None
             continue
         if loss is not None:

@@ -86,8 +86,9 @@ def command(
 ) -> int:
     """Decide whether a change to the rules at or below PATH may be merged.
 
-    \b
     The gate runs:
+
+    \b
     - check
     - diff against the common ancestor of the change and the base
     - the assertions
