@@ -246,7 +246,7 @@ def test_what_suffices_is_a_hint_and_no_more(oracle: Path) -> None:
 @pytest.mark.parametrize(
     ("body", "reason"),
     [
-        ("while read word rest; do case $word in rules) echo ok;; *) exit 0;; esac; done", "ended with 0"),
+        ("while read word rest; do case $word in rules) echo ok;; *) exit 0;; esac; done", "exited with 0"),
         ("read line; echo ok; exec sleep 30", "did not answer in 0.3 s"),
     ],
 )
@@ -273,6 +273,6 @@ def test_the_command_says_so(oracle: Path, tmp_path: Path, capsys: pytest.Captur
     capsys.readouterr()
     run(["certify", "--check", folder, str(rules)])
     said = capsys.readouterr().out
-    assert "dead-rule: 1 finding proved of the rules as they were read, by what is extracted from" in said
+    assert "dead-rule: 1 finding proved for the parsed rules, by the program extracted from" in said
     run(["certify", "--check", folder, str(rules), "--format", "json"])
     assert json.loads(capsys.readouterr().out)["theory"]["dead-rule"] == {"proved": True, "reason": None}
