@@ -146,7 +146,7 @@ def test_an_unknown_verdict_is_listed_as_such(tmp_path: Path, monkeypatch: pytes
     manifest = written(ruleset, tmp_path / "c")
     conflict = manifest["checks"][0]
     assert (conflict["verdict"], conflict["evidence"], conflict["files"]) == ("unknown", "none", [])
-    assert "more combinations" in conflict["reason"]
+    assert "too many combinations" in conflict["reason"]
     check_certificate(ruleset, str(tmp_path / "c"), IN_PYTHON)
 
 

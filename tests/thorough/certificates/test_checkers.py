@@ -223,9 +223,9 @@ def test_the_proved_checker_is_taken_where_it_is_built(monkeypatch: pytest.Monke
     ("script", "reason"),
     [
         ("echo REFUSED: no good; exit 1", "no good"),
-        ("echo VERIFIED; exit 3", "the checker ended with 3 and no verdict"),
-        ("echo VERIFIED twice", "the checker ended with 0 and no verdict"),
-        ("kill -9 $$", "the checker ended with -9 and no verdict"),
+        ("echo VERIFIED; exit 3", "the checker exited with 3 and without a verdict"),
+        ("echo VERIFIED twice", "the checker exited with 0 and without a verdict"),
+        ("kill -9 $$", "the checker exited with -9 and without a verdict"),
     ],
 )
 def test_only_a_clean_verdict_counts(script: str, reason: str, tmp_path: Path) -> None:
@@ -244,7 +244,7 @@ def test_a_checker_has_so_much_time(program: str | None, tmp_path: Path, monkeyp
         path.chmod(0o755)
         judge = checker(str(path))
     monkeypatch.setattr("sleec_verify.certificates.checker.MOST_SECONDS", 0.0)
-    assert judge.refuses(FORMULA.encode(), PROOF.encode()) == "it was not judged within 0 s"
+    assert judge.refuses(FORMULA.encode(), PROOF.encode()) == "it was not checked within 0 s"
 
 
 def test_a_checker_judges_the_bytes_that_it_is_given(tmp_path: Path) -> None:

@@ -112,7 +112,7 @@ def test_rules_with_time_are_checked_and_not_tested_one_by_one(run) -> None:
     text = "RULE a WHEN T THEN o WITHIN 5 minutes\nRULE b WHEN S THEN NOT o\n"
     result = run("-rs", "timed.sleec", timed_sleec=text)
     result.stdout.fnmatch_lines(
-        ["*timed.sleec:*error[[]SLEEC101]*", "*SKIPPED*rules with time are not tested one by one*"]
+        ["*timed.sleec:*error[[]SLEEC101]*", "*SKIPPED*rules with time have no tests for single rules*"]
     )
     assert result.parseoutcomes()["skipped"] == 2
     assert result.parseoutcomes()["failed"] == 1
@@ -138,7 +138,7 @@ def test_a_target_is_for_its_own_ruleset_only(run) -> None:
     ("target", "message"),
     [
         ("robot", "*the target 'robot' is invalid*"),
-        ("robot.py:nothing", "*is a int, which cannot be called*"),
+        ("robot.py:nothing", "*is a int, not a function*"),
         ("robot.py:none", "*the factory returned nothing, which is not a Sleec*"),
         ("robot.py:broken", "*raised RuntimeError: no arm*"),
         ("robot.py:absent", "*cannot be imported: AttributeError*"),
@@ -172,7 +172,7 @@ def test_cases_beside_a_ruleset(run) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("[[case]]", "[[cases]]", "*unknown key 'cases' (did you mean case?)*"),
+        ("[[case]]", "[[cases]]", "*unknown key 'cases' (did you mean `case`?)*"),
         ("prohibitions", "prohibition", "*unknown key 'prohibition' (did you mean prohibitions?)*"),
         ("[[case]]", "[[case", "*is no TOML*"),
         ("Undressed = true", "Undresed = true", "*case 1 (undressed): *Undresed*did you mean Undressed?*"),
