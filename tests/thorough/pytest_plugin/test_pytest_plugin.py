@@ -173,16 +173,16 @@ def test_cases_beside_a_ruleset(run) -> None:
     ("old", "new", "message"),
     [
         ("[[case]]", "[[cases]]", "*unknown key 'cases' (did you mean `case`?)*"),
-        ("prohibitions", "prohibition", "*unknown key 'prohibition' (did you mean prohibitions?)*"),
+        ("prohibitions", "prohibition", "*unknown key 'prohibition' (did you mean `prohibitions`?)*"),
         ("[[case]]", "[[case", "*is no TOML*"),
-        ("Undressed = true", "Undresed = true", "*case 1 (undressed): *Undresed*did you mean Undressed?*"),
-        ("Undressed = true", "Undressed = 1", "*Undressed is a condition, true or false*"),
+        ("Undressed = true", "Undresed = true", "*case 1 (undressed): *Undresed*did you mean `Undressed`?*"),
+        ("Undressed = true", "Undressed = 1", "*the condition `Undressed` must be true or false*"),
         ("Undressed = true", "Age = true", "*`Age` must be a number*"),
         ("Undressed = true", "Undressed = []", "*give true, false, a number*"),
-        ('["Request"]', '["Reqest"]', "*no trigger Reqest*did you mean Request?*"),
+        ('["Request"]', '["Reqest"]', "*no trigger is called `Reqest`*did you mean `Request`?*"),
         ('["Request"]', "3", "*when is 3*"),
-        ('"Refuse"]', '"Refuze"]', "*no obligation Refuze*did you mean Refuse?*"),
-        ('obligations = ["Explain", "Refuse"]', "", "*does not say what is due*"),
+        ('"Refuse"]', '"Refuze"]', "*no obligation is called `Refuze`*did you mean `Refuse`?*"),
+        ('obligations = ["Explain", "Refuse"]', "", "*does not say what is required*"),
         ('name = "undressed"', "name = 3", "*name is 3, not a text*"),
         ('name = "undressed"', 'domain = "ward"', "*no domain is called `ward`*"),
         ("\n[[case]]", '\nreading = "both"\n[[case]]', "*the reading is 'both'*"),
@@ -312,7 +312,7 @@ def test_coverage_with_xdist(run, pytester: pytest.Pytester) -> None:
 def test_fixtures_say_what_is_missing(run, pytester: pytest.Pytester) -> None:
     pytester.makepyfile(test_house=TESTS)
     result = run("test_house.py")
-    result.stdout.fnmatch_lines(["*there is no ruleset: say --sleec-ruleset FILE*"])
+    result.stdout.fnmatch_lines(["*no ruleset: use --sleec-ruleset FILE*"])
     result = run("test_house.py", "--sleec-target", "robot.py:broken")
     result.stdout.fnmatch_lines(["*no arm*"])
 
@@ -341,7 +341,7 @@ def test_a_threshold_is_a_percentage(run, pytester: pytest.Pytester, percent: st
     pytester.makepyfile(test_any="def test(): pass")
     for arguments in ([f"--sleec-cov-fail-under={percent}"], ["-o", f"sleec_cov_fail_under={percent}"]):
         result = run("test_any.py", *arguments)
-        result.stderr.fnmatch_lines([f"*sleec_cov_fail_under is '{percent}', and no number from 0 to 100*"])
+        result.stderr.fnmatch_lines([f"*sleec_cov_fail_under is '{percent}', not a number from 0 to 100*"])
         assert result.ret == pytest.ExitCode.USAGE_ERROR
 
 
