@@ -90,8 +90,8 @@ def certify(
             files[f"{name}.cnf"] = rebuilt.dimacs(name)
             files[f"{name}.lrat"] = formula.lrat()
     digests = {name: sha256(text.encode()).hexdigest() for name, text in files.items()}
-    told = untimed if speaks_of_traces(ruleset) else None
-    whole = manifest(ruleset, domain, told, chains, required, shown, digests)
+    meaning = untimed if speaks_of_traces(ruleset) else None
+    whole = manifest(ruleset, domain, meaning, chains, required, shown, digests)
     return Certificate(Use(ruleset.reading, domain, untimed, chains), required, tuple(shown), whole, files)
 
 

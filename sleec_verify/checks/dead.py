@@ -37,7 +37,7 @@ def _dead_rules(index: RulesetIndex) -> Iterator[Finding]:
 
 
 def _dead_hedges(index: RulesetIndex) -> Iterator[Finding]:
-    """A finding for each hedge that decides in no situation."""
+    """A finding for each hedge that never decides."""
     relations = [law for law in index.ruleset.statements if isinstance(law, RELATIONS)]
     if not relations:
         yield from _hedges_in_situations(index)

@@ -111,7 +111,7 @@ def _truths(found: Continuations, demand: Demand) -> dict[int, bool]:
 def _acts(found: Continuations) -> frozenset[str]:
     """The events of now that are neither inputs nor required at once by inputs or other events of now."""
     model, now = found.model, found.now
-    brought = {str(fact[1]) for fact in found.facts if fact[0] == "input" and fact[-1]}
+    occurring = {str(fact[1]) for fact in found.facts if fact[0] == "input" and fact[-1]}
     required = [
         (one.rule.trigger, what.event)
         for one in model.decided
@@ -121,7 +121,7 @@ def _acts(found: Continuations) -> frozenset[str]:
     ]
     grew = True
     while grew:
-        fresh = {event for trigger, event in required if trigger in brought} - brought
-        brought |= fresh
+        fresh = {event for trigger, event in required if trigger in occurring} - occurring
+        occurring |= fresh
         grew = bool(fresh)
-    return model.events(now) - brought
+    return model.events(now) - occurring

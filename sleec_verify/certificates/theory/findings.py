@@ -25,12 +25,12 @@ def questions(
 ) -> Iterator[str]:
     """What the oracle is asked about the findings of a check in one domain, whose rules `index` and `numbered` are
     about: whether one of them is false. Nothing, if it has none there."""
-    told = [FOUND[check](one, domain, index, numbered) for one in findings if not domain or domain in one.domains]
+    asked = [FOUND[check](one, domain, index, numbered) for one in findings if not domain or domain in one.domains]
     if check == "vacuous-conflict":
         # It passes over the rules that nothing triggers.
-        told += [_dead_rule(one, domain, index, numbered) for one in DEAD_RULE.run(index)]
-    for start in range(0, len(told), AT_ONCE):
-        part = told[start : start + AT_ONCE]
+        asked += [_dead_rule(one, domain, index, numbered) for one in DEAD_RULE.run(index)]
+    for start in range(0, len(asked), AT_ONCE):
+        part = asked[start : start + AT_ONCE]
         yield f"findings {len(part)} {' '.join(part)}"
 
 

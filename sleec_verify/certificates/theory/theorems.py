@@ -130,12 +130,12 @@ def _identifier(text: str) -> str:
 
 def _names(numbered: Numbering) -> list[str]:
     """A line of each kind of names, with their numbers."""
-    told = []
+    entries = []
     for kind, word in _WORDS.items():
         names = numbered.names[kind]
         if names:
-            told.append(f"{word}: {', '.join(f'{number}{_TIE}{name}' for number, name in enumerate(names, 1))}")
-    return [line for one in told for line in _comment(one)]
+            entries.append(f"{word}: {', '.join(f'{number}{_TIE}{name}' for number, name in enumerate(names, 1))}")
+    return [line for one in entries for line in _comment(one)]
 
 
 _TIE = "\N{WORD JOINER}"

@@ -68,12 +68,12 @@ def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed
         found = [_compared(Comparison(old.in_domain(one), new.in_domain(one), untimed), one) for one in domains]
     else:
         found = [_compared(whole, None)]
-    told = [one for each in found for one in each]
+    flat = [one for each in found for one in each]
     difference = shared._replace(
-        changes=_merged([one for one in told if isinstance(one, Change)]),
-        conflicts=_merged([one for one in told if isinstance(one, ConflictChange)]),
-        situations=_merged([one for one in told if isinstance(one, SituationChange)]),
-        undecided=tuple(dict.fromkeys((*shared.undecided, *(one for one in told if isinstance(one, Undecidable))))),
+        changes=_merged([one for one in flat if isinstance(one, Change)]),
+        conflicts=_merged([one for one in flat if isinstance(one, ConflictChange)]),
+        situations=_merged([one for one in flat if isinstance(one, SituationChange)]),
+        undecided=tuple(dict.fromkeys((*shared.undecided, *(one for one in flat if isinstance(one, Undecidable))))),
     )
     return difference._replace(rewritten=_rewritten(whole, difference))
 

@@ -183,15 +183,15 @@ def _new_conflicts(one: RulesetExamination) -> Iterator[Block]:
 def _lost(one: RulesetExamination, patterns: tuple[str, ...]) -> Iterator[Block]:
     if one.difference is None:
         return
-    told = set()
+    seen = set()
     for change, obligation, way in by_obligation(one.difference.changes):
         if way == "removed" and any(fnmatchcase(str(obligation), pattern) for pattern in patterns):
             one_rule = len(change.rules) == 1
             rules = f"{'rule' if one_rule else 'rules'} {listed(map(quoted, change.rules))}"
             verb = "requires" if one_rule else "require"
             what = f"{rules} no longer {verb} {quoted(in_short(obligation))} in some situation"
-            if what not in told:
-                told.add(what)
+            if what not in seen:
+                seen.add(what)
                 span, related, clauses = _places(change.after)
                 if not clauses and one.ruleset is not None:
                     span = _rule(one.ruleset, change.new_rule)

@@ -1,4 +1,4 @@
-"""`fmt` changes files only when it is asked to, whole or not at all. What it prints is in documents/good/fmt.txt."""
+"""`fmt` changes files only if it is asked to, and atomically. Its output is in documents/good/fmt.txt."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`-o FILE`: written whole or not at all; what it may not be is told before any work is done."""
+"""`-o FILE`: written atomically, and refused before any work is done if it cannot be written."""
 
 from __future__ import annotations
 

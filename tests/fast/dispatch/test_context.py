@@ -1,4 +1,4 @@
-"""Changes of context: whole or not at all, exact, and only the rules concerned are decided again."""
+"""Changes of context: atomic, exact, and only the affected rules are decided again."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Other rules while the robot runs: whole or not at all, with the same layers, code and context."""
+"""Other rules while the robot runs: replaced atomically, with the same layers, code and context."""
 
 from __future__ import annotations
 
