@@ -348,7 +348,7 @@ def test_a_threshold_is_a_percentage(run, pytester: pytest.Pytester, percent: st
 def test_a_threshold_is_not_met_by_using_no_rules(run, pytester: pytest.Pytester) -> None:
     pytester.makepyfile(test_any="def test(): pass")
     result = run("test_any.py", "--sleec-cov-fail-under", "50")
-    result.stdout.fnmatch_lines(["no ruleset was used", "FAIL: 50 % of all goals is asked for, and there are none"])
+    result.stdout.fnmatch_lines(["no ruleset was used", "FAIL: 50 % of all goals are required, but there are no goals"])
     assert result.ret == pytest.ExitCode.TESTS_FAILED
 
 
