@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from inspect import cleandoc
 
 import click
 
@@ -56,7 +57,7 @@ def _context(command: click.Command) -> click.Context:
 
 def _text(command: click.Command) -> str:
     """The paragraphs of the help text. Options, files and patterns become code, lists stay lists."""
-    paragraphs = re.split(r"\n\s*\n", (command.help or "").strip())
+    paragraphs = cleandoc(command.help or "").split("\n\n")
     # Click keeps the lines of a paragraph that starts with a backspace.
     return "\n\n".join(
         _code(paragraph.replace("\b\n", "") if paragraph.startswith("\b") else " ".join(paragraph.split()))
