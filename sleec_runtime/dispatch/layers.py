@@ -1,6 +1,6 @@
 """The layers of rules: one for each hedge clause (paper, Section 3.2).
 
-`layers`, `layered_methods` and `variants` are the boundary to ContextPy3. No other module knows its insides.
+`layers`, `layered_methods` and `variants` are the boundary to ContextPy3. No other module uses its internal interfaces.
 """
 
 from __future__ import annotations

@@ -39,10 +39,11 @@ class Method(NamedTuple):
 def mark(method: F, label: str, token: object, silent: bool) -> F:
     """Marks `method` as the one of rule `label`, for the instance with this `token`.
 
-    It returns the same object, a function or ContextPy3's layered method: ContextPy3 finds the earlier variants of a
-    method by its name in the class body, and must find its own object there. If the rule is `silent`, because a hedge
-    without obligations may have no variant, a function becomes a layered method at once: even a plain call of a bound
-    method that was taken from its object early must find the layer of that hedge.
+    It returns the same object, a function or ContextPy3's layered method. ContextPy3 finds the earlier variants of a
+    method by its name in the class body, and must find its own object there.
+
+    A rule is `silent` if it has a hedge without obligations, which needs no variant. Then a function becomes a layered
+    method immediately. So a plain call finds the layer of that hedge, even through a bound method that was read early.
     """
     if not isinstance(method, _METHODS):
         raise Unbindable(

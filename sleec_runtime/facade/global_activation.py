@@ -42,10 +42,14 @@ class GlobalActivation:
     def start(self) -> GlobalActivation:
         """Activates the layers of the current context, and renews them on each change. O(rules).
 
-        Raises UnsupportedTimes for rules with times; ConflictInContext (or UndeterminedDecision) if a trigger would
-        raise it in this context; Unbindable for a bound method that a plain call cannot dispatch; SleecError if global
-        activation is already on, or other code has activated one of the layers. Then nothing is activated. While it is
-        on, changes of context and bindings with these problems are rejected.
+        If this raises an error, nothing is activated. While global activation is on, changes of context and bindings
+        with these problems are rejected.
+
+        Raises:
+            UnsupportedTimes: the rules have times.
+            ConflictInContext, UndeterminedDecision: a trigger would raise it in this context.
+            Unbindable: a plain call cannot dispatch a bound method.
+            SleecError: global activation is already on, or other code has activated one of the layers.
         """
         self._sleec.hold(lambda snapshot: _GLOBAL_LAYERS.run(partial(self._start, snapshot)))
         return self

@@ -1,4 +1,4 @@
-"""The face of the runtime: a ruleset in force, with its context and code."""
+"""The facade of the runtime: a ruleset in force, with its context and code."""
 
 from __future__ import annotations
 
@@ -117,9 +117,12 @@ class Sleec(Host):
     def bind(self, *targets: object) -> None:
         """Binds the marked methods of objects, classes, modules or functions to their rules: all of them, or none.
 
-        The variants of a method are read now, so define them all before. Raises Unbindable if a target has no marked
-        method, if two variants are on one layer or a variant is on a layer of another rule, and, under global
-        activation, if a plain call cannot dispatch the method; AlreadyBound for a second method of a rule.
+        The variants of a method are read now, so define them all before.
+
+        Raises:
+            Unbindable: a target has no marked method, two variants are on one layer, or a variant is on a layer of
+                another rule. Under global activation, also if a plain call cannot dispatch the method.
+            AlreadyBound: a rule has a second method.
         """
         with self._instance.kept_on_failure():
             labels = self._instance.bind(targets, self.ruleset.rules if self.activated_globally else ())

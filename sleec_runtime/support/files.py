@@ -1,7 +1,7 @@
 """Reading of regular files, with a limit on their size.
 
-All files that users name are read here, so that no command waits forever on a pipe or a device, or runs out of memory
-on a huge file.
+This module reads all files that users name. So no command waits forever on a pipe or a device, and none runs out of
+memory on a huge file.
 """
 
 from __future__ import annotations

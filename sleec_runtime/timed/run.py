@@ -21,9 +21,9 @@ from sleec_runtime.timed.unit import Unit
 class Run:
     """Runs the units of admitted stages.
 
-    `errors` are the errors with the labels of their rules. `fulfilled` are the obligations, with the labels of their
-    rules, that need not start because another execution of the same event has fulfilled them: that of another thread,
-    of an inner trigger, or of another rule of this dispatch.
+    `errors` are the errors with the labels of their rules. `fulfilled` are the obligations that need not start, with
+    the labels of their rules. Another execution of the same event has fulfilled them: in another thread, in an inner
+    trigger, or for another rule of this dispatch.
     """
 
     def __init__(self, progress: Progress, stages: Sequence[Stage], now: Time) -> None:

@@ -24,7 +24,7 @@ class SimultaneousStarts:
         self._forbidden = forbidden
 
     def refuse(self, stages: Sequence[Stage], now: Time) -> None:
-        """Raises Prohibited if `stages` do what was forbidden at this time, or forbid what was done at this time."""
+        """Raises Prohibited if `stages` start a forbidden obligation, or forbid one that was done at this time."""
         for task in self._starting(stages, now):
             if task.name in self._forbidden:
                 by = self._forbidden[task.name]
@@ -36,7 +36,7 @@ class SimultaneousStarts:
                 raise prohibited(message, task.name, [task], since=self.at)
 
     def with_started(self, stages: Sequence[Stage], now: Time) -> SimultaneousStarts:
-        """The same, after `stages` have started."""
+        """Returns the simultaneous starts that also include those of `stages`."""
         done = {t.name for t in self._starting(stages, now) if t.name not in t.origin.instance.takes_time}
         forbidden = {task.name: task for task in self._forbidding(stages, now)}
         return SimultaneousStarts(self.at, self._done | done, {**self._forbidden, **forbidden})

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
 
 def _dead_rules(index: RulesetIndex) -> Iterator[Finding]:
-    """Unsatisfiable exactly when the rule is dead: some guard of the rule. A model is a situation that triggers it."""
+    """The disjunction of the guards of a rule. It is unsatisfiable if and only if the rule is dead. A model is a
+    situation that triggers the rule."""
 
     def of(position: int) -> Iterator[Finding]:
         rule = index.rules[position]
@@ -82,7 +83,8 @@ def places_of_hedges(rules: Iterable[Rule]) -> Iterator[tuple[str, tuple[Rule, i
 
 
 def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
-    """Unsatisfiable exactly when the hedge is dead: its guard. A model is a situation in which it decides."""
+    """The guard of a hedge. It is unsatisfiable if and only if the hedge is dead. A model is a situation in which the
+    hedge decides."""
 
     def of(position: int) -> Iterator[Finding]:
         rule, clauses = index.rules[position], index.clauses[position]

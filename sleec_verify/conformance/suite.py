@@ -159,7 +159,7 @@ def conformance_test(
 
 @contextmanager
 def _repeatable() -> Iterator[None]:
-    """A failure that Hypothesis could not repeat is still a failure, of a nondeterministic robot."""
+    """Report failures that do not repeat. An unrepeatable failure is still a failure."""
     from hypothesis.errors import Flaky
 
     try:

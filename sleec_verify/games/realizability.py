@@ -31,8 +31,8 @@ MOST_REPLIES = 6
 
 @dataclass(frozen=True)
 class Loss:
-    """A game that the environment wins: a minimal set of rules, the number of acts, and the strategy. `place` is that
-    of the first rule, or of a relation if there are no rules."""
+    """A game that the environment wins: a minimal set of rules, the number of acts, and the strategy. `place` is the
+    place of the first rule. If there are no rules, it is the place of a relation."""
 
     rules: tuple[Rule, ...]
     place: Span

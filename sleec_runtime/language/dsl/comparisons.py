@@ -105,7 +105,7 @@ class DslComparisons(DslAmounts):
         return found
 
     def _with_boolean(self, left: Side, right: Side) -> bool:
-        """Reports a boolean measure on either side; whether there is one."""
+        """Reports a boolean measure on either side. Returns whether there is one."""
         for side, other in ((left, right), (right, left)):
             if not isinstance(side.written, str) or self.kinds.get(side.written) != "boolean":
                 continue
@@ -180,7 +180,7 @@ class DslComparisons(DslAmounts):
         return ScaleValue(written, rank)
 
     def _stray(self, side: Side, other: Side) -> bool:
-        """Reports a value of a scale that is compared with something else; whether there is one."""
+        """Reports a value of a scale that is compared with something else. Returns whether there is one."""
         value = side.written
         if not isinstance(value, str) or value in self.kinds or value not in self._owners:
             return False

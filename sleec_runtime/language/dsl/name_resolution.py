@@ -96,7 +96,7 @@ class DslNames(SymbolTable):
         return f"no constant is called {quoted(name)}", did_you_mean(self.nearest(name, known))
 
     def label(self, label: str, span: Span) -> str:
-        """The label of a rule or claim. Other tools accept equal labels; here the second one becomes ``label#2``."""
+        """The label of a rule or claim. A repeated label is a defect; the second one becomes ``label#2``."""
         first, count = self._labels.get(label, (span, 0))
         self._labels[label] = first, count + 1
         if not count:
@@ -174,8 +174,8 @@ class DslNames(SymbolTable):
         return next((name for name, measure in self.measures.items() if measure.kind != "scale"), "temperature")
 
     def _without_definition(self, name: str, span: Span, what: str, kind: NameKind, definition: str) -> None:
-        """Reports a name that has no definition where it is used first, and counts the other uses. Where nothing is
-        defined, that is one problem, and none of any name."""
+        """Reports the first use of a name without a definition, and counts the other uses. If the text has no
+        definitions, this is one problem for the whole text."""
         if not self._defined:
             self._no_definitions()
             return
@@ -201,7 +201,7 @@ class DslNames(SymbolTable):
         )
 
     def count_uses(self) -> None:
-        """Adds to what is said of each name without a definition how often it is used, once all uses are known."""
+        """Adds the number of uses to the problem of each name without a definition."""
         for problem, uses in self._undefined.values():
             if uses > 1:
                 more = "1 more place" if uses == 2 else f"{uses - 1:,} more places"

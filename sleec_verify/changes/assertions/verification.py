@@ -1,4 +1,4 @@
-"""Whether an assertion holds of rules."""
+"""Checks assertions about rules."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ def verify(
 ) -> AssertionResult:
     """Whether the assertion holds for the rules in every situation, in every domain, or in `domain`.
 
-    Unsatisfiable exactly if it holds: the situation of the assertion, and every literal of a `never` obliged, or some
-    literal of an `always` not obliged by any rule. A model is a counterexample, and the evaluator replays the smallest
-    one.
+    The formula says that the situation of the assertion occurs, and that the rules violate it: they oblige every
+    literal of a `never`, or do not oblige some literal of an `always`. It is unsatisfiable if and only if the assertion
+    holds. A model is a counterexample. The evaluator replays the smallest one.
     """
     apart = next(_read_otherwise(ruleset, assertion, known), None) if known is not None else None
     if apart is not None:
@@ -52,7 +52,7 @@ def verify(
 
 
 def _read_otherwise(ruleset: Ruleset, assertion: Assertion, known: Vocabulary) -> Iterator[str]:
-    """The names of the assertion that have another meaning in these rules than in `known`, by which it was parsed."""
+    """Messages about names that differ between these rules and `known`, the vocabulary of the parsed assertion."""
     kinds = (
         ("a trigger", ruleset.triggers, known.triggers),
         ("a condition", ruleset.conditions, known.conditions),

@@ -1,4 +1,4 @@
-"""Responses with their alternatives, separated by the hedges in these: in each situation, one of them counts."""
+"""Removes the hedges in the alternatives of responses: one plain response for each group of situations."""
 
 from __future__ import annotations
 
@@ -13,8 +13,11 @@ from sleec_verify.encoding.trace_scope import Untimed
 
 
 def plain_responses(obligation: Obligation, reading: Reading, untimed: Untimed) -> Iterator[tuple[Formula, Obligation]]:
-    """Where what: the response with no hedges in what is due in its place, for each way in which these decide. Those
-    that ask for nothing are left out. As many as the product of the hedges."""
+    """The plain responses of an obligation, each with the formula for its situations.
+
+    The alternatives of a plain response have no hedges. Trivial responses are omitted. The number of responses is the
+    product of the numbers of clauses in the alternatives.
+    """
     for where, plain in _ways(obligation, reading):
         if plain is not None and not is_trivial(plain, untimed):
             yield where, plain
@@ -23,7 +26,7 @@ def plain_responses(obligation: Obligation, reading: Reading, untimed: Untimed) 
 def responses_in_situation(
     obligations: tuple[Obligation, ...], reading: Reading, untimed: Untimed, holds: Callable[[Formula], bool]
 ) -> tuple[Obligation, ...]:
-    """The responses as they are in one situation, where `holds` tells what is true."""
+    """The plain responses in one situation. `holds` evaluates formulas in it."""
     return tuple(o for one in obligations for where, o in plain_responses(one, reading, untimed) if holds(where))
 
 
@@ -42,7 +45,7 @@ def _ways(obligation: Obligation, reading: Reading) -> Iterator[tuple[Formula, O
 
 
 def _members(clause: Clause | None, reading: Reading) -> Iterator[tuple[Formula, Clause | None]]:
-    """The members of a separate chain without hedges, each with the situations in which it decides."""
+    """The clauses of the chain of an alternative, without hedges, each with the formula for its situations."""
     if clause is None:
         yield Truth(True), None
         return

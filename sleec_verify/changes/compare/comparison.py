@@ -1,8 +1,8 @@
 """Two rulesets in one domain, as formulas over the situations that both allow.
 
-A question about a rule concerns the rules of the triggers in the cone of its trigger. No other trigger needs to occur,
-and without it, its rules oblige nothing and conflict with nothing. So every difference appears in a situation in which
-nothing else occurs, and only these are searched.
+A question about a rule concerns the rules whose triggers are in the cone of its trigger. No other trigger needs to
+occur. If a trigger does not occur, its rules oblige nothing and conflict with nothing. So every difference appears in a
+situation without other triggers, and the search covers only these situations.
 """
 
 from __future__ import annotations
@@ -274,7 +274,7 @@ class Comparison:
 
 
 def none_of(conflicts: Iterable[Formula]) -> list[Formula]:
-    """That none of these comes true; nothing for those that never do."""
+    """The negations of these formulas, without those that are never true."""
     return [Not(formula) for formula in conflicts if formula != Truth(False)]
 
 

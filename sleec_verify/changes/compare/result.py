@@ -142,7 +142,7 @@ class Difference(NamedTuple):
 
 
 def relation(more: bool, less: bool, conflicts: bool, undecided: bool) -> Relation:
-    """The combined relation; "unknown" if an inconclusive comparison could change it."""
+    """The relation between the new and the old rules. It is "unknown" if an inconclusive comparison could change it."""
     if conflicts or (more and less):
         return "incomparable"
     if undecided:

@@ -1,8 +1,8 @@
 """The order of literals with windows: which of two requires more.
 
-"X within 5 minutes" requires more than "X within 10 minutes", and a prohibition requires less. So a literal counts as
-due if one is due that requires at least as much, and a longer window is laxer without a special case. With
-alternatives, a literal is a formula over timed occurrences, and requires more if it implies the other.
+"X within 5 minutes" requires more than "X within 10 minutes". For prohibitions, the longer window requires more. A
+literal counts as due if a stronger literal is due. So a longer window is laxer without a special case. With
+alternatives, a literal is a formula over timed occurrences. It is stronger if it implies the other.
 """
 
 from __future__ import annotations

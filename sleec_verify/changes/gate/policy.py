@@ -1,4 +1,4 @@
-"""Applies the policy: from findings to reasons to block."""
+"""Which findings block a change."""
 
 from __future__ import annotations
 

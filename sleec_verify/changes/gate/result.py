@@ -125,7 +125,7 @@ class GateResult:
 
     @property
     def status(self) -> Status:
-        """The status of the change: invalid input has priority over blocks, and blocks over unknown answers."""
+        """The status of the change. Invalid input comes before blocks, and blocks come before unknown answers."""
         if self.unusable:
             return "unusable"
         if self.blocks:

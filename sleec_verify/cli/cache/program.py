@@ -1,4 +1,4 @@
-"""What tells this program from another one of the same version."""
+"""The identity of the installed program, for the keys of the cache."""
 
 from __future__ import annotations
 
@@ -12,18 +12,17 @@ from sleec_verify import __version__
 
 
 def program_identity() -> str:
-    """The hashes that it was installed with, or, where
-    it runs from its sources, when these changed."""
+    """The hashes of the installed files. If the program runs from its sources, their times of change and sizes."""
     return ascii([_installed(package) or sorted(_stamps(package)) for package in _packages()])
 
 
 def _packages() -> list[str]:
-    """The folders of the packages that decide. They are two distributions and may lie apart."""
+    """The folders of both packages. They are two distributions, and may be in different places."""
     return [os.path.dirname(os.path.abspath(file)) for file in (sleec_runtime.__file__, sleec_verify.__file__)]
 
 
 def _installed(package: str) -> str | None:
-    """The hash of what the installer recorded of a package."""
+    """The hash of the record of an installed package. None if it was not installed."""
     try:
         with open(os.path.join(f"{package}-{__version__}.dist-info", "RECORD"), "rb") as file:
             return sha256(b"".join(line for line in file if line.startswith(b"sleec_"))).hexdigest()

@@ -59,7 +59,7 @@ class Flow(ABC):
 
     @abstractmethod
     def reference(self, node: ast.expr) -> None:
-        """A name or attribute that is spoken of, not called."""
+        """A name or attribute that is used, but not called."""
 
     @abstractmethod
     def nested(self, node: ast.stmt) -> None:
@@ -79,12 +79,12 @@ class Flow(ABC):
 
     @abstractmethod
     def outside(self, node: ast.expr) -> str | None:
-        """The dotted name of what an expression stands for, if that is not the target's."""
+        """The dotted name of the value of an expression, if the value is from outside the target."""
 
     # Statements -----------------------------------------------------------------------------------------
 
     def statements(self, body: Sequence[ast.stmt], why: str | None) -> int:
-        """Visits a block; says whether control leaves the function in it."""
+        """Visits a block. Returns whether control leaves the function in it."""
         leaves = STAYS
         for statement in body:
             how = self.statement(statement, why)

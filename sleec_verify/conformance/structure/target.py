@@ -146,7 +146,7 @@ def _module(name: str) -> Iterator[str]:
 
 
 def _shortest(path: str) -> str:
-    """A path as people would write it from where they are."""
+    """The path relative to the current folder, if it is below it."""
     try:
         relative = os.path.relpath(path)
     except ValueError:  # another drive
