@@ -1,6 +1,9 @@
-"""Certificates: what a check found, in a form that others can check without trusting what found it.
+"""Certificates: the results of a check with their evidence, which others can verify without trusting the solver.
 
-`recording` keeps the questions that were answered no; `refutation` makes one formula of them, which says that one of
-them has a model after all, and refutes it; `lrat` checks a refutation; `manifest` says what was found of which text;
-`directory` writes the whole, and `checking` checks it again from the text of the rules.
+- `recorder` keeps the unsatisfiable questions of a check.
+- `refutation` combines them into one formula and refutes it.
+- `lrat` checks a refutation.
+- `manifest` lists the results and their evidence.
+- `directory` writes the folder of a certificate.
+- `verification` verifies it from the text of the rules.
 """

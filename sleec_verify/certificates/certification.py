@@ -1,4 +1,4 @@
-"""Checking rules and keeping what shows each verdict."""
+"""Checks rules and keeps the evidence for each verdict."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ NOTHING_REQUIRED = Required()
 
 @dataclass(frozen=True)
 class CheckEvidence:
-    """A check's verdict, and the formulas whose refutations show it, by the names of their files."""
+    """The verdict of a check, and the formulas whose refutations prove it, by the names of their files."""
 
     result: CheckResult
     models: int
@@ -49,7 +49,7 @@ class CheckEvidence:
 
 @dataclass(frozen=True)
 class Certificate:
-    """What goes into the folder: the manifest, and every other file by its name. `use` is what it is for."""
+    """The content of the folder: the manifest, and every other file by its name. `use` is the use that it covers."""
 
     use: Use
     required: Required
@@ -78,9 +78,9 @@ def certify(
     required: Required = NOTHING_REQUIRED,
     chains: bool = True,
 ) -> Certificate:
-    """Run every check that there is for the ruleset, as `run_checks` does, and refute again, with a proof, what a
-    solver answered with no. A `domain` counts for rules that have any. That what is `required` is so is written here,
-    and decided by `check_certificate`."""
+    """Run every check of the ruleset, as `run_checks` does. Then refute the unsatisfiable questions again, with proofs.
+    `domain` applies to rules that have domains. `required` is written to the manifest; `check_certificate` decides
+    whether it holds."""
     if not ruleset.domains:
         domain = None
     shown, files = [], {}
@@ -103,8 +103,8 @@ def rebuild(
     examining: bool = False,
     chains: bool = True,
 ) -> Iterator[CheckEvidence]:
-    """The verdicts, computed from the text of the rules, with the formulas to be refuted. `examining` has every model
-    that a solver shows looked at."""
+    """The verdicts, computed from the text of the rules, with the formulas to refute. With `examining`, every model of
+    a solver is checked."""
     recorder = Recorder(examining)
     checking = Checking(ruleset, domain, untimed, recorder, chains=chains)
     for index in (checking.whole, *checking.by_domain.values()):
@@ -128,7 +128,7 @@ def rebuild(
 
 
 def _ask_what_is_possible(index: RulesetIndex) -> bool:
-    """Asked first, so that the question about assumptions is not part of the first check that needs it."""
+    """Whether any situation is possible. Asked first, so that it is not part of the first check that needs it."""
     return not index.assumptions or is_possible(index)
 
 
@@ -146,7 +146,7 @@ def _conflict(
 
 
 def _named(name: str, asked: list[RecordedQuestion], always: bool) -> dict[str, Disjunction]:
-    """The formulas by the names of their files. `always` where there must be one, though there was nothing to ask."""
+    """The formulas by the names of their files. With `always`, there is one even without questions."""
     if not asked and not always:
         return {}
     formulas = list(disjunctions(asked))

@@ -1,4 +1,4 @@
-"""Which checker judges refutations: the one that is proved in Coq, where it is built, or the one in Python."""
+"""Chooses the checker of refutations: the one that is proved in Coq if it is built, otherwise the one in Python."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from sleec_verify.certificates import lrat
 from sleec_verify.files.temporary import with_temporary
 
 BUILT = Path(__file__).parents[2] / "proofs" / "checker" / "check-lrat"
-"""Where `make -C proofs/checker` puts it, in a copy of the sources."""
+"""The path to which `make -C proofs/checker` writes it, in a copy of the sources."""
 
 MOST_SECONDS = 60.0
-"""How long a checker may take over one refutation."""
+"""The time limit of a checker for one refutation."""
 
 
 @dataclass(frozen=True)
 class Checker:
-    """`refuses` takes a formula (DIMACS) and its refutation (LRAT), and returns why it is none, or None. `name` says
-    who judges; `proved`, whether it is the one that is proved in Coq."""
+    """A checker of refutations. `refuses` takes a formula (DIMACS) and its refutation (LRAT), and returns the reason
+    for a rejection, or None. `name` is for messages. `proved` says whether it is proved in Coq."""
 
     name: str
     proved: bool
@@ -44,7 +44,7 @@ IN_PYTHON = Checker("sleec_verify.certificates.lrat, in Python", False, _in_pyth
 
 
 def checker(path: str | None = None) -> Checker:
-    """The checker at `path`; else the proved one, if it is built; else the one in Python.
+    """The checker at `path`. By default, the proved one if it is built, otherwise the one in Python.
 
     Raises SleecError if `path` is not a program.
     """
@@ -60,7 +60,7 @@ def checker(path: str | None = None) -> Checker:
 
 
 def judge_by_program(program: str, formula: bytes, proof: bytes) -> str | None:
-    """Why a checker does not accept a refutation; None if it does."""
+    """The reason why a checker rejects a refutation. None if it accepts it."""
 
     def run(folder: str) -> subprocess.CompletedProcess[str]:
         os.mkdir(folder, 0o700)

@@ -1,4 +1,4 @@
-"""The folder of a certificate: written atomically, and never in place of anything else."""
+"""Writes the folder of a certificate atomically. It never replaces anything but a certificate."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from sleec_verify.files.temporary import with_temporary
 
 
 class FolderExists(SleecError):
-    """Something is where the certificate is to be written."""
+    """The folder for the certificate already exists."""
 
 
 def check_free(folder: str, force: bool) -> None:
-    """Refuse to write where there is something: but for an empty folder, and with `force` another certificate.
+    """Checks that the folder can be written: it must not exist or be empty. With `force`, it may be a certificate.
 
-    Raises Occupied.
+    Raises FolderExists.
     """
     path = Path(folder)
     if not os.path.lexists(path):
@@ -51,9 +51,11 @@ def write_folder(
     force: bool,
     accept: Callable[[str], object] = lambda made: None,
 ) -> None:
-    """Write a certificate whole, or nothing: not if `accept`, given the folder that is to take its place, raises.
+    """Write a certificate atomically. `accept` gets the new folder first; if it raises an error, nothing is written.
 
-    Raises Occupied where there is something already, SleecError where it cannot be written.
+    Raises:
+        FolderExists: the folder already exists.
+        SleecError: the folder cannot be written.
     """
     check_free(folder, force)
     target = Path(os.path.abspath(folder))

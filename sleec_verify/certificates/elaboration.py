@@ -1,8 +1,8 @@
-"""From a solver's lemmas to a refutation that can be followed: each step with the clauses that it follows from.
+"""Elaborates a solver's lemmas (DRUP) into a refutation with hints (LRAT).
 
-A solver's proof (DRUP) only lists what it learnt. Each of its lemmas follows from what came before by unit propagation;
-here it is found again which clauses that takes, from the last lemma back, and what no answer rests on is dropped.
-Nothing of this is trusted: a checker of the refutation only follows its hints.
+A solver's proof only lists the lemmas that it learnt. Each lemma follows from the clauses before it by unit
+propagation. The elaborator goes back from the last lemma and finds these clauses again. It drops lemmas that no answer
+needs. Its result is not trusted: a checker follows the hints of the refutation.
 """
 
 from __future__ import annotations
@@ -11,30 +11,30 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 _ASSUMED = -1
-"""Stands in for the clause that made a literal true where it was assumed."""
+"""The reason of an assumed literal, instead of a clause."""
 
 
 class InvalidLemma(Exception):
-    """A lemma that unit propagation does not show to follow, or a question that the lemmas do not refute."""
+    """A lemma that does not follow by unit propagation, or a question that the lemmas do not refute."""
 
 
 class ProofStep(NamedTuple):
-    """A clause that follows. `hints` are numbers of clauses, in the order in which they become units, the last of them
-    broken; clauses are numbered from 0, the formula's first and then the steps'."""
+    """A derived clause. `hints` are the numbers of clauses in the order in which they become units. The last one is
+    false. Clauses are numbered from 0, first those of the formula and then those of the steps."""
 
     literals: tuple[int, ...]
     hints: tuple[int, ...]
 
 
 class LearntClause(NamedTuple):
-    """A lemma, or (`forgotten`) that the solver goes on without one that it learnt before."""
+    """A lemma. If `forgotten`, the solver deletes an earlier lemma."""
 
     literals: tuple[int, ...]
     forgotten: bool = False
 
 
 class Answer(NamedTuple):
-    """That some literals cannot all be true: those of `literals` alone lead to the conflict that `hints` follow."""
+    """The evidence that `literals` cannot all be true: `hints` lead from them to a conflict."""
 
     literals: tuple[int, ...]
     hints: tuple[int, ...]
@@ -48,7 +48,7 @@ class Elaboration(NamedTuple):
 
 
 class _Found(NamedTuple):
-    """A conflict: the clauses on the way to it, the literals that are true in any case, and the assumed ones."""
+    """A conflict: the clauses that lead to it, the literals that are always true, and the assumed ones."""
 
     hints: list[int]
     units: set[int]
@@ -58,8 +58,8 @@ class _Found(NamedTuple):
 class Elaborator:
     """The clauses of one formula, and lemmas that a solver learnt from them.
 
-    `open_questions` says which questions unit propagation alone does not refute; give lemmas for those to `learn`, and
-    then `elaborate` gives the whole. Time and memory are those of unit propagation, once for each lemma that matters.
+    `open_questions` returns the questions that unit propagation alone does not refute. Pass lemmas for them to `learn`.
+    Then `elaborate` returns the refutation. Time and memory are those of one unit propagation for each needed lemma.
     """
 
     def __init__(self, clauses: Sequence[Sequence[int]], questions: Sequence[Sequence[int]]) -> None:
@@ -73,12 +73,12 @@ class Elaborator:
         self._reason = [_ASSUMED] * (top + 1)
         self._trail: list[int] = []
         self._settled: dict[int, None] = {}
-        """The variables with a value in any case, in the order in which they got it."""
+        """The variables with a fixed value, in the order of assignment."""
         self._learnt: list[tuple[int, int | None]] = []
-        """Each lemma, by its number, with how long the trail was before it; or None where it is let go."""
+        """The number of each lemma with the length of the trail before it. None if the lemma is deleted."""
         self._numbers: dict[tuple[int, ...], list[int]] = {}
         self._broken: int | None = None
-        """A clause that is false in any case, once there is one."""
+        """A clause that is always false, if there is one."""
         self._forgotten = len(clauses)
         self._answers: dict[int, _Found] = {}
         for number in range(self._formula):
@@ -88,7 +88,7 @@ class Elaborator:
     # Propagation ----------------------------------------------------------------------------------------------
 
     def _attach(self, number: int) -> None:
-        """Watch two literals of a clause that are not false, or note what it says if there are none."""
+        """Watch two literals of a clause that are not false. If there are not two, record the unit or the conflict."""
         clause, value = self._clauses[number], self._value
         front = 0
         for place, literal in enumerate(clause):
@@ -111,7 +111,7 @@ class Elaborator:
         self._trail.append(literal)
 
     def _propagate(self, head: int) -> int | None:
-        """Make true what follows from the trail from `head` on. A clause that is broken then, or None."""
+        """Propagate the trail from `head` on. Returns a clause that is false then, or None."""
         clauses, value, watches, trail, reason = self._clauses, self._value, self._watches, self._trail, self._reason
         forgotten = self._forgotten
         while head < len(trail):
@@ -154,14 +154,14 @@ class Elaborator:
         del self._trail[length:]
 
     def _settle(self) -> None:
-        """Make true what is true in any case."""
+        """Propagate the literals that are always true."""
         if self._broken is None:
             self._broken = self._propagate(len(self._settled))
         for literal in self._trail[len(self._settled) :]:
             self._settled[abs(literal)] = None
 
     def _refute(self, literals: Iterable[int]) -> _Found | None:
-        """The conflict that comes of these literals, or None if propagation finds none."""
+        """The conflict that follows from these literals, or None if propagation finds none."""
         if self._broken is not None:
             return self._explained(self._broken)
         length = len(self._trail)
@@ -179,7 +179,7 @@ class Elaborator:
             self._undo(length)
 
     def _explained(self, conflict: int) -> _Found:
-        """What led to a conflict, from the last literal back."""
+        """The causes of a conflict, from the last literal back."""
         clauses, reason = self._clauses, self._reason
         seen = set(map(abs, clauses[conflict]))
         hints, assumed = [conflict], []
@@ -196,7 +196,7 @@ class Elaborator:
     # Questions and lemmas -------------------------------------------------------------------------------------
 
     def open_questions(self) -> list[int]:
-        """The questions, by their places, that propagation does not refute."""
+        """The positions of the questions that propagation does not refute."""
         for place, literals in enumerate(self._questions):
             if place not in self._answers:
                 found = self._refute(literals)
@@ -205,7 +205,7 @@ class Elaborator:
         return [place for place in range(len(self._questions)) if place not in self._answers]
 
     def learn(self, lemmas: Iterable[LearntClause]) -> None:
-        """Take lemmas, each of which follows by propagation from the formula and the lemmas before it."""
+        """Add lemmas. Each must follow by propagation from the formula and the lemmas before it."""
         for lemma in lemmas:
             if self._broken is not None:
                 return
@@ -222,8 +222,8 @@ class Elaborator:
                 self._settle()
 
     def _let_go(self, numbers: list[int]) -> None:
-        """Propagate no more with one of these lemmas, unless something on the trail follows from it. What is not a
-        lemma stays."""
+        """Stop propagating with one of these lemmas, unless it is the reason of a literal on the trail. Clauses of the
+        formula are never deleted."""
         clause = self._clauses[numbers[-1]] if numbers else []
         if len(clause) > 1 and self._reason[abs(clause[0])] != numbers[-1]:
             number = numbers.pop()
@@ -232,7 +232,7 @@ class Elaborator:
             self._learnt.append((number, None))
 
     def _take_back(self, number: int) -> None:
-        """Propagate with a lemma again that was let go later on."""
+        """Propagate again with a lemma that is deleted later."""
         clause = self._clauses[number]
         # What became false last is what becomes open first.
         clause.sort(key=lambda literal: 1 if self._value[literal] == -1 else 0)
@@ -242,9 +242,9 @@ class Elaborator:
             self._watches[literal].append(number)
 
     def elaborate(self) -> Elaboration:
-        """The refutation of every question. Nothing can be asked afterwards.
+        """The refutation of every question. The elaborator cannot be used afterwards.
 
-        Raises NotFollowing for a lemma that does not follow, and for a question that is not refuted.
+        Raises InvalidLemma for a lemma that does not follow, and for a question that is not refuted.
         """
         if self.open_questions():
             raise InvalidLemma("the lemmas do not refute the question")
@@ -276,8 +276,8 @@ class Elaborator:
         used.update(hint for hint in found.hints if hint >= self._formula)
 
     def _settled_since(self, length: int, needed: set[int], used: set[int]) -> list[tuple[int, ProofStep]]:
-        """Steps for the needed literals that are true in any case since the trail had this length, the last first. They
-        are forgotten."""
+        """The steps for the needed literals that are always true since the trail had this length, the last first. They
+        are removed from the trail."""
         made = []
         for literal in reversed(self._trail[length:]):
             variable = abs(literal)
@@ -293,7 +293,7 @@ class Elaborator:
         return made
 
     def _numbered(self, made: Iterable[tuple[int, ProofStep]]) -> Elaboration:
-        """Number what was made, in its order, and put the numbers into the hints."""
+        """Number the steps in their order, and write the numbers into the hints."""
         numbers: dict[int, int] = {}
         steps: list[ProofStep] = []
 
@@ -313,7 +313,7 @@ class Elaborator:
 
 
 def _named(units: Iterable[int]) -> list[int]:
-    """Hints at literals that are true in any case, until these have numbers: no clause's number is negative."""
+    """The provisional hints for literals that are always true: negative, unlike the numbers of clauses."""
     return [-variable for variable in sorted(units)]
 
 

@@ -1,7 +1,7 @@
-"""A checker of refutations in Python, for where the one that is proved in Coq is not built.
+"""A checker of refutations (LRAT) in Python, used if the checker that is proved in Coq is not built.
 
-It knows nothing of how refutations are made here. It reads DIMACS and LRAT, RAT steps excepted, and accepts only if the
-steps derive the empty clause.
+It is independent of the code that writes refutations. It reads DIMACS, and LRAT without RAT steps. It accepts a
+refutation only if the steps derive the empty clause.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ _NUMBER = re.compile(r"-?[0-9]{1,17}")
 
 
 class InvalidProof(SleecError):
-    """A refutation that shows nothing, or a file that is not in its format."""
+    """An invalid refutation, or a file that does not have the expected format."""
 
 
 def check(formula: str, proof: str, seconds: float = inf) -> None:
-    """Whether `proof` (LRAT) refutes `formula` (DIMACS). One look at each literal of each clause that a hint names.
+    """Checks that `proof` (LRAT) refutes `formula` (DIMACS). It reads each literal once for each hint to its clause.
 
-    Raises Refused, with the reason, if it does not, or if that is not known after so many `seconds`.
+    Raises InvalidProof, with the reason, if the proof is invalid, or if the check takes longer than `seconds`.
     """
     deadline = monotonic() + seconds
     clauses = dict(enumerate(_clauses(formula), 1))
@@ -45,7 +45,7 @@ def check(formula: str, proof: str, seconds: float = inf) -> None:
 
 
 def _follows(clauses: dict[int, list[int]], literals: list[int], hints: list[int]) -> bool:
-    """Whether the hints lead to a clause that is false, each a unit before it, once all literals are false."""
+    """Whether the hints lead to a false clause if all literals of the step are false. All other hints must be units."""
     true = {-literal for literal in literals}
     for hint in hints:
         clause = clauses.get(hint)
@@ -97,7 +97,7 @@ def _clauses(text: str) -> list[list[int]]:
 
 
 def _steps(text: str) -> Iterator[tuple[int, list[int] | None, list[int]]]:
-    """The number, the literals (None where clauses are forgotten) and the hints or forgotten clauses of each step."""
+    """The number, the literals (None for a deletion) and the hints or deleted clauses of each step."""
     for line, words in _rows(text):
         forgets = words[1:2] == ["d"]
         row = _numbers(words[:1] + words[2:] if forgets else words, line, "proof")

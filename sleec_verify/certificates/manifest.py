@@ -1,6 +1,6 @@
-"""What a certificate says: of which text, under which reading, what was found, and what shows it.
+"""The manifest of a certificate: the text, the reading, the verdicts and their evidence.
 
-Nothing in it depends on when, where or how fast it was made: the same rules give the same bytes.
+It does not depend on the time, the machine or its speed: the same rules give the same bytes.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from sleec_verify.results.finding import CheckResult
 
 LEFT_OUT = ("check", "note", "help", "related")
-"""What a finding tells people and no certificate is about."""
+"""The parts of a finding for readers, which are not part of a certificate."""
 
 
 class Evidence(NamedTuple):
-    """A verdict, and what shows it: how many questions were refuted, how many answered with a situation (or a trace),
-    and the names of the files with the proofs, formula and refutation by turns."""
+    """A verdict and its evidence: the number of refuted questions, the number of models (situations or traces), and the
+    names of the files with the proofs. The files alternate between formula and refutation."""
 
     result: CheckResult
     refuted: int
@@ -32,9 +32,15 @@ class Evidence(NamedTuple):
 
     @property
     def evidence(self) -> str:
-        """``proof``; ``trivial`` where no question was left to refute, so that the formula is the empty clause and says
-        nothing; ``witnesses``; ``situations``, where what was looked for is nowhere because the opposite was found each
-        time; ``text`` where nothing was asked of a solver; ``none`` where the verdict is unknown."""
+        """The kind of evidence.
+
+        - ``proof``: refutations of formulas.
+        - ``trivial``: no question had to be refuted, so the formula is only the empty clause.
+        - ``witnesses``: a witness for each finding.
+        - ``situations``: every question had a model, so nothing was found.
+        - ``text``: the check needs no solver.
+        - ``none``: the verdict is unknown.
+        """
         verdict = self.result.verdict
         if isinstance(verdict, Unknown):
             return "none"
@@ -54,7 +60,7 @@ def manifest(
     shown: Sequence[Evidence],
     files: Mapping[str, str],
 ) -> dict[str, Json]:
-    """The manifest. `untimed` is None for rules without time. `chains` is whether what is done triggers rules.
+    """The manifest. `untimed` is None for rules without time. `chains` says whether responses trigger rules.
     `files` are the names of all other files with their SHA-256."""
     checks: list[Json] = [check_json(one, ruleset) for one in shown]
     return {
@@ -78,7 +84,7 @@ def manifest(
 
 
 def check_json(one: Evidence, ruleset: Ruleset) -> dict[str, Json]:
-    """What the manifest says of one check."""
+    """The entry of one check in the manifest."""
     result = one.result
     verdict = result.verdict
     return {

@@ -1,4 +1,4 @@
-"""The questions that were answered no, and those that were answered yes, as the solver was asked them."""
+"""Records the unsatisfiable and satisfiable queries of the solver."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from sleec_runtime.errors import SleecError
 
 
 class NoModel(SleecError):
-    """A solver said yes, and its model does not satisfy the question."""
+    """A solver returned a model that does not satisfy the question."""
 
 
 @dataclass
 class RecordedQuestion:
-    """A formula, and the questions of it that were answered no: each says that some literals are true together."""
+    """A formula and its unsatisfiable questions. Each question asks whether some literals can be true together."""
 
     clauses: Sequence[Sequence[int]]
     questions: dict[tuple[int, ...], None] = field(default_factory=dict)
 
 
 class Recorder:
-    """Keeps what solvers are asked. `examining` has it look at every model that a yes comes with.
+    """Keeps the questions to solvers. With `examining`, it checks every model.
 
-    A formula is kept as the list that it is, and may grow until `take` is called.
+    It keeps a reference to the list of a formula, which may grow until `take` is called.
     """
 
     def __init__(self, examining: bool = False) -> None:
@@ -33,16 +33,16 @@ class Recorder:
         self._models = 0
 
     def refuted(self, clauses: Sequence[Sequence[int]], literals: Sequence[int]) -> None:
-        """Told that no model of `clauses` makes all `literals` true."""
+        """Records that no model of `clauses` makes all `literals` true."""
         asked = self._asked.setdefault(id(clauses), RecordedQuestion(clauses))
         asked.questions[tuple(dict.fromkeys(literals))] = None
 
     def satisfied(
         self, clauses: Sequence[Sequence[int]], literals: Sequence[int], holds: Callable[[int], bool]
     ) -> None:
-        """Told that `holds` says what is true in a model of `clauses` and of `literals`.
+        """Records a model of `clauses` and `literals`. `holds` says which literals are true in it.
 
-        Raises NoModel, if examining, where it is none.
+        Raises NoModel, if examining, if it is not a model.
         """
         self._models += 1
         if not self._examining:
@@ -52,7 +52,7 @@ class Recorder:
             raise NoModel("a solver's model does not satisfy the question", "this is a bug; report it")
 
     def take(self) -> tuple[list[RecordedQuestion], int]:
-        """The formulas with refuted questions since the last call, and how many models there were."""
+        """The formulas with refuted questions, and the number of models, since the last call."""
         taken = list(self._asked.values()), self._models
         self._asked, self._models = {}, 0
         return taken

@@ -1,9 +1,11 @@
-"""One formula for many questions: "some question of these has a model". And its refutation.
+"""Combines many questions into one formula, "some question has a model", and refutes it.
 
-Each question is a set of clauses of which some literals are assumed. Refuting one formula for each would make thousands
-of files; a conjunction of all would be refuted by one of them. So each set of clauses has its own variables and holds
-only if its *switch* is on, each question has a *selector* that turns on the switch and makes its literals true, and the
-last clause says that some selector is on. It has a model exactly if some question has one.
+A question is a set of clauses with some assumed literals. One formula for each question would need thousands of files.
+A conjunction of all questions would be refuted by a single unsatisfiable one.
+
+So each set of clauses has its own variables and holds only if its *switch* is on. Each question has a *selector*, which
+turns on the switch and makes the assumed literals true. The last clause says that some selector is on. The formula has
+a model if and only if some question has one.
 """
 
 from __future__ import annotations
@@ -16,12 +18,12 @@ from sleec_verify.certificates.elaboration import Elaboration, Elaborator, Learn
 from sleec_verify.certificates.recorder import RecordedQuestion
 
 MOST_LITERALS = 1_000_000
-"""Literals after which a further pair of files is begun, as checkers hold a formula in memory. They take less than half
-of the 16 MiB that a file may have (`sleec_runtime.support.files`)."""
+"""The number of literals after which a new pair of files begins, because checkers keep a formula in memory. They take
+less than half of the 16 MiB limit of a file (`sleec_runtime.support.files`)."""
 
 
 class Disjunction:
-    """The formula "some question has a model", question by question. Linear in their size."""
+    """The formula "some question has a model", built question by question. It is linear in their size."""
 
     def __init__(self, asked: Sequence[RecordedQuestion]) -> None:
         self._asked = asked
@@ -29,7 +31,7 @@ class Disjunction:
         self.clauses: list[tuple[int, ...]] = []
         self.questions = 0
         self._parts: list[tuple[int, int, int]] = []
-        """For each set of clauses: what is added to its variables, its switch, and where its first clause stands."""
+        """For each set of clauses: the offset of its variables, its switch, and the position of its first clause."""
         selectors: list[int] = []
         for one in asked:
             offset = self.variables
@@ -46,7 +48,7 @@ class Disjunction:
         self.clauses.append(tuple(selectors))
 
     def dimacs(self, title: str) -> str:
-        """The formula in DIMACS, under a comment that says what it is."""
+        """The formula in DIMACS, with a comment that describes it."""
         rows = [" ".join(map(str, (*clause, 0))) for clause in self.clauses]
         said = f"c {title}\nc satisfiable if and only if one of the {self.questions} questions has a model\n"
         return f"{said}p cnf {self.variables} {len(rows)}\n" + "\n".join(rows) + "\n"
@@ -54,7 +56,7 @@ class Disjunction:
     def lrat(self) -> str:
         """A refutation in LRAT.
 
-        Raises InvalidLemma where none is found: a question has a model, or what the solver learnt does not follow.
+        Raises InvalidLemma if a question has a model, or if a lemma of the solver does not follow.
         """
         rows: list[str] = []
         next_number = len(self.clauses) + 1
@@ -83,7 +85,7 @@ class Disjunction:
 
 
 def disjunctions(asked: Iterable[RecordedQuestion]) -> Iterator[Disjunction]:
-    """All questions, in as few formulas as their size allows; one if there are none."""
+    """The formulas for all questions: as few as their size allows, and one if there are no questions."""
     part: list[RecordedQuestion] = []
     size = 0
     for one in asked:
@@ -97,10 +99,10 @@ def disjunctions(asked: Iterable[RecordedQuestion]) -> Iterator[Disjunction]:
 
 
 def refute(clauses: Sequence[Sequence[int]], questions: Sequence[Sequence[int]]) -> Elaboration:
-    """Why none of the questions has a model that satisfies the clauses. Most need unit propagation only; for the rest,
-    a solver is asked, and what it learns is elaborated.
+    """The refutation of all questions. Most need only unit propagation. For the others, a solver learns lemmas, which
+    are then elaborated.
 
-    Raises InvalidLemma where that is not so.
+    Raises InvalidLemma if a question has a model, or if a lemma does not follow.
     """
     elaborator = Elaborator(clauses, questions)
     unanswered = elaborator.open_questions()
@@ -110,8 +112,8 @@ def refute(clauses: Sequence[Sequence[int]], questions: Sequence[Sequence[int]])
 
 
 def learnt_clauses(clauses: Iterable[Sequence[int]], questions: Iterable[Sequence[int]]) -> list[LearntClause]:
-    """What Glucose learns while it refutes these questions, in its order. It is python-sat's C interface again, as in
-    `sleec_verify.encoding.solver`."""
+    """The lemmas that Glucose learns while it refutes these questions, in its order. This uses the C interface of
+    python-sat, as `sleec_verify.encoding.solver` does."""
     import pysolvers
 
     interruptible = int(current_thread() is main_thread())

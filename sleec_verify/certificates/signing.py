@@ -1,4 +1,4 @@
-"""Signing a manifest, with Ed25519. What checks a signature is in `certificate.coverage`: a robot does it too."""
+"""Signs a manifest with Ed25519. `sleec_runtime.certificate` verifies signatures, because robots do this too."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from sleec_runtime.support.files import read_file
 def sign(data: bytes, key: str) -> bytes:
     """The signature of `data`, as base64 with a line break, by the private key in the PEM file `key`.
 
-    Raises SleecError if that is no such key, or if `cryptography` is not installed.
+    Raises SleecError if the file has no such key, or if `cryptography` is not installed.
     """
     ed25519, serialization, _ = cryptography()
     try:

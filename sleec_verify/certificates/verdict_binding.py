@@ -1,4 +1,4 @@
-"""Tying verdicts to the rules: the oracle makes the formula of a check by what is proved, and judges its refutation."""
+"""Ties verdicts to the rules: the oracle (extracted from Coq) builds the formula of a check, and checks its proof."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from sleec_verify.results.finding import CheckResult
 
 MOST_SECONDS = 60.0
-"""How long the oracle may take over one question. Many obligations that exclude each other take it long, and chains of
-hundreds of hedges."""
+"""The time limit of the oracle for one question. Many obligations that exclude each other are slow, and so are chains
+of hundreds of hedges."""
 
 
 @dataclass(frozen=True)
 class VerdictBinding:
-    """Whether the verdict of a check, as far as it rests on refutations, is proved from the rules as they are read; if
-    not, why that was not looked at."""
+    """Whether the part of a verdict that depends on refutations is proved from the parsed rules. If it was not
+    examined, the reason."""
 
     check: str
     proved: bool
@@ -33,7 +33,7 @@ class VerdictBinding:
 
 
 class UnboundVerdict(Exception):
-    """The verdict of `check` is not what is proved of the rules."""
+    """The verdict of `check` differs from what is proved about the rules."""
 
     def __init__(self, check: str, reason: str) -> None:
         super().__init__(f"the verdict of {check} is not proved for the rules: {reason}")
@@ -53,15 +53,15 @@ RESTING: Mapping[str, tuple[type, ...]] = {
     "concern": (Proved,),
     "purpose": (Refuted,),
 }
-"""The checks, with the verdicts that rest on refutations. `vacuous-conflict` passes over rules that nothing triggers,
-so it may rest on some where it is proved. All others say what situations or the text show."""
+"""The checks, with their verdicts that depend on refutations. `vacuous-conflict` skips rules that nothing triggers, so
+it may depend on some if it is proved. The evidence of all other verdicts is situations or the text."""
 
 
 def bind_verdicts(
     shown: Iterable[Evidence], ruleset: Ruleset, domain: str | None, oracle: Path | None, chains: bool = True
 ) -> Iterator[VerdictBinding | UnboundVerdict]:
-    """Have the oracle prove the verdicts that rest on refutations, in each domain: for each such check how it went.
-    Of verdicts that are refuted, the findings are proved."""
+    """Let the oracle prove the verdicts that depend on refutations, in each domain. Returns the result for each such
+    check. If a verdict is refuted, the findings are proved."""
     results = [
         one.result
         for one in shown

@@ -1,4 +1,4 @@
-"""Checking a certificate: everything in it is computed again from the text of the rules, and compared."""
+"""Verifies a certificate: computes its content again from the text of the rules, and compares."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class Problem(NamedTuple):
-    """Why a certificate is rejected: one of the reasons of docs/certificates.md, and an explanation."""
+    """A reason for a rejection: its name from docs/certificates.md, and an explanation."""
 
     reason: str
     message: str
@@ -38,8 +38,8 @@ class Problem(NamedTuple):
 
 @dataclass(frozen=True)
 class CheckedCertificate:
-    """A certificate that holds: what it says, of the ruleset in its reading; who judged its refutations; whether there
-    is a signature; and whether what rests on refutations is `tied` to the rules, check by check."""
+    """A valid certificate: its content, the ruleset in its reading, the checker of its refutations, and whether it is
+    signed. `tied` says for each check whether the verdicts from refutations are tied to the rules."""
 
     ruleset: Ruleset
     manifest: Manifest
@@ -60,13 +60,17 @@ def check_certificate(
     oracle: Path | None = None,
     progress: Callable[[str, int, int], None] | None = None,
 ) -> CheckedCertificate:
-    """Check the certificate in `folder` against a ruleset: its bytes, its verdicts, computed again, the formulas, built
-    again, the refutations of these, judged by `judge`, and the witnesses, replayed. It must cover the `use` that is
-    made of the rules, by default that of the whole text in its own reading, and be signed by the public `key`, if there
-    is one. Of what rests on refutations, the `oracle`, if there is one, makes the formula once more, by what is proved,
-    and judges its refutation. What is `required` here, or was when the certificate was written, must be so.
+    """Verify the certificate in `folder` against a ruleset.
 
-    Raises CertificateRefused with all the reasons that are found.
+    - The files must have the bytes that the manifest states.
+    - The verdicts and the formulas are computed again and compared.
+    - `judge` checks the refutations, and the evaluator replays the witnesses.
+    - The certificate must cover the `use` of the rules: by default, the whole text in its own reading.
+    - If there is a public `key`, the certificate must be signed with it.
+    - If there is an `oracle`, it builds the formulas again and checks their refutations.
+    - The requirements in `required`, and those of the manifest, must hold.
+
+    Raises CertificateRefused with all reasons.
     """
     claimed = read_manifest(folder, key)
     _check_use(ruleset, claimed, Use(ruleset.reading) if use is None else use)
@@ -93,7 +97,7 @@ def check_certificate(
 
 
 def _check_use(ruleset: Ruleset, claimed: Manifest, use: Use) -> None:
-    """The certificate must be of these rules, cover their use, and be about something that they have."""
+    """Checks that the certificate is about these rules, covers their use, and is not empty."""
     not_covered = list(coverage_problems(claimed, ruleset, use))
     problems = [Problem(one.reason, one.message) for one in not_covered]
     if not problems or problems[0].reason != "ruleset-changed":
@@ -115,7 +119,7 @@ def _hint(claimed: Manifest, problems: Sequence[Problem]) -> str | None:
 
 
 class _Examined:
-    """A certificate beside what the text of the rules gives. `shown` fills as the contents are gone through."""
+    """The comparison of a certificate with the text of the rules. It fills `shown` during the comparison."""
 
     def __init__(self, ruleset: Ruleset, claimed: Manifest, folder: Path, judge: Checker) -> None:
         self._ruleset = ruleset
@@ -138,7 +142,7 @@ class _Examined:
             yield Problem("file-added", f"{name} is not in {MANIFEST}")
 
     def _read(self, name: str) -> bytes | Problem:
-        """What is in a file, which is read only once: what is compared is what is judged."""
+        """The content of a file. It is read only once, so that the same content is compared and checked."""
         try:
             return read_file(self._folder / name)
         except OSError as error:
@@ -148,7 +152,7 @@ class _Examined:
     # Contents -------------------------------------------------------------------------------------------------
 
     def contents(self, progress: Callable[[str, int, int], None] | None) -> Iterator[Problem]:
-        """Whether the rules give these verdicts, the formulas are refuted, and the witnesses show what they should."""
+        """Checks the verdicts, the refutations of the formulas, and the witnesses."""
         claimed, ruleset = self._claimed, self._ruleset
         untimed = cast("Untimed", claimed.untimed or "at")
         said = {check["name"]: check for check in claimed.whole["checks"]}
@@ -195,8 +199,7 @@ class _Examined:
                     yield Problem("proof", f"{proof} does not refute {formula}: {reason}")
 
     def _entry(self, one: Evidence, entry: Mapping[str, Any]) -> Iterator[Problem]:
-        """Whether a check's entry in the manifest is what the rules give, witnesses aside; and these, whether they show
-        what they are to show."""
+        """Checks the entry of a check in the manifest against the rules, and replays its witnesses."""
         name = one.result.name
         expected: Mapping[str, Any] = check_json(one, self._ruleset)
         if entry["verdict"] != expected["verdict"]:

@@ -1,4 +1,4 @@
-"""Replaying the witnesses of a manifest: the evaluator, which shares nothing with the solver, looks at each."""
+"""Replays the witnesses of a manifest with the evaluator, which shares no code with the solver."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
     from sleec_verify.results.finding import Finding
 
 KEYS = ("witness", "timeline")
-"""The entries of a finding that hold its witness."""
+"""The keys of a finding that contain its witness."""
 
 _FRACTION = re.compile(r"-?[0-9]{1,200}/[0-9]{1,200}")
-"""How a number is written that JSON has no exact spelling for. Others, such as 1e999999999, would take all memory."""
+"""The spelling of numbers without an exact JSON number. Others, such as 1e999999999, would use up the memory."""
 
 
 def same(one: object, other: object) -> bool:
-    """Whether two values are written alike: unlike `==`, this tells true from 1, and one order of keys from another."""
+    """Whether two values have the same JSON text. Unlike `==`, this distinguishes true from 1, and orders of keys."""
     return json.dumps(one) == json.dumps(other)
 
 
@@ -39,9 +39,8 @@ class Replay:
         self._cones: dict[str, RulesetIndex] = {}
 
     def shows(self, finding: Finding, computed: Mapping[str, Any], claim: Mapping[str, Any]) -> bool:
-        """Whether the evaluator finds what the finding says in the witness that a manifest has for it, which is written
-        in the one way there is. A course of events must be the one that was found and replayed now: that of
-        `computed`, which is what the manifest would have."""
+        """Whether the evaluator confirms the finding in the witness of the manifest. The witness must have its
+        canonical JSON text. A trace must equal the trace of `computed`, the entry that was computed now."""
         if finding.witness is None or finding.timeline is not None:
             return all(same(claim.get(key), computed.get(key)) for key in KEYS)
         try:

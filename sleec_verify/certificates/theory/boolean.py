@@ -1,10 +1,12 @@
-"""Rules whose conditions are names: comparisons of measures become conditions, and their order assumptions.
+"""Boolean abstraction of rules: comparisons of measures become conditions, and their order becomes assumptions.
 
-The theory has no numbers. ``UserAge < 18`` is a condition there, named by its text. That one cut lies below another is
-an `Assume` for each pair of neighbours, and so is the order of measures that are compared with each other. All of these
-are true of every value, so a context of the rules is one of these rules, and what holds of these in all contexts holds
-of the rules. The other way round it holds but for whole numbers that are compared with each other, whose order may
-leave no room (`sleec_verify.encoding.measures`). Measures have values here, as they have in all checks.
+The theory has no numbers. ``UserAge < 18`` is a condition there, named by its text. An `Assume` for each pair of
+neighbours states the order of the cuts. The order of measures that are compared with each other is stated in the same
+way. These assumptions hold for all values.
+
+So every context of the rules is a context of the abstraction, and a property of all contexts of the abstraction is a
+property of the rules. The converse holds with one exception: whole numbers that are compared with each other may leave
+no room between two values (`sleec_verify.encoding.measures`). Every measure has a value, as in all checks.
 """
 
 from __future__ import annotations
@@ -32,8 +34,8 @@ from sleec_verify.encoding.measures import Measures
 
 
 class Boolean:
-    """`ruleset` is the rules without comparisons, the order of the cuts among its constraints. O(size of the rules),
-    except for measures compared with each other, where it is that of their order."""
+    """`ruleset` has the rules without comparisons. Its constraints include the order of the cuts. O(size of the rules),
+    plus the size of the order of measures that are compared with each other."""
 
     def __init__(self, ruleset: Ruleset) -> None:
         self._meanings: dict[int, Formula] = {}
@@ -52,7 +54,7 @@ class Boolean:
         return {name for pair in self._measures.orders for name in pair}
 
     def facts(self, context: Context) -> Iterator[Atom]:
-        """What is true in a context that gives every measure a value: triggers, conditions, cuts."""
+        """The triggers, conditions and cuts that are true in a context with a value for every measure."""
         yield from (Atom("trigger", name) for name in sorted(context.triggers))
         for name, value in context.conditions.items():
             if value is True:

@@ -31,11 +31,15 @@ _HINT = "compare a measure with a number or with another measure"
 
 
 def to_english(ruleset: Ruleset) -> tuple[Ruleset, list[str]]:
-    """`ruleset` as structured English says it, and what to know about the result.
+    """Returns `ruleset` in structured English, and notes about the result.
 
-    What is read only because others read it is put right: a value of another scale becomes the one that it is read
-    as, a number too, the second of two rules with one label gets one of its own, and a repeated definition goes. Raises
-    Unsayable for calculations.
+    Tolerated mistakes are corrected:
+
+    - A value of another scale, or a number, becomes the value of the measure's scale at the same position.
+    - The second of two rules with the same label gets a new label.
+    - A repeated definition is removed.
+
+    Raises Unsayable for calculations.
     """
     refuse_unsayable_calculations(ruleset, "structured English", _HINT)
     if ruleset.syntax == "english":
