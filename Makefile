@@ -18,7 +18,7 @@ INSTALL_LOCKED := $(INSTALL) --require-hashes -r
 help:
 	@echo 'make demo     check the shipped rulesets, and explain one situation'
 	@echo 'make test     lint, types, and all tests except the long ones'
-	@echo 'make fast     the fast tests, which cover everything once in less than a minute'
+	@echo 'make fast     the fast tests, which cover every feature once in less than a minute'
 	@echo 'make coverage branch coverage of the tests; fails below a bound'
 	@echo 'make site     build the documentation in site/'
 	@echo 'make fuzz     fuzz everything that reads a file; SECONDS=60 for all targets, TARGET=english for one target'
