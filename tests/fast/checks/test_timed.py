@@ -87,21 +87,21 @@ def test_what_no_rule_requires_is_no_conflict():
 def test_a_window_that_a_measure_says_is_a_matter_of_the_rules_around_it_only():
     rules = ("R1 when A then B within {x} seconds", "R2 when C then D", "R3 when C and {m} then not D")
     names = "".join(f" event {e}" for e in "ABCD")
-    for more, concerned in (("", "R1"), (" R4 when D then not B", "R1, R2, R3 and R4")):
+    for more, concerned in (("", "`R1`"), (" R4 when D then not B", "`R1`, `R2`, `R3` and `R4`")):
         found = verdicts(
             f"def_start{names} measure x: numeric measure m: boolean def_end "
             f"rule_start {' '.join(rules)}{more} rule_end"
         )
         assert {f.rules for f in found["conflict"].findings} == (set() if more else {("R2", "R3")})
         if more:
-            assert found["conflict"].verdict.why.startswith(f"{concerned}: the length of time x seconds is that of a")
-        assert found["vacuous-conflict"].verdict.why.startswith("R1: ")
+            assert found["conflict"].verdict.why.startswith(f"{concerned}: the duration x seconds is a measure")
+        assert found["vacuous-conflict"].verdict.why.startswith("`R1`: ")
 
 
 def test_the_length_of_a_window_that_a_measure_says_is_not_analysed():
     found = verdicts(text("B within x seconds"))
     assert set(unknown(found)) == {"conflict", "vacuous-conflict", "redundant-rule", "redundant-hedge"}
-    assert "the length of time x seconds is that of a measure" in found["conflict"].verdict.why
+    assert "the duration x seconds is a measure" in found["conflict"].verdict.why
 
 
 def test_the_readings_part_where_only_times_differ():

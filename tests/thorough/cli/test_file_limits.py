@@ -198,7 +198,8 @@ def test_every_command_that_reads_files_has_the_option() -> None:
 
 OWN_FILES = {
     ("sleec_runtime/support/files.py", "open"),
-    ("sleec_verify/cli/cache.py", "open"),
+    ("sleec_verify/cli/cache/program.py", "open"),
+    ("sleec_verify/cli/cache/store.py", "open"),
     ("sleec_verify/files/placement.py", "open"),
     ("sleec_verify/cli/gate.py", "open"),
     ("sleec_verify/certificates/checker.py", "read_text"),

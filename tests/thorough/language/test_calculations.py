@@ -88,7 +88,7 @@ def test_a_calculation_without_a_value_is_unknown_or_false():
     known = Context(frozenset("A"), {"x": 9})
     assert not holds(guard, known)
     assert truth(guard, Situation(known, absent=None)) is None
-    with pytest.raises(sleec_runtime.errors.WrongType, match="1,000 digits, and 'nine' is not"):
+    with pytest.raises(sleec_runtime.errors.WrongType, match="1,000 digits; got 'nine'"):
         holds(guard, Context(frozenset("A"), {"x": "nine", "y": 1}))
 
 
