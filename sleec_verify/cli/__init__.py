@@ -60,7 +60,7 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _told(arguments: Sequence[str]) -> int:
-    """Run the command line, and tell of what went wrong. Only what goes wrong in telling is raised: OSError."""
+    """Run the command line and report errors. Raises only OSError, if a report cannot be written."""
     from click.exceptions import Abort, ClickException
 
     from sleec_verify.cli import output
@@ -81,7 +81,8 @@ def _told(arguments: Sequence[str]) -> int:
 
 
 def _invoke(arguments: list[str]) -> int:
-    """What click's own main does, but for its exit with 1 where a pipe is closed: that would say "findings"."""
+    """Do the same as the main function of click, except for a closed pipe: there, click exits with 1, which means
+    findings."""
     from click.exceptions import Exit
 
     from sleec_verify.cli.commands import sleec_verify
@@ -96,7 +97,7 @@ def _invoke(arguments: list[str]) -> int:
 
 
 def _show(error: ClickException) -> None:
-    """What click says of an error, in one line, with the arguments escaped. What is missing is a list of its own."""
+    """Show a click error in one line, with the arguments escaped. Click itself shows a missing parameter."""
     from click.exceptions import ClickException, MissingParameter, UsageError
 
     from sleec_verify.report.escape import as_line
@@ -125,6 +126,6 @@ def _failed(error: Exception) -> int:
 
 
 def _tell(message: str, stream: TextIO | None = None) -> None:
-    """Say it, or leave it if that cannot be written either: the exit code still tells."""
+    """Write a message. If it cannot be written, do nothing: the exit code still reports the error."""
     with suppress(OSError):
         print(message, file=stream or sys.stderr, flush=True)

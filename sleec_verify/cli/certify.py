@@ -126,7 +126,7 @@ def _write(
 def save(made: Certificate, ruleset: Ruleset, output: str, private: str | None = None, force: bool = False) -> None:
     """Write a certificate to the folder `output`, signed if there is a key.
 
-    Raises CertificateRefused where it says that something is required that is not so. Then nothing is written.
+    Raises CertificateRefused if a requirement does not hold. Then nothing is written.
     """
     from sleec_runtime.certificate.coverage import MANIFEST
     from sleec_runtime.certificate.signature import SIGNATURE

@@ -1,4 +1,4 @@
-"""The group of commands. Each command's module is imported when the command is used."""
+"""The group of commands. The module of a command is imported when the command is used."""
 
 from __future__ import annotations
 

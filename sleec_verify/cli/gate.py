@@ -158,7 +158,7 @@ def command(
 
 
 def _check(untimed: Untimed, no_cache: bool) -> Check:
-    """Checks a ruleset as `check` does, and keeps what it decided where that does."""
+    """Checks a ruleset as `check` does, and uses the same cache."""
     from sleec_verify.cli.cached_checks import cache_of_environment, results
     from sleec_verify.cli.scope import Scope
 

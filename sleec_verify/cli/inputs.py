@@ -24,8 +24,8 @@ class UnknownDomain(SleecError):
 
 
 def files(paths: Iterable[str], skipped: Callable[[str], None] = lambda _: None) -> Iterator[str | UnusableInput]:
-    """The files of `paths`, each once. A folder stands for all ``*.sleec`` files below it, sorted. `skipped` is called
-    for each link that is not followed."""
+    """The files of `paths`, each once. A folder means all ``*.sleec`` files below it, sorted. `skipped` is called for
+    each link that is not followed."""
     seen = set()
     for path in paths:
         closed: list[UnusableInput] = []

@@ -53,7 +53,7 @@ def _tell(once: Callable[[], int]) -> None:
 
 
 def _state(paths: Sequence[str]) -> list[tuple[object, ...]]:
-    """What tells that a file has changed."""
+    """The data that show whether a file has changed."""
     return [
         (path.path, "unusable") if isinstance(path, UnusableInput) else (path, *_stamp(path)) for path in files(paths)
     ]

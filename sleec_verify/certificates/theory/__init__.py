@@ -1,1 +1,1 @@
-"""Rulesets as the theory in `proofs/` has them: for what is extracted from it, and for theorems about one ruleset."""
+"""Rulesets in the form of the theory in `proofs/`: for the extracted oracle, and for theorems about one ruleset."""

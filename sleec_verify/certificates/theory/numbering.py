@@ -30,7 +30,7 @@ LETTERS: dict[str, str] = {"trigger": "t", "condition": "c", "obligation": "o"}
 
 
 class Numbering:
-    """`names` are those of each kind, in the order of their first use; the place, from 1, is the number."""
+    """`names` are the names of each kind in the order of their first use. The position, from 1, is the number."""
 
     def __init__(self, ruleset: Ruleset) -> None:
         self._ruleset = ruleset
@@ -56,7 +56,7 @@ class Numbering:
         return self._numbers["rule"][label]
 
     def literal(self, number: int) -> Obligation:
-        """What a number stands for in an answer of the oracle."""
+        """The name of a number in an answer of the oracle."""
         return Obligation(self.names["obligation"][abs(number) - 1], number < 0)
 
     def _number(self, kind: Kind, name: str) -> int:

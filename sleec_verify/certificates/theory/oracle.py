@@ -1,4 +1,4 @@
-"""The oracle: what is extracted from the theory in `proofs/`, as a program that answers questions, a line each."""
+"""The oracle: a program that is extracted from the theory in `proofs/`. It answers one question for each line."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Oracle:
     """
 
     def __init__(self, program: Path, seconds: float | None = None) -> None:
-        """`seconds` is how long it may take over one question. Raises NoAnswer where it cannot be run."""
+        """`seconds` is the time limit for one question. Raises NoAnswer if the oracle cannot be run."""
         self._seconds = seconds
         self._late = False
         try:
@@ -47,7 +47,8 @@ class Oracle:
             raise NoAnswer(f"the oracle {program} cannot be run: {error.strerror}") from None
 
     def ask(self, question: str) -> str:
-        """The answer to a question. Raises NoAnswer where there is none, or none in time; it is at its end then."""
+        """The answer to a question. Raises NoAnswer if there is none within the time limit; the oracle has then
+        ended."""
         assert self._process.stdin is not None, "a pipe"
         assert self._process.stdout is not None, "a pipe"
         watchdog = Timer(self._seconds, self._give_up) if self._seconds is not None else None

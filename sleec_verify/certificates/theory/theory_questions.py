@@ -37,8 +37,8 @@ def not_modelled(ruleset: Ruleset, chains: bool = True) -> str | None:
 
 
 class Theory:
-    """What is proved of a ruleset, as it is in one domain. One oracle answers all questions; after one that it does not
-    answer, another begins."""
+    """The proved facts about a ruleset in one domain. One oracle answers all questions. After a question without an
+    answer, a new oracle starts."""
 
     def __init__(self, program: Path, ruleset: Ruleset, seconds: float | None = None) -> None:
         """`seconds` is how long the oracle may take for a formula, and for judging its refutation."""

@@ -23,7 +23,7 @@ FORMAT = "sleec-verify cache 1"
 
 
 def head(path: str, body: bytes) -> bytes:
-    """The first line of an entry. The key is part of what it vouches for: an entry under another name is none."""
+    """The first line of an entry. It contains the key, so that an entry under another name is invalid."""
     folder, name = os.path.split(path)
     key = os.path.basename(folder) + name
     return f"{FORMAT} {sha256(key.encode() + body).hexdigest()}".encode()

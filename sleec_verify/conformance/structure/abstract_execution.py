@@ -173,7 +173,7 @@ class _Body(Flow):
         return value.name if isinstance(value, Api) else None
 
     def nested(self, node: ast.stmt) -> None:
-        """A function defined within: what it executes is executed where it is called."""
+        """A nested function. Its obligations are executed at its calls."""
         if not isinstance(node, DEFS):
             return
         inner = self.run.resolver.program.scope_of[node].function
@@ -241,7 +241,7 @@ class _Body(Flow):
         return self.run.names.called(node.attr) if assigned else None
 
     def follows(self, node: ast.Call) -> bool:
-        """Whether the arguments of a call are looked at where they arrive."""
+        """Whether the analysis follows the call and so visits its arguments there."""
         value = self.value(node.func)
         return isinstance(value, Code) and self._obligation(node.func, value) is None
 

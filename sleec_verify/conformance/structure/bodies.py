@@ -1,4 +1,4 @@
-"""A variant against its clause: does it do exactly what the clause obliges, in order, for certain?"""
+"""Compares a variant with its clause: it must execute exactly the obligations, in order and on every path."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is reachable around the dispatch: obligations, rules' methods and layers that other code reaches by itself."""
+"""Code outside the variants that executes obligations, calls the methods of rules, or activates layers."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _CODE_AS_IT_RUNS = {"builtins.exec", "builtins.eval", "builtins.compile", "built
 
 @dataclass
 class BypassCheck:
-    """Looks at every expression outside the variants, once these have been followed."""
+    """Checks every expression outside the variants, after the variants have been followed."""
 
     resolver: Resolver
     names: Names
@@ -65,7 +65,7 @@ class BypassCheck:
         self._implementations = {name for name in implemented if name is not None} | self.tracer.by_name
 
     def look(self, use: Use) -> None:
-        """Reports what an expression reaches around the dispatch."""
+        """Reports an expression that bypasses the dispatch."""
         if isinstance(use.node, ast.Call):
             self._call(use, use.node)
             self._applied(use, use.node)

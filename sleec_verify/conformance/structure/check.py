@@ -131,7 +131,7 @@ class StructureCheck:
                 )
 
     def _definitions(self, group: Group) -> None:
-        """What is wrong with the definitions of a method, whatever its rule says."""
+        """Reports errors in the definitions of a method that do not depend on its rule."""
         name = group.name
         for mark, node in group.marks:
             file = group.scope.file

@@ -1,4 +1,4 @@
-"""How control goes through a function: what of it runs for certain, and why the rest may not."""
+"""Control flow through a function: which parts always run, and why others may not."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda)
 
 
 def own_nodes(node: ast.AST) -> Iterator[ast.AST]:
-    """The nodes below one, without what is in functions and classes defined there."""
+    """The nodes below a node, without the bodies of nested functions and classes."""
     for child in ast.iter_child_nodes(node):
         yield child
         if not isinstance(child, _SCOPES):
@@ -33,7 +33,7 @@ def own_nodes(node: ast.AST) -> Iterator[ast.AST]:
 
 
 def always_raises(body: Sequence[ast.stmt]) -> bool:
-    """Whether a block is never left but by an exception."""
+    """Whether control leaves a block only by an exception."""
     ways_out = (ast.Return, ast.Break, ast.Continue)
     if any(isinstance(node, ways_out) for statement in body for node in (statement, *own_nodes(statement))):
         return False
@@ -50,8 +50,8 @@ def is_generator(function: Def) -> bool:
 
 
 class Flow(ABC):
-    """Visits statements and expressions in the order of execution. `why` says why something may not run, or not once;
-    it is None for what does."""
+    """Visits statements and expressions in the order of execution. `why` is the reason why code may not run exactly
+    once. It is None for code that always runs once."""
 
     @abstractmethod
     def call(self, node: ast.Call, why: str | None, awaited: bool) -> None:
@@ -75,7 +75,7 @@ class Flow(ABC):
 
     @abstractmethod
     def follows(self, node: ast.Call) -> bool:
-        """Whether the arguments of a call are looked at where they arrive."""
+        """Whether the analysis follows the call and so visits its arguments there."""
 
     @abstractmethod
     def outside(self, node: ast.expr) -> str | None:

@@ -1,4 +1,4 @@
-"""A method against its rule: is there one variant for each clause, bound to its layer?"""
+"""Compares a method with its rule: each clause needs one variant that is bound to its layer."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ from sleec_verify.results.phrases import listed
 
 @dataclass(eq=False)
 class TracedVariant:
-    """A variant with what it does. `wrong`, for one that stands for no clause: the kind of finding and its message."""
+    """A variant with its abstract execution. If it implements no clause, `wrong` is the kind of finding and its
+    message."""
 
     variant: Variant
     trace: Execution
@@ -69,7 +70,8 @@ class MethodCheck:
     # Which variant is for which clause ------------------------------------------------------------------
 
     def _sort(self) -> None:
-        """Gives each clause its variants, the one that runs first; what stands for no clause is a stray."""
+        """Assigns the variants to their clauses. The variant that runs comes first. A variant without a clause is a
+        stray."""
         for group in self.method.groups:
             here: dict[int, list[TracedVariant]] = {}
             for variant in group.variants:
@@ -107,7 +109,7 @@ class MethodCheck:
             del units[1:]
 
     def _number(self, variant: Variant) -> tuple[int | None, tuple[str, str] | None, str | None]:
-        """The clause that a variant stands for; or else what is wrong with its layer, and what may be meant."""
+        """The clause that a variant implements. If there is none, the error in its layer and a hint."""
         layer: Value | None = variant.layer
         if variant.is_base:
             return 0, None, None
@@ -171,8 +173,8 @@ class MethodCheck:
         return list(dict.fromkeys(literal.name for literal in clause.obligations if not literal.negated))
 
     def _needed(self, number: int) -> bool:
-        """Whether there must be a variant: where nothing is obliged, the dispatch runs nothing by itself, but under
-        global activation the base would run."""
+        """Whether the clause needs a variant. If it requires nothing, a dispatch runs nothing. But under global
+        activation, the base would run."""
         return bool(self._positive(number)) or (number > 0 and self.by_hand)
 
     def _meant(self, unit: TracedVariant, missing: list[int], expected: dict[int, list[str]]) -> int | None:

@@ -29,7 +29,7 @@ HARMLESS = {
     }.items()
     for name in names
 }
-"""Decorators that leave a function what it is."""
+"""Decorators that do not replace the function."""
 
 
 @dataclass(eq=False)
@@ -57,7 +57,8 @@ class Variant:
 
 @dataclass(eq=False)
 class Group:
-    """All that one scope says of one name: what ContextPy3 keeps of it, and the variants that a later `def` lost."""
+    """All definitions of one name in one scope: the variants that ContextPy3 keeps, and those that a later `def`
+    replaces."""
 
     scope: Scope
     name: str
@@ -83,10 +84,8 @@ class Group:
 
 @dataclass(eq=False)
 class Method:
-    """A layered method as an object of `class_` has it (or a module, where that is None): its groups, nearest first.
-
-    `open`: it may inherit more from classes that are not in the target.
-    """
+    """A layered method as an object of `class_` has it, or a module if `class_` is None. Its groups are in order,
+    nearest first. If `open`, it may inherit more from classes outside the target."""
 
     name: str
     class_: Class | None

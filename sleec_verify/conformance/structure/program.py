@@ -1,4 +1,4 @@
-"""The target as scopes, classes and functions: what is defined where, before anything is said of what it means."""
+"""The scopes, classes and functions of the target, before any analysis of their meaning."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ DEFS = (ast.FunctionDef, ast.AsyncFunctionDef)
 
 
 class Assignment(NamedTuple):
-    """A name bound to the value of an expression, or to what is annotated where `annotation` is set."""
+    """A name that is bound to the value of an expression. With `annotation`, it is bound to an object of the annotated
+    class."""
 
     value: ast.expr
     annotation: bool = False
@@ -142,7 +143,7 @@ def _is_package(file: PythonFile) -> bool:
 
 
 class _Collector:
-    """Goes through a body and notes what it binds."""
+    """Visits a body and records its bindings."""
 
     def __init__(self, program: TargetProgram, scope: Scope) -> None:
         self.program = program
@@ -183,7 +184,7 @@ class _Collector:
             self._other(node, certain)
 
     def _other(self, node: ast.stmt, certain: bool) -> None:
-        """A statement that binds, if anything, in a way that is not followed; what it holds is conditional."""
+        """A statement whose own bindings are not followed. The statements in it are conditional."""
         if isinstance(node, (ast.For, ast.AsyncFor, ast.AugAssign)):
             self._target(node.target, None)
         elif isinstance(node, (ast.With, ast.AsyncWith)):

@@ -1,4 +1,4 @@
-"""Gathers what is found: a finding at a place of the code, or of the rules where there is no code."""
+"""Collects the findings. Each has a place in the code, or in the rules if there is no code."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Findings:
         self._found.setdefault((finding.code, path, place, message), finding)
 
     def undecided(self, file: PythonFile, node: ast.AST, why: str) -> None:
-        """A place that only running the program would decide."""
+        """Reports code that cannot be checked without running it."""
         self.add("undecided", f"this cannot be decided without running the code: {why}", (file, node))
 
     @property
@@ -69,7 +69,7 @@ class Findings:
         )
 
     def obliged(self, rule: Rule, number: int) -> str:
-        """What a clause obliges, in words, with its place in the rules."""
+        """The obligations of a clause in words, with its place in the rules."""
         clause = tuple(rule.clauses())[number]
         names = [str(literal) for literal in clause.obligations]
         source = self.ruleset.source

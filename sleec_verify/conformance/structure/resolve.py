@@ -76,7 +76,7 @@ class Resolver:
         return self.name(node.id, scope, given)
 
     def name(self, name: str, scope: Scope, given: Environment = NOTHING_GIVEN) -> Value:
-        """What a name stands for in a scope."""
+        """The value of a name in a scope."""
         if name in given:
             return given[name]
         inner: Scope | None = scope
@@ -120,7 +120,7 @@ class Resolver:
         return self._parameter(binding, scope, name)
 
     def assigned(self, binding: Assignment, scope: Scope) -> Value:
-        """The value of an assignment, or an object of what is annotated."""
+        """The value of an assignment, or an object of the annotated class."""
         if not binding.annotation:
             return self.of(binding.value, scope)
         # Annotations of parameters are evaluated outside the function.
@@ -283,7 +283,7 @@ class Resolver:
         return Advice(kind, self.layer(layer, scope, given), guarded)
 
     def layer(self, node: ast.expr, scope: Scope, given: Environment = NOTHING_GIVEN) -> Value:
-        """The value of an expression that stands for a layer: something subscripted with a name is `layers`."""
+        """The value of an expression for a layer. Every object that is subscripted with a name counts as `layers`."""
         value = self.of(node, scope, given)
         if isinstance(value, UnknownValue) and isinstance(node, ast.Subscript):
             holder, key = self.of(node.value, scope, given), self.of(node.slice, scope, given)

@@ -175,7 +175,7 @@ class Tables:
 
 
 def _entries(node: ast.Dict | ast.Call) -> Iterator[tuple[ast.expr | str | None, ast.expr]]:
-    """Keys and values; None for a key stands for a whole table."""
+    """The keys and values. The key None means that the value is a whole table."""
     if isinstance(node, ast.Dict):
         yield from zip(node.keys, node.values)
         return

@@ -1,4 +1,4 @@
-"""From what was named as the target to the Python files that it means, each read and parsed, none of them run."""
+"""Finds, reads and parses the Python files of a target, and runs none of them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _NOT_THE_DEVELOPERS = {"__pycache__", "node_modules", "site-packages"}
 
 
 class NoTarget(SleecError):
-    """Nothing that could be read as Python: no such file, folder or module, or no Python in it."""
+    """The target does not exist, or contains no Python code."""
 
 
 class NotPython(LanguageError):
@@ -179,7 +179,7 @@ def _problem(source: Source, error: SyntaxError) -> Problem:
 
 
 def _bytes(path: str) -> tuple[str, bytes]:
-    """What to call a file, and what it holds."""
+    """The name and the content of a file."""
     if path == _STDIN:
         return "<stdin>", read_standard_input()
     try:

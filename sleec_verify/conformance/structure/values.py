@@ -102,11 +102,9 @@ class Object:
 
 @dataclass(frozen=True)
 class Code:
-    """A function or method of the target, with the object or class that it is reached through, if any.
-
-    `definitions` are all that the name stands for: several where they are the variants of a layered method, or are
-    defined under conditions.
-    """
+    """A function or method of the target, with the object or class through which it is accessed, if any. `definitions`
+    are all definitions of the name. There are several for the variants of a layered method, and for conditional
+    definitions."""
 
     definitions: tuple[Function, ...]
     receiver: Value | None = None
