@@ -72,8 +72,8 @@ def one_report(cli: Cli, form: str, code: int, *arguments: str) -> list[tuple[st
 
 POLICIES: dict[str, tuple[str | None, str, str]] = {
     "new-conflicts": (CLASH, "findings = 'never'", "a and b now contradict each other about o"),
-    "lost-obligations": (LOST, "lost-obligations = ['p']", "p is no longer required by a"),
-    "lost-obligations of a file that is gone": (None, "lost-obligations = ['p']", "p is no longer required by a"),
+    "lost-obligations": (LOST, "lost-obligations = ['p']", "rule `a` no longer requires `p`"),
+    "lost-obligations of a file that is gone": (None, "lost-obligations = ['p']", "rule `a` no longer requires `p`"),
     "SLEEC202": (DEAD, "dead-hedges = true", "the exception `UNLESS NOT c` of rule `a`"),
     "SLEEC101": (CLASH, "new-conflicts = false", "contradict each other"),
     "clause-coverage": (LOST, "clause-coverage = 50", "the cases cover 0 of 1 clauses"),
