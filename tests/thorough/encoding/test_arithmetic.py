@@ -32,7 +32,7 @@ def test_what_cannot_say_them_refuses_with_the_place(to, language, tmp_path, cap
     path.write_text(TEXT % ("\n".join(BOTH), ""))
     assert run(["convert", str(path), "--to", to]) == 2
     said = capsys.readouterr().err
-    assert f"rules.sleec:11: {language} has no calculations, as `x + y` is" in said
+    assert f"rules.sleec:11: {language} has no calculations such as `x + y`" in said
     assert "help: " in said
 
 
@@ -67,7 +67,7 @@ def test_a_certificate_does_not_rest_on_z3(tmp_path, capsys):
     path.write_text(TEXT % ("\n".join(NEEDS_Z3), ""))
     assert run(["certify", str(path), "-o", str(tmp_path / "certificate")]) == 3
     manifest = (tmp_path / "certificate" / "manifest.json").read_text()
-    assert "which a certificate does not prove" in manifest
+    assert "which a certificate cannot prove" in manifest
     # What regions alone refute is proved as ever.
     path.write_text(TEXT % ("R1 when A and ({x} + {y} < 3) then B\nR2 when A and ({x} + {y} > 5) then not B", ""))
     capsys.readouterr()
@@ -137,7 +137,7 @@ def test_what_is_too_hard_is_unknown(monkeypatch):
     monkeypatch.setattr(arithmetic, "RESOURCES", 1)
     (calculated,) = calculations_in(guard_of("(({x} * {y}) > 3)"))
     compared = [(calculated, 7, True, -1), (calculated, 8, True, 2)]
-    with pytest.raises(NotCalculated, match=r"z3 does not decide what `x \* y` in line 11 can be") as caught:
+    with pytest.raises(NotCalculated, match=r"z3 could not decide the values of `x \* y` in line 11") as caught:
         arithmetic.values_for({"x": True, "y": True}, [], [], compared)
     arithmetic.answer.cache_clear()
     assert caught.value.lines == (11,)

@@ -208,7 +208,7 @@ def test_every_domain_can_be_converted_and_its_rules_keep_their_labels(ruleset):
             converted = convert(of_domain(ruleset, domain), "english").ruleset
             assert [rule.label for rule in converted.rules] == labels
         else:
-            with pytest.raises(Unsayable, match="no rule is in force"):
+            with pytest.raises(Unsayable, match="no rule applies in the domain"):
                 of_domain(ruleset, domain)
 
 
@@ -257,10 +257,10 @@ def test_what_sleec_tk_takes_its_time_for_is_noted(response, to, noted):
 def test_names_that_sleec_tk_keeps_for_itself_are_noted():
     text = "CONDITION d\nMEASURE c: number\nCONSTANT Q = 2\nWHEN P AND d AND c > Q THEN Stop WITHIN 1 minute"
     (_, note) = convert(parse(text), "dsl").notes
-    assert note == "the editor of SLEEC-TK refuses P, Q, c and d as names"
+    assert note == "the editor of SLEEC-TK rejects P, Q, c and d as names"
     assert [one for one in convert(parse(text), "legos").notes if "SLEEC-TK" in one] == []
     (note,) = convert(parse("WHEN STOP THEN Halt WITHIN 1 minute"), "dsl").notes
-    assert note == "the editor of SLEEC-TK refuses STOP as a name"
+    assert note == "the editor of SLEEC-TK rejects STOP as a name"
 
 
 CHAIN = "RULE one WHEN A THEN B\nRULE two WHEN B THEN C\nRULE three WHEN A THEN NOT C"
