@@ -1,6 +1,6 @@
 (** No context of hospital.sleec conflicts.
 
-    A comparison of a measure is a condition here, as in `sleec_verify.certificates.theory.boolean`;
+    A comparison of a measure is a condition here, as in `certificates.theory.boolean`;
     what is assumed of the order of these is true of all values.
 
     Written by `make theorems`; do not edit. *)

@@ -212,7 +212,7 @@ def test_a_comparison_of_two_measures_is_unknown() -> None:
     head = HEAD.replace("  measure n", "  measure k: numeric\n  measure n")
     verdict = _verdict("  R1 when A then X\n  R2 when B and ({k} < {n}) then not X", 1, head=head)
     assert isinstance(verdict, Unknown)
-    assert verdict.why.startswith("R1, R2: ")
+    assert verdict.why.startswith("`R1`, `R2`: ")
 
 
 def test_too_many_times_are_unknown(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -105,7 +105,7 @@ def test_what_is_written_is_proved_and_only_that(
     assert main([*paths, "-o", str(out)]) == 0
     said = capsys.readouterr().out
     assert "conflicting.sleec: no theorem: it may conflict" in said
-    assert "timed.sleec: no theorem: the theory has no times" in said
+    assert "timed.sleec: no theorem: the theory covers neither time" in said
     assert "9-odd.sleec: r_9_odd_conflict_free" in said
     assert {path.name for path in out.glob("*.v")} == {"R_9_odd.v", "Assumptions.v"}
     assert compiled(out, "R_9_odd.v") == ""

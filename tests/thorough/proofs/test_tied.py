@@ -170,7 +170,7 @@ def test_the_reading_is_tied_with_assumptions_and_chains_in_chains(oracle: Path)
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("WHEN T THEN X WITHIN 5 minutes\n", "the theory has no times"),
+        ("WHEN T THEN X WITHIN 5 minutes\n", "the theory covers neither time"),
         (
             "MEASURE A: integer\nMEASURE B: integer\nWHEN T THEN X\nUNLESS A < B IN WHICH CASE Y\n",
             r"whole numbers.*A, B",
@@ -193,7 +193,7 @@ def program(folder: Path, body: str) -> Path:
 @pytest.mark.parametrize(
     ("body", "reason"),
     [
-        ("read a; echo ok", "ended with 0"),
+        ("read a; echo ok", "exited with 0"),
         ("read a; echo UNREADABLE: why; exit 2", "UNREADABLE: why"),
         ("exec sleep 30", "did not answer in 0.2 s"),
     ],
@@ -242,11 +242,11 @@ def test_the_command_says_so(
         return capsys.readouterr().out
 
     assert "in Coq" not in called(rules, "-o", folder)
-    assert "conflict: proved of the rules as they were read" in called("--check", folder, rules)
+    assert "conflict: proved for the parsed rules" in called("--check", folder, rules)
     told = json.loads(called("--check", folder, rules, "--format", "json"))
     assert told["theory"] == {"conflict": {"proved": True, "reason": None}}
     monkeypatch.setattr(oracle_module, "BUILT", tmp_path / "nowhere")
-    assert "is not proved: the oracle is not built (make proofs)" in called("--check", folder, rules)
+    assert "the oracle is not built (make proofs)" in called("--check", folder, rules)
 
 
 def test_rules_tied_to_their_certificate_can_be_required(oracle: Path, tmp_path: Path) -> None:
