@@ -174,7 +174,7 @@ def test_question_that_was_given_up_is_unknown(cli: Cli, monkeypatch: pytest.Mon
     def give_up(*_: object) -> None:
         raise Undecided("too entangled to say")
 
-    monkeypatch.setattr("sleec_verify.entailment.entailment.entail", give_up)
+    monkeypatch.setattr("sleec_verify.entailment.explanation.entail", give_up)
     ran = cli("entail", "a.sleec", files={"a.sleec": RULES})
     assert ran == (3, "", "error: too entangled to say\n")
 
