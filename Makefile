@@ -73,7 +73,7 @@ types: $(INSTALLED)
 	$(BIN)/mypy
 
 fast: $(INSTALLED)
-	$(BIN)/pytest tests/fast -n auto --dist worksteal
+	$(BIN)/pytest tests/fast -n auto --dist worksteal -m 'not long and not slow'
 
 check-tests: $(INSTALLED)
 	$(BIN)/pytest -n auto --dist worksteal

@@ -1,0 +1,1 @@
+"""Scenarios: test cases for rules with time, and their run on a virtual clock."""
