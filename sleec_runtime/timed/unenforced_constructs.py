@@ -10,13 +10,11 @@ from sleec_runtime.errors import NotEnforced, UnsupportedTimes
 from sleec_runtime.model import (
     RELATIONS,
     Atom,
-    Clause,
     Obligation,
     Rule,
     Ruleset,
     Span,
     formulas_of,
-    in_text_order,
     leaves,
     literals,
     relation_name,
@@ -73,21 +71,11 @@ def not_enforced(ruleset: Ruleset, chains: bool) -> Iterator[tuple[str, Span]]:
                 if isinstance(leaf, Atom) and leaf.kind == "trigger" and leaf.name in done:
                     yield f"conditions of `{statement.label}` on `{leaf.name}` as a response", leaf.span
             for clause in statement.clauses():
-                for obligation in _asked(clause):
+                for obligation in literals(clause):
                     yield from _limits(obligation)
                     if not obligation.negated and obligation.name in triggers:
                         what = f"rules that `{obligation.name}` triggers as a response (chains=True enforces them)"
                         yield what, obligation.span
-
-
-def _asked(clause: Clause) -> Iterator[Obligation]:
-    """The obligations of a clause and of its alternatives."""
-    for obligation in clause.obligations:
-        yield obligation
-        if obligation.timing is not None:
-            for alternative in obligation.timing.alternatives():
-                for inner in in_text_order(alternative):
-                    yield from _asked(inner)
 
 
 def _limits(obligation: Obligation) -> Iterator[tuple[str, Span]]:
