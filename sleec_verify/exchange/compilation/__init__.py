@@ -1,5 +1,8 @@
-"""The rules in other languages: formulas for people, clauses for solvers. What they say is Equation 1 (paper, Section
-3.2), the constraints and the assumptions; nothing is left out."""
+"""The rules in other languages: formulas for people, clauses for solvers.
+
+Without time, they state Equation 1 (paper, Section 3.2), the constraints and the assumptions. With time, they state the
+rules and relations in metric temporal logic.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +10,10 @@ from collections.abc import Callable, Mapping
 
 from sleec_runtime.model import Ruleset
 from sleec_verify.encoding.calculations import refuse_calculations
+from sleec_verify.encoding.trace_scope import Untimed
 
 FORMS = ("sympy", "latex", "cnf", "dimacs", "smtlib", "json")
+TEMPORAL_FORMS = ("mtl", "mtl-latex")
 
 
 def compile_to(ruleset: Ruleset, form: str, domain: str | None = None) -> str:
@@ -22,6 +27,18 @@ def compile_to(ruleset: Ruleset, form: str, domain: str | None = None) -> str:
         ruleset = ruleset.in_domain(domain)
     refuse_calculations(ruleset, "Equation 1 as a formula or as clauses")
     return _writers()[form](ruleset)
+
+
+def compile_with_time(ruleset: Ruleset, form: str, domain: str | None = None, untimed: Untimed = "at") -> str:
+    """The ruleset (its rules in `domain`, if one is named) in one of `TEMPORAL_FORMS`, as text.
+
+    `untimed` is the meaning of a response without a window. Raises KeyError for another form.
+    """
+    from sleec_verify.exchange.compilation.mtl import as_mtl, as_mtl_latex
+
+    if domain is not None:
+        ruleset = ruleset.in_domain(domain)
+    return {"mtl": as_mtl, "mtl-latex": as_mtl_latex}[form](ruleset, untimed)
 
 
 def _writers() -> Mapping[str, Callable[[Ruleset], str]]:
