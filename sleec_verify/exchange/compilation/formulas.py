@@ -25,7 +25,7 @@ from sleec_runtime.model import (
     Truth,
 )
 from sleec_verify.encoding.equation import implications
-from sleec_verify.exchange.compilation.symbols import symbol
+from sleec_verify.exchange.compilation.symbols import escaped, symbol
 
 if TYPE_CHECKING:
     import sympy
@@ -117,12 +117,6 @@ def as_latex(ruleset: Ruleset) -> str:
 
     rows = []
     for title, formula in lines(ruleset):
-        names = {s: rf"\mathit{{{_escaped(s.name)}}}" for s in formula.atoms(Symbol)}
-        rows.append(rf"  & {latex(formula, symbol_names=names)} && \text{{{_escaped(title)}}} \\")
+        names = {s: rf"\mathit{{{escaped(s.name)}}}" for s in formula.atoms(Symbol)}
+        rows.append(rf"  & {latex(formula, symbol_names=names)} && \text{{{escaped(title)}}} \\")
     return "\n".join((r"\begin{align*}", *rows, r"\end{align*}")) + "\n"
-
-
-def _escaped(text: str) -> str:
-    for character in "_#%&$":
-        text = text.replace(character, f"\\{character}")
-    return text.replace(" ", r"\ ")

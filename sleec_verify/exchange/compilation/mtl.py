@@ -26,6 +26,7 @@ from sleec_runtime.model import (
     Truth,
 )
 from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.exchange.compilation.symbols import escaped
 from sleec_verify.exchange.compilation.temporal_logic import (
     AllOf,
     Always,
@@ -63,6 +64,9 @@ class Notation(NamedTuple):
     name: str
     """A format for names."""
 
+
+_WORDS = {"G", "F", "O", "W", "true", "false", "inf"}
+"""Words of the text form: names that are such a word, or no identifier, are quoted."""
 
 TEXT = Notation("!", " & ", " | ", " -> ", "true", "false", "G", "F", "O", "W", "inf", ("[", "]"), ("[", ")"), {}, "{}")
 LATEX = Notation(
@@ -146,6 +150,8 @@ class _Writer:
         if isinstance(formula, Truth):
             return n.true if formula.value else n.false
         if isinstance(formula, Not):
+            if isinstance(formula.operand, Not):
+                return self.state(formula.operand.operand, inside)
             return f"{n.negation}{self.state(formula.operand, True)}"
         if isinstance(formula, (And, Or)):
             sign = n.conjunction if isinstance(formula, And) else n.disjunction
@@ -158,16 +164,17 @@ class _Writer:
         if isinstance(term, Number):
             return str(term.value)
         if isinstance(term, Calculation):
-            return f"({term})"
+            return f"({term})" if self._n is TEXT else f"({self._name(str(term))})"
         return self._name(term.name if isinstance(term, MeasureRef) else term.value)
 
     def _name(self, name: str) -> str:
-        return self._n.name.format(name if self._n is TEXT else _escaped(name))
+        if self._n is TEXT:
+            return name if name.isidentifier() and name not in _WORDS else f'"{name}"'
+        return self._n.name.format(escaped(name))
 
-    @staticmethod
-    def _joined(parts: Sequence[str], sign: str, inside: bool) -> str:
+    def _joined(self, parts: Sequence[str], sign: str, inside: bool) -> str:
         if not parts:
-            return "true"
+            return self._n.true
         if len(parts) == 1:
             return parts[0]
         return f"({sign.join(parts)})" if inside else sign.join(parts)
@@ -181,8 +188,7 @@ def as_mtl(ruleset: Ruleset, untimed: Untimed = "at") -> str:
 def as_mtl_latex(ruleset: Ruleset, untimed: Untimed = "at") -> str:
     """One aligned block, a line for each formula, for a document that loads amsmath and amssymb."""
     rows = [
-        rf"  & {formula} && \text{{{_escaped(title)}}} \\"
-        for title, formula in _lines(ruleset, untimed, _Writer(LATEX))
+        rf"  & {formula} && \text{{{escaped(title)}}} \\" for title, formula in _lines(ruleset, untimed, _Writer(LATEX))
     ]
     return "\n".join((r"\begin{align*}", *rows, r"\end{align*}")) + "\n"
 
@@ -194,9 +200,3 @@ def _lines(ruleset: Ruleset, untimed: Untimed, writer: _Writer) -> Iterator[tupl
     for claim, parts in claims_of(ruleset, untimed):
         found = [f"{notation.eventually} {writer.temporal(part, True)}" for part in parts]
         yield f"{claim.kind} {claim.label}: it occurs in a trace if", notation.conjunction.join(found)
-
-
-def _escaped(text: str) -> str:
-    for character in "_#%&$":
-        text = text.replace(character, f"\\{character}")
-    return text.replace(" ", r"\ ")

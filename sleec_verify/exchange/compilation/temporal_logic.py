@@ -64,7 +64,7 @@ Bound = tuple[Length, ...]
 
 @dataclass(frozen=True)
 class Window:
-    """From `start` to `end`; `end` None is no bound."""
+    """From `start` to `end`; without an `end`, there is no upper bound."""
 
     start: Bound
     end: Bound | None

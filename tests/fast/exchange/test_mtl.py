@@ -27,7 +27,7 @@ concern_end
 TEXT = """# R1, default
 G ((A & busy) -> (F[0,120] B | ((!busy -> F[3720,7320] C) & (busy -> F[120,120] D))))
 # R2, default
-G ((A & !!busy) -> G[0,60*patience] !B)
+G ((A & busy) -> G[0,60*patience] !B)
 # R2, hedge 1
 G ((A & !busy) -> F D)
 # happenBefore
@@ -68,3 +68,8 @@ def test_a_response_without_a_window_has_the_meaning_that_is_asked_for() -> None
     rules = parse("RULE a WHEN A THEN B AND NOT C")
     assert "G (A -> (B & !C))" in compile_with_time(rules, "mtl")
     assert "G (A -> (F B & G !C))" in compile_with_time(rules, "mtl", untimed="eventually")
+
+
+def test_names_that_are_no_identifiers_are_quoted() -> None:
+    rules = parse("RULE a WHEN G AND the user is asleep THEN F")
+    assert 'G (("G" & "the user is asleep") -> "F")' in compile_with_time(rules, "mtl")
