@@ -26,12 +26,14 @@ class Recording:
         outer: Recording | None = None,
         apart: bool = False,
         on_execution: Callable[[str], object] | None = None,
+        on_end: Callable[[str, BaseException | None], object] | None = None,
     ) -> None:
         self.executed: list[str] = []
         self.failed: list[str] = []
         self.outer = outer
         self.apart = apart
         self.on_execution = on_execution
+        self.on_end = on_end
         self._under_way: set[str] = set()
 
     @contextmanager
@@ -47,9 +49,14 @@ class Recording:
                 if self.on_execution is not None:
                     self.on_execution(name)
                 yield
-        except BaseException:
+        except BaseException as error:
             self.failed.append(name)
+            if self.on_end is not None:
+                self.on_end(name, error)
             raise
+        else:
+            if self.on_end is not None:
+                self.on_end(name, None)
         finally:
             self._under_way.discard(name)
 
@@ -58,17 +65,22 @@ _recording: ContextVar[Recording | None] = ContextVar("sleec_recording", default
 
 
 @contextmanager
-def recording(apart: bool = False, on_execution: Callable[[str], object] | None = None) -> Iterator[Recording]:
+def recording(
+    apart: bool = False,
+    on_execution: Callable[[str], object] | None = None,
+    on_end: Callable[[str, BaseException | None], object] | None = None,
+) -> Iterator[Recording]:
     """Records what the block executes.
 
     Recordings nest: an outer recording sees what an inner one sees. Recordings with `apart` do not report to each
     other, so that the monitor sees each dispatch separately. `on_execution` is called with each name when its execution
-    begins; the implementation raises what it raises.
+    begins; the implementation raises what it raises. `on_end` is called with each name when its implementation has
+    returned, raised or been awaited, and with the exception.
     """
     outer = _recording.get()
     while apart and outer is not None and outer.apart:
         outer = outer.outer
-    inner = Recording(outer, apart, on_execution)
+    inner = Recording(outer, apart, on_execution, on_end)
     token = _recording.set(inner)
     try:
         yield inner

@@ -81,6 +81,11 @@ class Host:
         """The objects whose methods are bound to rules."""
         return self._instance.objects()
 
+    @property
+    def takes_time(self) -> frozenset[str]:
+        """The obligations whose callables do not complete them: `completed` does."""
+        return self._instance.takes_time
+
     def _state(self) -> tuple[Snapshot, Instance]:
         return self._snapshot, self._instance
 

@@ -98,6 +98,16 @@ class Sleec(Host):
         return self._snapshot.index.domain
 
     @property
+    def clock(self) -> Clock | None:
+        """The clock that measures windows; None for the clock of the computer."""
+        return self._clock
+
+    @property
+    def chains(self) -> bool:
+        """Whether a response triggers the rules of its name."""
+        return self._chains
+
+    @property
     def conditions(self) -> Conditions:
         """The reported conditions and measures, as an immutable mapping."""
         return self._snapshot.conditions

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
+from inspect import Parameter, signature
 from typing import Any, Protocol, runtime_checkable
 
+from sleec_runtime import VirtualClock
 from sleec_runtime.dispatch.implementations import watched
 from sleec_runtime.dispatch.recording import recording
 from sleec_runtime.errors import NeedsAwait, SleecError
@@ -34,8 +36,9 @@ class Subject(Protocol):
         ...
 
 
-Factory = Callable[[], Any]
-"""Creates a new subject at each call, with its code bound and no context reported."""
+Factory = Callable[..., Any]
+"""Creates a new subject at each call, with its code bound and no context reported. A factory with a parameter `clock`,
+or with one required parameter, gets the clock of the test, which the subject must use."""
 
 Arguments = Sequence[object] | Callable[[tuple[str, ...]], Sequence[object]]
 """The arguments of triggers: constant, or a function of the triggers that occur."""
@@ -69,6 +72,7 @@ class Bench:
     watch: tuple[object, ...] = ()
     arguments: Arguments = ()
     _oracles: dict[str | None, Oracle] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _modes: set[str] = field(default_factory=set, init=False, repr=False, compare=False)
 
     def oracle(self) -> Oracle:
         """What must be executed, compiled once for all subjects of this bench."""
@@ -81,9 +85,19 @@ class Bench:
             self._oracles[None] = Oracle(whole, domain)
         return self._oracles[None]
 
-    def subject(self) -> Subject:
-        """A new subject. Raises `NotASubject`, and the exceptions of the factory."""
-        made = self.make()
+    @property
+    def asynchronous(self) -> bool:
+        """Whether code of the subject was found to need an event loop."""
+        return "asynchronous" in self._modes
+
+    def needs_loop(self) -> None:
+        """Records that code of the subject needs an event loop."""
+        self._modes.add("asynchronous")
+
+    def subject(self, clock: VirtualClock | None = None) -> Subject:
+        """A new subject, on `clock` if its factory takes one. Raises `NotASubject`, and the exceptions of the
+        factory."""
+        made = self.make(VirtualClock() if clock is None else clock) if takes_clock(self.make) else self.make()
         if not isinstance(made, Subject):
             raise NotASubject(
                 f"the factory returned {_described(made)}, which is not a Sleec",
@@ -94,12 +108,18 @@ class Bench:
     @contextmanager
     def running(self) -> Iterator[Running]:
         """A new subject, observed until the end of the block."""
-        subject = self.subject()
+        oracle = self.oracle()
+        with self.observed(self.subject(), oracle.whole.obligations) as subject:
+            yield Running(subject, oracle, self.arguments)
+
+    @contextmanager
+    def observed(self, subject: Subject, obligations: Iterable[str]) -> Iterator[Subject]:
+        """A subject, of which recordings see each execution of `obligations` until the end of the block."""
         objects: list[object] = getattr(subject, "bound_objects", list)()
         with ExitStack() as stack:
             for robot in {id(robot): robot for robot in (*objects, *self.watch)}.values():
-                stack.enter_context(watched(robot, self.oracle().whole.obligations))
-            yield Running(subject, self.oracle(), self.arguments)
+                stack.enter_context(watched(robot, obligations))
+            yield subject
 
 
 class Running:
@@ -182,6 +202,16 @@ class Running:
             import asyncio
 
             asyncio.run(in_turn(names, *arguments))
+
+
+def takes_clock(make: Factory) -> bool:
+    """Whether a factory has a parameter `clock`, or a required positional parameter."""
+    try:
+        parameters = list(signature(make).parameters.values())
+    except (TypeError, ValueError):
+        return False
+    positional = [one for one in parameters if one.kind in (one.POSITIONAL_ONLY, one.POSITIONAL_OR_KEYWORD)]
+    return bool(positional) and (positional[0].default is Parameter.empty or positional[0].name == "clock")
 
 
 def whole_ruleset(subject: Subject) -> Ruleset:
