@@ -17,7 +17,7 @@ from sleec_runtime.support.messages import represent
 if TYPE_CHECKING:
     from pathlib import Path
 
-FORMAT = 2
+FORMAT = 3
 """The version of the format. Other versions are rejected."""
 
 

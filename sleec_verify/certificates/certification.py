@@ -13,6 +13,7 @@ from sleec_verify.certificates.conflict_freedom import conflict_free
 from sleec_verify.certificates.manifest import Evidence, manifest
 from sleec_verify.certificates.recorder import RecordedQuestion, Recorder
 from sleec_verify.certificates.refutation import Disjunction, disjunctions
+from sleec_verify.certificates.trace_file import TRACES, CheckTrace, traces_text
 from sleec_verify.checks import Checking, checks_for
 from sleec_verify.encoding.trace_scope import speaks_of_traces
 from sleec_verify.query.question import is_possible
@@ -32,16 +33,18 @@ NOTHING_REQUIRED = Required()
 
 @dataclass(frozen=True)
 class CheckEvidence:
-    """The verdict of a check, and the formulas whose refutations prove it, by the names of their files."""
+    """The verdict of a check, the formulas whose refutations prove it, by the names of their files, and the traces that
+    it found."""
 
     result: CheckResult
     models: int
     formulas: dict[str, Disjunction]
+    traces: tuple[CheckTrace, ...] = ()
 
     def shown(self) -> Evidence:
         refuted = sum(formula.questions for formula in self.formulas.values())
         files = (f"{name}.{kind}" for name in self.formulas for kind in ("cnf", "lrat"))
-        return Evidence(self.result, refuted, self.models, tuple(files))
+        return Evidence(self.result, refuted, self.models, tuple(files), len(self.traces))
 
     def dimacs(self, name: str) -> str:
         return self.formulas[name].dimacs(f"what sleec-verify refutes for the check {self.result.name}")
@@ -84,11 +87,15 @@ def certify(
     if not ruleset.domains:
         domain = None
     shown, files = [], {}
+    traces: list[CheckTrace] = []
     for rebuilt in rebuild(ruleset, domain, untimed, progress, chains=chains):
         shown.append(rebuilt.shown())
         for name, formula in rebuilt.formulas.items():
             files[f"{name}.cnf"] = rebuilt.dimacs(name)
             files[f"{name}.lrat"] = formula.lrat()
+        traces += rebuilt.traces
+    if traces:
+        files[TRACES] = traces_text(traces)
     digests = {name: sha256(text.encode()).hexdigest() for name, text in files.items()}
     meaning = untimed if speaks_of_traces(ruleset) else None
     whole = manifest(ruleset, domain, meaning, chains, required, shown, digests)
@@ -110,21 +117,23 @@ def rebuild(
     for index in (checking.whole, *checking.by_domain.values()):
         _ask_what_is_possible(index)
     assumed, models = recorder.take()
+    recorder.take_traces()
+    domains = {id(index.ruleset): (domain, index) for domain, index in checking.by_domain.items()}
     names = checks_for(ruleset)
     for done, name in enumerate(names):
         if progress is not None:
             progress(name, done, len(names))
         result = checking.result(name)
         asked, found = recorder.take()
+        traces = tuple(CheckTrace(name, *domains[id(one.ruleset)], one) for one in recorder.take_traces())
         if name == "assumptions":
             asked, found = assumed + asked, models + found
         if name == "conflict":
             asked = _conflict(checking, recorder, result, asked)
         if isinstance(result.verdict, Unknown):
             asked = []
-        yield CheckEvidence(
-            result, found, _named(name, asked, name == "conflict" and isinstance(result.verdict, Proved))
-        )
+        formulas = _named(name, asked, name == "conflict" and isinstance(result.verdict, Proved))
+        yield CheckEvidence(result, found, formulas, traces)
 
 
 def _ask_what_is_possible(index: RulesetIndex) -> bool:

@@ -22,13 +22,15 @@ LEFT_OUT = ("check", "note", "help", "related")
 
 
 class Evidence(NamedTuple):
-    """A verdict and its evidence: the number of refuted questions, the number of models (situations or traces), and the
-    names of the files with the proofs. The files alternate between formula and refutation."""
+    """A verdict and its evidence: the number of refuted questions, the number of models (situations or traces), the
+    names of the files with the proofs, and the number of traces in the file of traces. The files alternate between
+    formula and refutation."""
 
     result: CheckResult
     refuted: int
     models: int
     files: tuple[str, ...]
+    traces: int = 0
 
     @property
     def evidence(self) -> str:
@@ -95,6 +97,7 @@ def check_json(one: Evidence, ruleset: Ruleset) -> dict[str, Json]:
         "refuted": one.refuted,
         "models": one.models,
         "files": list(one.files),
+        "traces": one.traces,
         "findings": [
             {
                 key: value

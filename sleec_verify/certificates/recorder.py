@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from itertools import chain
 
 from sleec_runtime.errors import SleecError
+from sleec_verify.results.found_trace import FoundTrace
 
 
 class NoModel(SleecError):
@@ -31,6 +32,7 @@ class Recorder:
         self._examining = examining
         self._asked: dict[int, RecordedQuestion] = {}
         self._models = 0
+        self._traces: list[FoundTrace] = []
 
     def refuted(self, clauses: Sequence[Sequence[int]], literals: Sequence[int]) -> None:
         """Records that no model of `clauses` makes all `literals` true."""
@@ -50,6 +52,15 @@ class Recorder:
         true = set(filter(holds, {*literals, *chain.from_iterable(clauses)}))
         if not true.issuperset(literals) or any(map(true.isdisjoint, clauses)):
             raise NoModel("a solver's model does not satisfy the question", "this is a bug; report it")
+
+    def found(self, trace: FoundTrace) -> None:
+        """Records a trace that answers a question with yes."""
+        self._traces.append(trace)
+
+    def take_traces(self) -> list[FoundTrace]:
+        """The traces since the last call."""
+        taken, self._traces = self._traces, []
+        return taken
 
     def take(self) -> tuple[list[RecordedQuestion], int]:
         """The formulas with refuted questions, and the number of models, since the last call."""

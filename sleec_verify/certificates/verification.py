@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -17,7 +18,9 @@ from sleec_runtime.support.files import read_file
 from sleec_verify import __version__
 from sleec_verify.certificates.certification import NOTHING_REQUIRED, CheckEvidence, rebuild
 from sleec_verify.certificates.manifest import check_json, manifest
-from sleec_verify.certificates.verdict_binding import UnboundVerdict, VerdictBinding, bind_verdicts
+from sleec_verify.certificates.theory.trace_oracle import OracleEvaluator
+from sleec_verify.certificates.trace_file import TRACES, CheckTrace, Replayed, TraceReplay, changed_traces
+from sleec_verify.certificates.verdict_binding import MOST_SECONDS, UnboundVerdict, VerdictBinding, bind_verdicts
 from sleec_verify.certificates.witnesses import KEYS, Replay, same
 from sleec_verify.encoding.trace_scope import speaks_of_traces
 
@@ -39,13 +42,16 @@ class Problem(NamedTuple):
 @dataclass(frozen=True)
 class CheckedCertificate:
     """A valid certificate: its content, the ruleset in its reading, the checker of its refutations, and whether it is
-    signed. `tied` says for each check whether the verdicts from refutations are tied to the rules."""
+    signed. `replayed` says which evaluators replayed its traces, and `tied`, for each check, whether the verdicts from
+    refutations are tied to the rules.
+    """
 
     ruleset: Ruleset
     manifest: Manifest
     shown: tuple[Evidence, ...]
     checker: Checker
     signed: bool
+    replayed: Replayed
     tied: tuple[VerdictBinding, ...] = ()
 
 
@@ -75,8 +81,10 @@ def check_certificate(
     claimed = read_manifest(folder, key)
     _check_use(ruleset, claimed, Use(ruleset.reading) if use is None else use)
     read = ruleset.read_as(cast("Reading", claimed.reading))
-    examined = _Examined(read, claimed, Path(folder), judge)
-    problems = [*examined.files(), *examined.contents(progress)]
+    with ExitStack() as stack:
+        evaluator = None if oracle is None else stack.enter_context(OracleEvaluator(oracle, MOST_SECONDS))
+        examined = _Examined(read, claimed, Path(folder), judge, TraceReplay(evaluator))
+        problems = [*examined.files(), *examined.contents(progress)]
     if (required.proved or claimed.required.proved) and not judge.proved:
         problems.append(Problem("not-proved", f"the proofs are checked by {judge.name}, which is not proved correct"))
     tied: list[VerdictBinding] = []
@@ -91,9 +99,9 @@ def check_certificate(
             tied.append(one)
     if problems:
         raise CertificateRefused(problems, _hint(claimed, problems))
-    return CheckedCertificate(
-        read, claimed, tuple(examined.shown), judge, (Path(folder) / SIGNATURE).exists(), tuple(tied)
-    )
+    signed = (Path(folder) / SIGNATURE).exists()
+    replayed = examined.traces.result()
+    return CheckedCertificate(read, claimed, tuple(examined.shown), judge, signed, replayed, tuple(tied))
 
 
 def _check_use(ruleset: Ruleset, claimed: Manifest, use: Use) -> None:
@@ -121,12 +129,13 @@ def _hint(claimed: Manifest, problems: Sequence[Problem]) -> str | None:
 class _Examined:
     """The comparison of a certificate with the text of the rules. It fills `shown` during the comparison."""
 
-    def __init__(self, ruleset: Ruleset, claimed: Manifest, folder: Path, judge: Checker) -> None:
+    def __init__(self, ruleset: Ruleset, claimed: Manifest, folder: Path, judge: Checker, traces: TraceReplay) -> None:
         self._ruleset = ruleset
         self._claimed = claimed
         self._folder = folder
         self._judge = judge
         self._replay = Replay(ruleset)
+        self.traces = traces
         self.shown: list[Evidence] = []
 
     # Files ----------------------------------------------------------------------------------------------------
@@ -152,20 +161,25 @@ class _Examined:
     # Contents -------------------------------------------------------------------------------------------------
 
     def contents(self, progress: Callable[[str, int, int], None] | None) -> Iterator[Problem]:
-        """Checks the verdicts, the refutations of the formulas, and the witnesses."""
+        """Checks the verdicts, the refutations of the formulas, the witnesses and the traces."""
+        traces: list[CheckTrace] = []
         claimed, ruleset = self._claimed, self._ruleset
         untimed = cast("Untimed", claimed.untimed or "at")
         said = {check["name"]: check for check in claimed.whole["checks"]}
         for rebuilt in rebuild(ruleset, claimed.domain, untimed, progress, examining=True, chains=claimed.chains):
             one = rebuilt.shown()
             self.shown.append(one)
+            traces += rebuilt.traces
             yield from self._formulas(rebuilt)
             entry = said.get(one.result.name)
             if entry is None:
                 yield Problem("verdict", f"{MANIFEST} has no verdict of the check {one.result.name}")
             else:
                 yield from self._entry(one, entry)
+        yield from self._traces(traces)
         digests = {name: claimed.files.get(name, "") for one in self.shown for name in one.files}
+        if traces:
+            digests[TRACES] = claimed.files.get(TRACES, "")
         use = (claimed.domain, claimed.untimed, claimed.chains)
         expected = manifest(ruleset, *use, claimed.required, self.shown, digests)
         for key in expected:
@@ -197,6 +211,28 @@ class _Examined:
                 reason = self._judge.refuses(*data)
                 if reason is not None:
                     yield Problem("proof", f"{proof} does not refute {formula}: {reason}")
+
+    def _traces(self, traces: Sequence[CheckTrace]) -> Iterator[Problem]:
+        """Checks that the file of traces has those that are found now, and replays them."""
+        if traces:
+            yield from self._trace_file(traces)
+        for trace in traces:
+            refusing = self.traces.rejected(trace)
+            if refusing is not None:
+                yield Problem("witness", f"{refusing} does not confirm {trace}")
+
+    def _trace_file(self, traces: Sequence[CheckTrace]) -> Iterator[Problem]:
+        if TRACES not in self._claimed.files:
+            yield Problem("file-missing", f"the certificate has no {TRACES}")
+            return
+        data = self._read(TRACES)
+        if isinstance(data, Problem):
+            yield data
+            return
+        if sha256(data).hexdigest() != self._claimed.files[TRACES]:
+            yield Problem("file-changed", f"the hash of {TRACES} does not match {MANIFEST}")
+        for message in changed_traces(data, traces):
+            yield Problem("witness", message)
 
     def _entry(self, one: Evidence, entry: Mapping[str, Any]) -> Iterator[Problem]:
         """Checks the entry of a check in the manifest against the rules, and replays its witnesses."""

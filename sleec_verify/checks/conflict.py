@@ -19,6 +19,7 @@ from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.query.inconsistent_sets import InconsistentSet, InconsistentSets, opposite
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding, Witness
+from sleec_verify.results.found_trace import FoundTrace
 from sleec_verify.results.phrases import clause_name, listed, quoted
 from sleec_verify.traces.partition import partition_of, without
 
@@ -62,6 +63,9 @@ def _of_traces(whole: TraceIndex, component: TraceIndex, incomplete: list[str]) 
 
     search = ConflictSearch(component)
     for conflict in search.find():
+        if whole.recorder is not None:
+            instants = (*conflict.history, conflict.now)
+            whole.recorder.found(FoundTrace(whole.root.ruleset, "conflict", conflict.pairs, instants))
         yield _of_trace(whole, conflict)
     if search.may_be_more:
         incomplete += (label for label in search.chained if label not in incomplete)

@@ -146,8 +146,8 @@ def _hedges_in_traces(traces: TraceIndex) -> Iterator[Finding]:
         rule, number = place
         less = without_hedge(rule, number)
         if (
-            find_difference(traces, rule, less).trace is not None
-            or find_difference(traces, less, rule).trace is not None
+            find_difference(traces, rule, number, less, violated=True).trace is not None
+            or find_difference(traces, rule, number, less, violated=False).trace is not None
         ):
             return
         hedge = list(rule.clauses())[number]

@@ -188,7 +188,8 @@ def _check(
         return exits.UNUSABLE
     if public is None and confirmed.signed:
         note("the certificate is signed, but its signature was not verified; use --key PUB")
-    write(render(form, confirmed.ruleset, checked, confirmed.manifest.whole, confirmed.shown, judge, confirmed.tied))
+    whole, shown = confirmed.manifest.whole, confirmed.shown
+    write(render(form, confirmed.ruleset, checked, whole, shown, judge, confirmed.tied, confirmed.replayed))
     return exits.code((one.result for one in confirmed.shown), fail_level)
 
 

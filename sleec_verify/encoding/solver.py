@@ -13,6 +13,7 @@ from typing import Protocol
 import pysolvers
 
 from sleec_verify.encoding.budget import Budget, Undecided, current, spend
+from sleec_verify.results.found_trace import FoundTrace
 
 __all__ = ["CONFLICT_BUDGET", "MiniSat", "Recorder", "Solver", "Undecided"]
 
@@ -69,6 +70,10 @@ class Recorder(Protocol):
         self, clauses: Sequence[Sequence[int]], literals: Sequence[int], holds: Callable[[int], bool]
     ) -> None:
         """`holds` tells what is true in a model of the clauses that makes all these literals true."""
+        ...
+
+    def found(self, trace: FoundTrace) -> None:
+        """A question was answered with yes by this trace."""
         ...
 
 

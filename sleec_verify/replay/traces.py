@@ -1,46 +1,96 @@
-"""Replay of findings about traces by the runtime's evaluator of traces, which shares no code with the encoding and
-the solver."""
+"""Replay of traces by an evaluator that shares no code with the encoding and the solver: that of the runtime, or the
+one that is extracted from the theory in Coq."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 
-from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.evaluation.trace import Instant, Trace
-from sleec_runtime.evaluation.trace_violations import Requirement, claim_holds, violations, violations_so_far
-from sleec_runtime.model import Context, Rule, Ruleset, claims
+from sleec_runtime.evaluation.trace_violations import Requirement
+from sleec_runtime.model import CLAIM_KINDS, Claim, ClaimKind, Rule, Ruleset, claims
 from sleec_verify.encoding.relations import events_of
 from sleec_verify.query.ruleset_index import RulesetIndex
+from sleec_verify.replay.trace_evaluator import RUNTIME, TraceEvaluator
 from sleec_verify.results.finding import Finding
+from sleec_verify.results.found_trace import FoundTrace
 from sleec_verify.results.timeline import Timeline
 from sleec_verify.traces.index import trace_index_of
 from sleec_verify.traces.relations import names_of_relation
 
 
 def replay_trace(index: RulesetIndex, finding: Finding) -> bool:
-    """Whether the evaluator confirms a finding: a trace in which a concern occurs, or a conflict after a lawful
-    history in which the named clauses decide. That no response complies with them is a claim about all responses,
-    which a replay cannot confirm."""
-    if finding.check == "concern":
-        return _claim_occurs(index, finding)
+    """Whether the evaluator of the runtime confirms a finding: a trace in which a concern occurs, or a conflict after a
+    lawful history in which the named clauses decide. That no response complies with them is a claim about all
+    responses, which a replay cannot confirm."""
     assert finding.witness is not None, "only findings with a witness are replayed"
-    moments = () if finding.timeline is None else as_trace(finding.timeline).instants
-    now = moments[-1] if moments else Instant(0, frozenset(finding.witness.triggers), finding.witness.conditions)
-    history = moments[:-1]
-    for label, number in finding.clauses:
+    if finding.check == "concern":
+        assert finding.timeline is not None, "a concern occurs in a trace"
+        return _occurs(index, "concern", finding.obligations[0], as_trace(finding.timeline), RUNTIME)
+    now = Instant(0, frozenset(finding.witness.triggers), finding.witness.conditions)
+    trace = Trace((now,)) if finding.timeline is None else as_trace(finding.timeline)
+    return _is_situation(index, finding.rules, finding.clauses, trace, RUNTIME)
+
+
+def replay_found(index: RulesetIndex, found: FoundTrace, evaluator: TraceEvaluator = RUNTIME) -> bool:
+    """Whether an evaluator confirms what a trace shows (`FoundTrace.shows`). `index` is that of its ruleset."""
+    trace = Trace(tuple(Instant(*instant) for instant in found.instants))
+    if found.shows == "conflict":
+        clauses = [(label, clause) for label, clause in found.about if clause is not None and clause >= 0]
+        return _is_situation(index, {label for label, _ in found.about}, clauses, trace, evaluator)
+    label, number = found.about[0]
+    if found.shows in CLAIM_KINDS:
+        return _occurs(index, found.shows, label, trace, evaluator)
+    rule = index.ruleset.by_label[label]
+    part = _about(index, trace)
+    if found.shows == "decision":
+        assert number is not None, "a clause decides"
+        return not _broken(index, _with(part, ()), trace, evaluator) and evaluator.decides(rule, number, part, trace)
+    broken = _broken(index, part, trace, evaluator)
+    if found.shows == "trigger":
+        triggered = Claim("concern", label, "exists", rule.trigger, rule.guard)
+        return not broken and evaluator.claim_holds(triggered, part, trace, index.untimed)
+    if found.changed is None:
+        return broken == {label}
+    without = _with(part, (found.changed if one is rule else one for one in part.rules))
+    broken_without = _broken(index, without, trace, evaluator)
+    found_both = (broken, broken_without) if found.shows == "violation-with-hedge" else (broken_without, broken)
+    return found_both == ({label}, set())
+
+
+def _broken(index: RulesetIndex, ruleset: Ruleset, trace: Trace, evaluator: TraceEvaluator) -> set[str]:
+    """The labels of the rules that a trace violates, with an empty one for relations and constraints."""
+    found = evaluator.violations(ruleset, trace, index.untimed)
+    return {one.statement.label if isinstance(one.statement, Rule) else "" for one in found}
+
+
+def _is_situation(
+    index: RulesetIndex,
+    labels: Collection[str],
+    clauses: Iterable[tuple[str, int]],
+    trace: Trace,
+    evaluator: TraceEvaluator,
+) -> bool:
+    """Whether the last instant of a trace is a situation for some rules after a lawful history: it triggers one of
+    them, and the given clauses decide."""
+    *history, now = trace.instants
+    rules = [rule for rule in index.rules if rule.label in labels]
+    if not any(rule.trigger in now.events for rule in rules):
+        return False
+    occurred = {event for instant in trace.instants for event in instant.events}
+    # Rules that only the response triggers have no instant in the situation.
+    if any(rule.trigger not in occurred and rule.trigger in trace_index_of(index).mere_inputs for rule in rules):
+        return False
+    for label, number in clauses:
         rule = index.ruleset.by_label[label]
-        # Rules that only the response triggers have no instant in the situation.
-        speaking = [instant for instant in moments or (now,) if rule.trigger in instant.events]
-        if speaking and not _decides(index, rule, number, speaking):
+        if rule.trigger in occurred and not evaluator.decides(rule, number, index.ruleset, trace):
             return False
     before = Trace((*history, replace(now, events=frozenset())))
-    violated = violations_so_far(_about(index, before), before, index.untimed)
+    about = _about(index, before)
+    violated = evaluator.violations_so_far(about, before, index.untimed)
     if any(one.time != now.time or _is_violated_by(now, one.statement) for one in violated):
         return False
-    rules = [index.ruleset.by_label[label] for label in finding.rules]
-    inputs = replace(_about(index, before), statements=tuple(rules))
-    found = violations_so_far(inputs, Trace((*history, now)), index.untimed)
+    found = evaluator.violations_so_far(replace(about, statements=tuple(rules)), trace, index.untimed)
     return all(one.time == now.time for one in found)
 
 
@@ -51,19 +101,13 @@ def _is_violated_by(now: Instant, relation: Requirement) -> bool:
     return not any(events_of(relation)) and any(name in now.conditions for _, name in names_of_relation(relation))
 
 
-def _claim_occurs(index: RulesetIndex, finding: Finding) -> bool:
-    assert finding.timeline is not None, "a concern occurs in a trace"
-    trace = as_trace(finding.timeline)
-    (claim,) = (c for c in claims(index.ruleset, "concern") if c.label == finding.obligations[0])
+def _occurs(index: RulesetIndex, kind: ClaimKind, label: str, trace: Trace, evaluator: TraceEvaluator) -> bool:
+    """Whether a trace violates nothing, and a concern or purpose occurs in it."""
+    (claim,) = (c for c in claims(index.ruleset, kind) if c.label == label)
     ruleset = _about(index, trace)
-    return not violations(ruleset, trace, index.untimed) and claim_holds(claim, ruleset, trace, index.untimed)
-
-
-def _decides(index: RulesetIndex, rule: Rule, number: int, instants: Iterable[Instant]) -> bool:
-    """Whether a clause of a rule decides at one of these instants."""
-    contexts = (Context(instant.events, instant.conditions) for instant in instants)
-    decisions = (decide(rule, context, index.ruleset.reading, index.ruleset.measures) for context in contexts)
-    return any(decision is not None and decision.clause == number for decision in decisions)
+    return not evaluator.violations(ruleset, trace, index.untimed) and evaluator.claim_holds(
+        claim, ruleset, trace, index.untimed
+    )
 
 
 def _about(index: RulesetIndex, trace: Trace) -> Ruleset:
@@ -78,6 +122,12 @@ def _about(index: RulesetIndex, trace: Trace) -> Ruleset:
     rules = (rule for event in sorted(events) for rule in trace_index_of(index).by_trigger.get(event, ()))
     measures = tuple(index.ruleset.measures.values())
     return replace(index.ruleset, statements=(*relations, *rules), inferred=measures)
+
+
+def _with(ruleset: Ruleset, rules: Iterable[Rule]) -> Ruleset:
+    """The ruleset with other rules."""
+    relations = (one for one in ruleset.statements if not isinstance(one, Rule))
+    return replace(ruleset, statements=(*relations, *rules), inferred=tuple(ruleset.measures.values()))
 
 
 def as_trace(timeline: Timeline) -> Trace:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
     from sleec_verify.certificates.checker import Checker
     from sleec_verify.certificates.manifest import Evidence
+    from sleec_verify.certificates.trace_file import Replayed
     from sleec_verify.certificates.verdict_binding import VerdictBinding
     from sleec_verify.results.finding import Verdict
 
@@ -36,13 +37,14 @@ def render(
     shown: Sequence[Evidence],
     judge: Checker | None,
     tied: Sequence[VerdictBinding] = (),
+    replayed: Replayed | None = None,
 ) -> Iterator[str]:
     """That a certificate that says `manifest` was written, or (`judge`) that it holds, and how its verdicts are tied to
     the rules."""
     if form == "json":
-        yield dump(_json(ruleset, folder, manifest, shown, judge, tied))
+        yield dump(_json(ruleset, folder, manifest, shown, judge, tied, replayed))
     else:
-        yield from _in_words(ruleset, folder, manifest, shown, judge, tied)
+        yield from _in_words(ruleset, folder, manifest, shown, judge, tied, replayed)
 
 
 @as_text
@@ -53,6 +55,7 @@ def _in_words(
     shown: Sequence[Evidence],
     judge: Checker | None,
     tied: Sequence[VerdictBinding],
+    replayed: Replayed | None,
 ) -> Iterator[str]:
     made = "a certificate" if judge is None else "valid certificate"
     yield f"{folder}: {made} of {ruleset.source.path} ({scope_text(manifest)})"
@@ -65,6 +68,8 @@ def _in_words(
         else:
             more = ", which is proved correct" if judge.proved else ""
         yield f"proofs checked by {judge.name}{more}"
+    if replayed is not None and replayed.traces:
+        yield from _replayed(replayed)
     verdicts = {one.result.name: one.result.verdict for one in shown}
     for one_tied in tied:
         yield _tied(one_tied, verdicts[one_tied.check])
@@ -100,10 +105,18 @@ def _tied(tied: VerdictBinding, verdict: Verdict) -> str:
     return f"{tied.check}: {what} for the parsed rules, by the program extracted from the theory in Coq"
 
 
+def _replayed(replayed: Replayed) -> Iterator[str]:
+    by_oracle = "" if replayed.reasons else ", and by the one extracted from the theory in Coq"
+    yield f"{counted(replayed.traces, 'trace')} confirmed by the evaluator in Python{by_oracle}"
+    for reason, number in replayed.reasons.items():
+        yield f"{counted(number, 'trace')} not replayed by the evaluator extracted from the theory in Coq: {reason}"
+
+
 def _shown_by(one: Evidence) -> str:
+    traces = f"; {counted(one.traces, 'trace')}" if one.traces else ""
     if one.evidence != "proof":
-        return SHOWN_BY[one.evidence]
-    return f"{counted(one.refuted, 'question')} refuted: {', '.join(one.files)}"
+        return f"{SHOWN_BY[one.evidence]}{traces}"
+    return f"{counted(one.refuted, 'question')} refuted: {', '.join(one.files)}{traces}"
 
 
 def _json(
@@ -113,6 +126,7 @@ def _json(
     shown: Sequence[Evidence],
     judge: Checker | None,
     tied: Sequence[VerdictBinding],
+    replayed: Replayed | None,
 ) -> Json:
     checks: list[Json] = [
         {
@@ -120,6 +134,7 @@ def _json(
             "verdict": VERDICTS[type(one.result.verdict)],
             "evidence": one.evidence,
             "files": list(one.files),
+            "traces": one.traces,
         }
         for one in shown
     ]
@@ -130,8 +145,15 @@ def _json(
         **scope_json(manifest),
         **({} if judge is None else {"holds": True, "checker": {"name": judge.name, "proved": judge.proved}}),
         **({} if judge is None else {"theory": {t.check: {"proved": t.proved, "reason": t.reason} for t in tied}}),
+        **({} if replayed is None else {"traces": _replayed_json(replayed)}),
         "checks": checks,
     }
+
+
+def _replayed_json(replayed: Replayed) -> Json:
+    """The number of traces, the number that the evaluator extracted from Coq replayed, and the reasons for the others,
+    each with its number."""
+    return {"found": replayed.traces, "by_oracle": replayed.by_oracle, "not_by_oracle": dict(replayed.reasons)}
 
 
 def render_refusal(folder: str, refusal: CertificateRefused) -> Iterator[str]:

@@ -70,6 +70,11 @@ class TraceIndex(Memo):
         return TraceIndex(ruleset, self.untimed, self.recorder, self)
 
     @property
+    def root(self) -> TraceIndex:
+        """The ruleset that this is a part of, directly or through other parts."""
+        return self if self.whole is None else self.whole.root
+
+    @property
     def rules(self) -> tuple[Rule, ...]:
         return self.ruleset.rules
 

@@ -11,6 +11,7 @@ from sleec_verify.encoding.budget import begin
 from sleec_verify.encoding.mentioned_names import add_claim
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.trace_scope import responses_of
+from sleec_verify.results.found_trace import FoundTrace, Shows
 from sleec_verify.traces.cone import cone
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.induction import InductiveModel
@@ -29,24 +30,38 @@ class Answer(NamedTuple):
     matter: tuple[str, ...] = ()
 
 
+class _Shown(NamedTuple):
+    """What a trace shows, about which rule or claim, clause, and rule without a hedge."""
+
+    shows: Shows
+    label: str
+    number: int | None = None
+    changed: Rule | None = None
+
+
 def find_violation(index: TraceIndex, rule: Rule) -> Answer:
     """A trace that violates `rule` and satisfies everything else. Without one, the rule is redundant."""
-    return _ask(_about(index, [rule]), lambda model, at: [_broken(model, at, rule)], but=rule)
+    shown = _Shown("violation", rule.label)
+    return _ask(_about(index, [rule]), shown, lambda model, at: [_broken(model, at, rule)], but=rule)
 
 
-def find_difference(index: TraceIndex, rule: Rule, other: Rule) -> Answer:
-    """A trace that violates `rule` and satisfies everything with `other` (of the same trigger and label) in its
-    place."""
-    part = _about(index, [rule, other])
+def find_difference(index: TraceIndex, rule: Rule, number: int, without: Rule, *, violated: bool) -> Answer:
+    """A trace that violates `rule`, and satisfies everything if `without` is in its place: the rule without its hedge
+    `number`. If not `violated`, the reverse."""
+    shown = _Shown("violation-with-hedge" if violated else "violation-without-hedge", rule.label, number, without)
+    if not violated:
+        rule, without = without, rule
+    part = _about(index, [rule, without])
     exchanged = [r for r in part.by_trigger[rule.trigger] if r.label != rule.label]
-    rules = {**part.by_trigger, rule.trigger: [*exchanged, other]}
-    return _ask(part, lambda model, at: [_broken(model, at, rule)], rules=rules)
+    rules = {**part.by_trigger, rule.trigger: [*exchanged, without]}
+    return _ask(part, shown, lambda model, at: [_broken(model, at, rule)], rules=rules)
 
 
 def find_trigger(index: TraceIndex, rule: Rule) -> Answer:
     """A trace in which `rule` is triggered and its guard holds. Without one, the rule is vacuous."""
     return _ask(
         _about(index, [rule]),
+        _Shown("trigger", rule.label),
         lambda model, at: [model.instants[at].event(rule.trigger), model.condition(at, rule.guard)],
     )
 
@@ -54,7 +69,8 @@ def find_trigger(index: TraceIndex, rule: Rule) -> Answer:
 def find_decision(index: TraceIndex, rule: Rule, clause: int) -> Answer:
     """An instant at which a clause of `rule` decides, in a trace that satisfies the relations but not necessarily
     the rules."""
-    return _ask(_about(index, [rule]), lambda model, at: [model.guards(at, rule)[clause][1]], rules={})
+    shown = _Shown("decision", rule.label, clause)
+    return _ask(_about(index, [rule]), shown, lambda model, at: [model.guards(at, rule)[clause][1]], rules={})
 
 
 def find_claim(index: TraceIndex, claim: Claim) -> Answer:
@@ -81,7 +97,7 @@ def find_claim(index: TraceIndex, claim: Claim) -> Answer:
     events: set[str] = set()
     formulas: list[Formula] = []
     add_claim(claim, events, formulas, [])
-    return _ask(cone(index, events, formulas), what)
+    return _ask(cone(index, events, formulas), _Shown(claim.kind, claim.label), what)
 
 
 def _parts(claim: Claim) -> list[Claim]:
@@ -106,7 +122,11 @@ def _broken(model: TraceModel, at: int, rule: Rule) -> int:
 
 
 def _ask(
-    index: TraceIndex, what: What, but: Rule | None = None, rules: Mapping[str, Sequence[Rule]] | None = None
+    index: TraceIndex,
+    shown: _Shown,
+    what: What,
+    but: Rule | None = None,
+    rules: Mapping[str, Sequence[Rule]] | None = None,
 ) -> Answer:
     """Whether some trace has an instant with the property `what`. The rule `but` does not count; `rules` replace those
     of the ruleset.
@@ -118,7 +138,11 @@ def _ask(
     required = list(what(model, model.instant(model.formula.true)))
     counting = [rule.label for rule in index.rules if rule is not but] + list(index.relation_by_key)
     if model.ask(*required, counting=counting):
-        return Answer(_trace(model))
+        trace = _trace(model)
+        if index.recorder is not None:
+            about = ((shown.label, shown.number),)
+            index.recorder.found(FoundTrace(index.root.ruleset, shown.shows, about, trace, shown.changed))
+        return Answer(trace)
     return Answer(None, tuple(_minimal(model, required)))
 
 

@@ -100,6 +100,7 @@ def test_as_json(cli: Cli, tmp_path: Path) -> None:
         "verdict": "proved",
         "evidence": "proof",
         "files": ["conflict.cnf", "conflict.lrat"],
+        "traces": 0,
     }
     held = json.loads(cli("certify", "--check", "a", "clean.sleec", "--format", "json").out)
     assert held["holds"] is True

@@ -101,7 +101,7 @@ def test_the_manifest(tmp_path: Path) -> None:
     ruleset = source(CONSTRAINED, tmp_path)
     manifest = written(ruleset, tmp_path / "c")
     assert manifest["certificate"] == "sleec-verify"
-    assert manifest["format"] == 2
+    assert manifest["format"] == 3
     assert manifest["ruleset"] == {
         "sha256": hashlib.sha256(CONSTRAINED.encode()).hexdigest(),
         "syntax": "english",

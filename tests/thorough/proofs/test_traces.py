@@ -22,8 +22,8 @@ from sleec_runtime.model import (
     literals,
     relation_name,
 )
+from sleec_verify.certificates.theory.numbered_traces import NumberedTraces
 from sleec_verify.certificates.theory.oracle import NoAnswer, answers
-from tests.support.numbered_traces import NumberedTraces
 from tests.support.random_traces import Case, random_cases
 
 # Whichever test comes first may have to compile the theory.

@@ -1,7 +1,7 @@
 """Rules with time, traces and claims as questions of the oracle (`proofs/oracle/traces.ml`): names as numbers.
 
-A comparison is a condition of the theory, and a length that measures give is a measure in seconds. What they are worth
-at an instant is worked out here, apart from the code under test.
+A comparison is a condition of the theory, and a length that measures give is a measure in seconds. Their values at an
+instant are computed here, independently of the evaluator of the runtime.
 """
 
 from __future__ import annotations
@@ -10,8 +10,7 @@ import operator
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import prod
 
-from sleec_runtime.evaluation.trace import Instant, Trace, Untimed
-from sleec_runtime.evaluation.trace_violations import Requirement
+from sleec_runtime.errors import SleecError
 from sleec_runtime.model import (
     RELATIONS,
     SECONDS,
@@ -44,6 +43,7 @@ from sleec_runtime.model import (
     Value,
     Window,
 )
+from sleec_verify.replay.trace_evaluator import Instant, Requirement, Trace, Untimed
 
 OPERATORS = {
     "<": operator.lt,
@@ -55,6 +55,10 @@ OPERATORS = {
 }
 BETWEEN_EVENTS = {"witness": "witness", "equal": "equal", "mutualExclusive": "exclusive", "happenBefore": "before"}
 BETWEEN_MEASURES = {"imply": "imply", "iff": "iff", "mutualExclusive": "not-both", "opposite": "not-both"}
+
+
+class NotCovered(SleecError):
+    """The theory does not cover a part of the question."""
 
 
 class NumberedTraces:
@@ -85,7 +89,7 @@ class NumberedTraces:
         return " ".join(("claims", *_listed([list(self._claim(one)) for one in several])))
 
     def broken(self, answer: str, trace: Trace) -> list[tuple[Requirement, int]]:
-        """The laws and the times of an answer's places."""
+        """The violations that an answer names by their places."""
         places = [tuple(map(int, word.split("."))) for word in answer.split()[1:]]
         return [(self.laws[law], trace.instants[instant].time) for instant, law in places]
 
@@ -199,7 +203,8 @@ def _listed(items: Iterable[Sequence[str]]) -> list[str]:
 
 
 def _whole(seconds: Rational) -> str:
-    assert seconds == int(seconds), "times of the theory are whole seconds"
+    if seconds != int(seconds):
+        raise NotCovered("the times of the theory are whole seconds")
     return str(int(seconds))
 
 
@@ -234,8 +239,12 @@ def _calculated(side: Calculation, values: Mapping[str, Value]) -> Rational | No
 def _seconds(length: Length, values: Mapping[str, Value]) -> str:
     amount = length.amount
     assert not isinstance(amount, Number)
-    value = _number(values[amount.name]) if isinstance(amount, MeasureRef) else _calculated(amount, values)
-    assert value is not None, "measures that say how long have a value at every instant"
+    if isinstance(amount, MeasureRef):
+        value = _number(values[amount.name]) if amount.name in values else None
+    else:
+        value = _calculated(amount, values)
+    if value is None:
+        raise NotCovered(f"the trace gives no value to the duration {length}")
     return _whole(value * SECONDS[length.unit])
 
 
