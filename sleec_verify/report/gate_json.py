@@ -103,7 +103,7 @@ def _conformed(one: TargetConformance) -> Json:
         "code": one.target.code,
         "rules": one.target.rules,
         "domain": one.target.domain,
-        "verdict": None if one.error is not None else "unknown" if one.result is None else _verdict(one),
+        "verdict": None if one.result is None else _verdict(one),
         "findings": [dict(finding) for finding in findings],
         "baseline": len(one.known),
         "error": None if one.error is None else error_json(one.error),

@@ -114,7 +114,3 @@ def _of_code(one: TargetConformance) -> Iterator[Outcome]:
         known = {id(finding) for finding in one.known}
         counting = [finding for finding in one.result.findings if id(finding) not in known]
         yield CheckedRuleset(one.ruleset, (replace(one.result, verdict=_counted(one.result.verdict, counting)),))
-    elif one.ruleset is not None and one.why is not None:
-        from sleec_verify.conformance.structure import NAME
-
-        yield CheckedRuleset(one.ruleset, (CheckResult(NAME, Unknown(one.why), 0.0),))

@@ -217,7 +217,5 @@ def _unknown(one: RulesetExamination) -> Iterator[Block]:
 
 
 def _unknown_code(one: TargetConformance) -> Iterator[Block]:
-    if one.why is not None:
-        yield Block("unknown", one.target.code, one.why)
-    elif one.result is not None and isinstance(one.result.verdict, Unknown):
+    if one.result is not None and isinstance(one.result.verdict, Unknown):
         yield Block("unknown", one.target.code, one.result.verdict.why)

@@ -80,14 +80,13 @@ class RulesetExamination:
 
 @dataclass
 class TargetConformance:
-    """A target: its verdict and the findings that count, or why there is no verdict."""
+    """A target: its verdict and the findings that count. Without a verdict, there is an `error`."""
 
     target: Target
     ruleset: Ruleset | None = None
     result: CheckResult | None = None
     findings: list[Finding] = field(default_factory=list)
     known: list[Finding] = field(default_factory=list)
-    why: str | None = None
     error: SleecError | None = None
 
 

@@ -15,7 +15,6 @@ from sleec_verify.results.internal_error import internal_errors_of
 
 def check_target(target: Target, locate: Locate, known: KnownFindings) -> TargetConformance:
     """The verdict on a target, and its findings that are not `known`."""
-    from sleec_runtime.errors import UnsupportedTimes
     from sleec_verify.conformance.structure import UNDECIDED, check_structure, python_files
 
     found = TargetConformance(target)
@@ -29,9 +28,6 @@ def check_target(target: Target, locate: Locate, known: KnownFindings) -> Target
             if not os.path.lexists(code):  # what is not there might be a module from elsewhere
                 raise SleecError(f"there is no file or folder {code}", "check its name and folder")
             found.result = check_structure(found.ruleset, python_files(code), target.domain)
-    except UnsupportedTimes as error:
-        found.why = str(error)
-        return found
     except SleecError as error:
         found.error = error
         return found

@@ -12,7 +12,6 @@ from __future__ import annotations
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from sleec_runtime.model import require_untimed
 from sleec_verify.conformance.structure.kinds import KINDS
 from sleec_verify.conformance.structure.report import NAME
 from sleec_verify.conformance.structure.target import python_files
@@ -40,7 +39,6 @@ def check_structure(ruleset: Ruleset, files: tuple[PythonFile, ...], domain: str
     domain, only its rules need code."""
     from sleec_verify.conformance.structure.check import findings_on
 
-    require_untimed(ruleset, "the structure check")
     started = perf_counter()
     try:
         findings = findings_on(ruleset, files, domain)

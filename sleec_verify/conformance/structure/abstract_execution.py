@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import sys
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 
@@ -304,9 +303,8 @@ class _Body(Flow):
                 node, self.file, f"the effect of {value.name.removeprefix('builtins.')} is known only at run time"
             )
             return
-        module, _, last = value.name.rpartition(".")
-        name = self.run.names.called(last)
-        if name is not None and module.partition(".")[0] not in ("builtins", *sys.stdlib_module_names):
+        name = self.run.names.called_outside(value)
+        if name is not None:
             self._by_name(node, name, why)
 
     def _unresolved(self, node: ast.Call, value: Value, why: str | None) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sleec_runtime.dispatch.implementations import snake_case
-from sleec_runtime.model import Rule
+from sleec_runtime.model import Obligation, Rule
 from sleec_verify.conformance.structure.execution import Call, Execution
 from sleec_verify.conformance.structure.methods import Variant
 from sleec_verify.conformance.structure.report import Findings, clause_name
@@ -15,7 +15,7 @@ def compare(findings: Findings, rule: Rule, number: int, variant: Variant, trace
     """Reports every difference between what a variant does and what clause `number` of its rule obliges."""
     clause = tuple(rule.clauses())[number]
     due = [literal.name for literal in clause.obligations if not literal.negated]
-    prohibited = {literal.name for literal in clause.obligations if literal.negated}
+    prohibited = {literal.name for literal in clause.obligations if literal.negated and not _opens_later(literal)}
     reference = ClauseRef(rule.label, number)
     where = clause_name(rule, number)
     note = findings.obliged(rule, number)
@@ -84,6 +84,12 @@ def compare(findings: Findings, rule: Rule, number: int, variant: Variant, trace
             if unfollowed
             else f"call {listed(f'{snake_case(name)}()' for name in left)}",
         )
+
+
+def _opens_later(prohibition: Obligation) -> bool:
+    """Whether a prohibition does not hold yet when the variant runs."""
+    timing = prohibition.timing
+    return timing is not None and timing.window is not None and timing.window.start is not None
 
 
 def _order(findings: Findings, rule: Rule, number: int, calls: list[Call], due: list[str]) -> None:

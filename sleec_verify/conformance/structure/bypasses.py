@@ -9,7 +9,9 @@ from dataclasses import dataclass
 from sleec_verify.conformance.structure.abstract_execution import REPLACERS, AbstractExecutor
 from sleec_verify.conformance.structure.methods import Group, Method
 from sleec_verify.conformance.structure.names import Names
+from sleec_verify.conformance.structure.own_conditions import OwnConditions
 from sleec_verify.conformance.structure.program import Class, Function, Scope
+from sleec_verify.conformance.structure.prohibitions import LastingProhibitions
 from sleec_verify.conformance.structure.report import Findings
 from sleec_verify.conformance.structure.resolve import ADVICE, Resolver
 from sleec_verify.conformance.structure.tables import Tables
@@ -17,7 +19,9 @@ from sleec_verify.conformance.structure.uses import Use
 from sleec_verify.conformance.structure.values import (
     Advice,
     Api,
+    ClassOf,
     Code,
+    ForeignValue,
     Layer,
     Object,
     OwnLayer,
@@ -32,6 +36,11 @@ _ACTIVATORS = {
     for name in ("active_layer", "active_layers", "inactive_layer", "inactive_layers", "global_activate_layer",
                  "global_deactivate_layer")
 }  # fmt: skip
+_CALLERS = {
+    "threading.Thread", "threading.Timer", "asyncio.to_thread", "signal.signal", "atexit.register",
+    "_thread.start_new_thread", "multiprocessing.Process",
+}  # fmt: skip
+"""What calls the functions that it is given, whatever the rules say."""
 _CODE_AS_IT_RUNS = {"builtins.exec", "builtins.eval", "builtins.compile", "builtins.__import__"}
 
 
@@ -48,12 +57,15 @@ class BypassCheck:
     layers: Collection[str]
     globally: bool
     """Whether the target activates layers by `activate_globally`: then methods are there to be called."""
+    prohibitions: LastingProhibitions
+    conditions: OwnConditions
 
     def __post_init__(self) -> None:
         groups = {group for method in self.methods for group in method.groups}
         self._group_of: dict[Function, Group] = {v.function: group for group in groups for v in group.written}
         self._marked = {group for method in self.methods if method.marks for group in method.groups}
         self._method_names = {group.name for group in self._marked}
+        self._handed_on: set[ast.expr] = set()
         self._robots: set[Class] = set(self.tables.robots)
         self._modules: set[Scope] = set(self.tables.modules)
         for method in self.methods:
@@ -61,8 +73,12 @@ class BypassCheck:
                 self._robots.update(self.resolver.order(method.class_)[0])
             else:
                 self._modules.add(method.groups[0].scope)
+        self._elsewhere: frozenset[str] = frozenset()
+        """Acts that rules forbid for a time, and that the robot does not implement itself: all code with their names
+        counts."""
         implemented = (self._implemented(function) for function in self.resolver.program.functions)
         self._implementations = {name for name in implemented if name is not None} | self.tracer.by_name
+        self._elsewhere = self.prohibitions.acts - self._implementations
 
     def look(self, use: Use) -> None:
         """Reports an expression that bypasses the dispatch."""
@@ -83,13 +99,13 @@ class BypassCheck:
             self._code(use, node, value)
         elif isinstance(value, Api):
             self._api(use, node, value)
-            name = self.tables.one(value.name)
-            if name is not None and not self._may_execute(use, name):
-                self._obligations(use, node, [name])
+            self._outside(use, node, value)
         elif isinstance(node.func, ast.Attribute) and node.func.attr in self.tables.attributes:
             self._in_table(use, node.func)
         elif isinstance(value, UnknownValue) and isinstance(node.func, ast.Attribute):
             self._unresolved(use, node.func)
+        elif isinstance(value, UnknownValue) and isinstance(node.func, ast.Name):
+            self._perhaps(use, node.func, self.names.called(node.func.id))
 
     def _applied(self, use: Use, node: ast.Call) -> None:
         """A decorator that is made here, and put to use otherwise than above a definition."""
@@ -118,9 +134,32 @@ class BypassCheck:
         for function in value.definitions:
             name = self._implemented(function)
             reached |= {name} if name is not None else self.tracer.followed.get(function, set())
+        if not reached:
+            self._perhaps(use, node.func, self.names.called(value.definitions[0].name))
         self._obligations(use, node, sorted(name for name in reached if not self._may_execute(use, name)))
 
+    def _outside(self, use: Use, node: ast.Call, value: Api) -> None:
+        """A call of code outside the target."""
+        name = self.tables.one(value.name)
+        if name is None:
+            self._perhaps(use, node.func, self.names.called_outside(value))
+        elif not self._may_execute(use, name):
+            self._obligations(use, node, [name])
+        if value.name in _CALLERS:
+            for argument in (*node.args, *(keyword.value for keyword in node.keywords)):
+                self._handed_to_caller(use._replace(node=argument), argument)
+
+    def _perhaps(self, use: Use, node: ast.expr, name: str | None) -> None:
+        """Code with the name of an act that a rule forbids for a time: it may implement the act."""
+        if name is not None and name in self.prohibitions and not self._may_execute(use, name):
+            why = f"this executes {name} outside the dispatch if {ast.unparse(node)} implements it"
+            self.findings.undecided(use.scope.file, node, why)
+
     def _obligations(self, use: Use, node: ast.AST, names: list[str]) -> None:
+        for name in names:
+            if name not in self.prohibitions.required and name in self.prohibitions:
+                self._forbidden_act(use, node, name)
+        names = [name for name in names if name in self.prohibitions.required or name not in self.prohibitions]
         if names:
             verb, it = ("is", "it") if len(names) == 1 else ("are", "them")
             self.findings.add(
@@ -128,8 +167,27 @@ class BypassCheck:
                 f"{listed(names)} {verb} executed here whatever the rules say: this is not a variant of a rule",
                 (use.scope.file, node),
                 obligations=tuple(names),
+                note=self.prohibitions.note(names),
                 help=f"trigger the rule that requires {it}",
             )
+
+    def _forbidden_act(self, use: Use, node: ast.AST, name: str) -> None:
+        """An act that rules forbid for a time, and that none requires: the code may execute it at other times."""
+        condition = self.conditions.around(use)
+        if condition is None:
+            self.findings.add(
+                "unguarded-act",
+                f"{name} is executed here, also while {listed(self.prohibitions.labels(name))} forbids it",
+                (use.scope.file, node),
+                rules=self.prohibitions.labels(name),
+                obligations=(name,),
+                note=self.prohibitions.note([name]),
+                help="write a rule that requires it, and trigger this rule: then the runtime rejects it at these times",
+            )
+        else:
+            labels = listed(self.prohibitions.labels(name))
+            why = f"{name} is executed here {condition}, perhaps while {labels} forbids it"
+            self.findings.undecided(use.scope.file, node, why)
 
     def _in_table(self, use: Use, func: ast.Attribute) -> None:
         """An attribute of the name of one that a table gives, both of them of objects of which little is known."""
@@ -147,13 +205,16 @@ class BypassCheck:
     def _unresolved(self, use: Use, func: ast.Attribute) -> None:
         name = self.names.called(func.attr)
         receiver = self.resolver.of(func.value, use.scope)
-        if isinstance(receiver, Object):
-            if name in self.tracer.by_name and self._is_robot(receiver) and not self._may_execute(use, name):
+        if isinstance(receiver, Object) and self._is_robot(receiver):
+            if name is not None and name in self.tracer.by_name | self._elsewhere and not self._may_execute(use, name):
                 self._obligations(use, func, [name])
             return
+        if isinstance(receiver, (Object, ClassOf)) or (isinstance(receiver, ForeignValue) and not receiver.standard):
+            self._perhaps(use, func, name)
         if not isinstance(receiver, UnknownValue):
             return
-        if name is not None and name in self._implementations and not self._may_execute(use, name):
+        known = self._implementations | self._elsewhere
+        if name is not None and name in known and not self._may_execute(use, name):
             why = f"this executes {name} outside the dispatch if {ast.unparse(func.value)} implements it"
             self.findings.undecided(use.scope.file, func, why)
         elif func.attr in self._method_names and not self.globally and not self._within_variant(use):
@@ -205,7 +266,11 @@ class BypassCheck:
         value = self.resolver.of(node, use.scope)
         if isinstance(value, (Advice, RuleMark)) or (isinstance(value, Api) and value.name in ADVICE):
             self._handmade(use)
-        if not isinstance(value, Code):
+        if isinstance(value, UnknownValue) and isinstance(node, ast.Attribute):
+            self._perhaps(use, node, self.names.called(node.attr))
+        elif isinstance(value, Api):
+            self._perhaps(use, node, self.names.called_outside(value))
+        if not isinstance(value, Code) or node in self._handed_on:
             return
         for function in value.definitions[:1]:
             group = self._group_of.get(function)
@@ -219,9 +284,20 @@ class BypassCheck:
                     )
                 return
             name = self._implemented(function)
-            if name is not None and not self._may_execute(use, name):
+            if name is None:
+                self._perhaps(use, node, self.names.called(function.name))
+            elif not self._may_execute(use, name):
                 why = f"the implementation of {name} is passed on here, and may be called outside the dispatch"
                 self.findings.undecided(use.scope.file, node, why)
+
+    def _handed_to_caller(self, use: Use, node: ast.expr) -> None:
+        """An act that rules forbid for a time, handed to what calls it later."""
+        value = self.resolver.of(node, use.scope)
+        for function in value.definitions[:1] if isinstance(value, Code) else ():
+            name = self._implemented(function)
+            if name is not None and name in self.prohibitions and not self._may_execute(use, name):
+                self._handed_on.add(node)
+                self._obligations(use, node, [name])
 
     @staticmethod
     def _is_mere_name(use: Use, node: ast.expr) -> bool:
@@ -260,6 +336,7 @@ class BypassCheck:
             or function in self.tracer.implementations
             or (function.owner is not None and function.owner in self._robots)
             or (function.owner is None and function.scope in self._modules)
+            or name in self._elsewhere
         )
         return name if known else self.tables.one(function)
 

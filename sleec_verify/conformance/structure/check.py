@@ -5,19 +5,22 @@ from __future__ import annotations
 import ast
 from collections import Counter
 
-from sleec_runtime.model import Rule, Ruleset
+from sleec_runtime.model import Rule, Ruleset, constructs
 from sleec_runtime.support.suggestions import nearest
 from sleec_verify.conformance.structure.abstract_execution import AbstractExecutor
 from sleec_verify.conformance.structure.bypasses import BypassCheck
+from sleec_verify.conformance.structure.completion import CompletionCheck
 from sleec_verify.conformance.structure.layering import MethodCheck
 from sleec_verify.conformance.structure.methods import Group, Method, groups, methods
 from sleec_verify.conformance.structure.names import Names
+from sleec_verify.conformance.structure.own_conditions import OwnConditions
 from sleec_verify.conformance.structure.program import Assignment, Class, Function, TargetProgram
+from sleec_verify.conformance.structure.prohibitions import LastingProhibitions
 from sleec_verify.conformance.structure.report import Findings
 from sleec_verify.conformance.structure.resolve import Resolver
 from sleec_verify.conformance.structure.tables import Tables
 from sleec_verify.conformance.structure.target import PythonFile
-from sleec_verify.conformance.structure.uses import uses
+from sleec_verify.conformance.structure.uses import Use, uses
 from sleec_verify.conformance.structure.values import ClassOf, Layer, OwnLayer
 from sleec_verify.results.finding import Finding
 
@@ -47,7 +50,9 @@ class StructureCheck:
             value = self.resolver.of(call.func, use.scope)
             if isinstance(value, ClassOf):
                 made.add(value.class_)
-        self.globally = any(isinstance(c.func, ast.Attribute) and c.func.attr == "activate_globally" for _, c in calls)
+        in_force = ruleset if domain is None else ruleset.in_domain(domain)
+        self.timed = any(constructs(in_force))
+        self.globally = self._activates_globally(calls)
         found = list(groups(program, self.resolver))
         self.methods = list(methods(program, self.resolver, found, made))
         self.labels = {method: self._labels(method) for method in self.methods}
@@ -58,16 +63,47 @@ class StructureCheck:
         self.tables = Tables(self.resolver, self.names, self.findings)
         for use, _ in calls:
             self.tables.read(use)
-        self._rules(tuple(rule for rule in ruleset.rules if rule.applies_in(domain)))
+        self._rules(in_force.rules)
         for group in concerned:
             self._definitions(group)
         for method in self.methods:
             self._bound_otherwise(method)
+        prohibitions = LastingProhibitions(in_force.rules, self.findings)
+        if self.timed:
+            completion = CompletionCheck(self.resolver, self.names, prohibitions, self.findings)
+            for use in everything:
+                completion.read(use)
+            completion.report()
         around = BypassCheck(
-            self.resolver, self.names, self.findings, self.tracer, self.tables, self.methods, self.layers, self.globally
+            self.resolver,
+            self.names,
+            self.findings,
+            self.tracer,
+            self.tables,
+            self.methods,
+            self.layers,
+            self.globally,
+            prohibitions,
+            OwnConditions(self.resolver, everything if prohibitions.acts else ()),
         )
         for use in everything:
             around.look(use)
+
+    def _activates_globally(self, calls: list[tuple[Use, ast.Call]]) -> bool:
+        """Whether the target activates layers globally. With rules with time, it cannot: that is reported."""
+        found = [
+            (use.scope.file, call)
+            for use, call in calls
+            if isinstance(call.func, ast.Attribute) and call.func.attr == "activate_globally"
+        ]
+        for at in found if self.timed else ():
+            self.findings.add(
+                "timed-global-activation",
+                "global activation rejects rules with time, so this raises UnsupportedTimes",
+                at,
+                help="run the methods with trigger()",
+            )
+        return bool(found) and not self.timed
 
     def _rules(self, rules: tuple[Rule, ...]) -> None:
         """Each rule against its methods; those that have none against the tables."""
@@ -81,10 +117,16 @@ class StructureCheck:
             for method in own:
                 by_hand = self.globally or not method.marks
                 MethodCheck(method, rule, self.labels[method], self.layers, self.tracer, self.findings, by_hand).run()
-            if not own:
+            # Without a mark, only global activation runs a method, which rules with time do not have.
+            bound = [method for method in own if method.marks or not self.timed]
+            if not bound:
                 without.append(rule)
             self._second(rule, own)
-        for rule in self.tables.check(without):
+        unimplemented = self.tables.check(without)
+        for rule in rules:
+            if rule not in unimplemented:
+                self.tables.check_alternatives(rule, next(iter(of_rule.get(rule.label, ())), None))
+        for rule in unimplemented:
             self.findings.add(
                 "missing-method",
                 f"rule `{rule.label}` has no method in the target",

@@ -69,6 +69,43 @@ sleec.implement({
     "ExplainWhy": lambda message: print("you are undressed"),
 })
 """
+TIMED_RULES = """\
+RULE fall WHEN UserFell THEN CallNurse WITHIN 5 minutes OTHERWISE CallAmbulance
+RULE rest WHEN UserSleeps THEN NOT Vacuum WITHIN 1 hour
+RULE dust WHEN DustSeen THEN SweepFloor
+"""
+TIMED_ROBOT = """\
+import contextpy3 as cop
+import sleec_runtime
+
+sleec = sleec_runtime.load("rules.sleec")
+
+class Nurse:
+    @sleec.rule("fall")
+    @cop.base
+    def user_fell(self):
+        self.call_nurse()
+
+    @sleec_runtime.obligation("CallNurse")
+    def call_nurse(self): ...
+    def call_ambulance(self): ...
+    def sweep_floor(self): ...
+    def vacuum(self): ...
+    def __init__(self):
+        sleec.bind(self)
+        sleec.implement(self)
+"""
+TIMED_TABLE = """\
+import sleec_runtime
+
+sleec = sleec_runtime.load("rules.sleec")
+sleec.implement({
+    "CallNurse": lambda: print("help"),
+    "OfferWater": lambda: print("water?"),
+    "CallAmbulance": lambda: print("more help"),
+    "SweepFloor": lambda: print("sweeping"),
+})
+"""
 
 
 def example(code: str, rules: str) -> str:

@@ -18,6 +18,9 @@ from sleec_verify.conformance.structure.examples import (
     SECOND_RULE,
     TABLE,
     TAIL,
+    TIMED_ROBOT,
+    TIMED_RULES,
+    TIMED_TABLE,
     example,
 )
 from sleec_verify.results.finding import Severity
@@ -265,7 +268,8 @@ _kind(
     631,
     "unknown-obligation",
     "a callable for an obligation that the rules do not have",
-    "The table names an obligation that no rule has. The program stops at this line with UnknownObligation.",
+    "The table, or a call of completed(), names an obligation that no rule has. The program stops at this line with "
+    "UnknownObligation.",
     "Correct the spelling of the name.",
     TABLE.replace('"ExplainWhy": ', '"ExplainWhy": print,\n    "ExplainWy": '),
     TABLE,
@@ -274,10 +278,60 @@ _kind(
     632,
     "missing-callable",
     "an obligation without a callable",
-    "A rule without a method runs the callables of its obligations. This obligation has no callable.",
+    "A rule without a method runs the callables of its obligations. The same applies to what follows OTHERWISE and "
+    "ELSE, also if the rule has a method. This obligation has no callable.",
     "Pass a callable for it to implement().",
     TABLE.replace('    "ExplainWhy": lambda message: print("you are undressed"),\n', ""),
     TABLE,
+)
+
+# Rules with time ------------------------------------------------------------------------------------------
+
+_kind(
+    641,
+    "different-starts",
+    "a method for obligations that start at different times",
+    "A method is called once for a clause. If the windows of the clause open at different times, the trigger raises "
+    "NotBound.",
+    "Pass callables for the obligations to implement(), or write two rules.",
+    TIMED_ROBOT.replace("self.call_nurse()", "self.offer_water()\n        self.call_nurse()")
+    + "    def offer_water(self): ...\n",
+    TIMED_TABLE,
+    TIMED_RULES.replace("CallNurse", "OfferWater WITHIN 1 TO 9 minutes AND CallNurse", 1),
+)
+_kind(
+    642,
+    "unguarded-act",
+    "a forbidden act that no dispatch guards",
+    "A rule forbids this act for a time, and the runtime rejects each dispatch of it in that time. This code is not "
+    "part of a dispatch. So it may execute the act while the act is forbidden.",
+    "Write a rule that requires the act, and trigger this rule.",
+    TIMED_ROBOT + "    def on_button(self):\n        self.vacuum()\n",
+    TIMED_ROBOT + '    def on_button(self):\n        sleec.trigger("DustSeen")\n',
+    TIMED_RULES,
+)
+_kind(
+    643,
+    "never-completed",
+    "an obligation that is never completed",
+    "The code is marked with completes=False, so it only starts the obligation. The obligation is met when the robot "
+    "calls completed(). No code of the target does so, so the deadline is always missed.",
+    "Call sleec.completed() with the name of the obligation when it is done.",
+    TIMED_ROBOT.replace('("CallNurse")', '("CallNurse", completes=False)'),
+    TIMED_ROBOT.replace('("CallNurse")', '("CallNurse", completes=False)')
+    + '    def on_answer(self):\n        sleec.completed("CallNurse")\n',
+    TIMED_RULES,
+)
+_kind(
+    644,
+    "timed-global-activation",
+    "global activation of rules with time",
+    "Global activation has no deadlines and rejects rules with time. The program stops at this line with "
+    "UnsupportedTimes.",
+    "Run the methods with trigger().",
+    TIMED_ROBOT + "\nsleec.activate_globally()\n",
+    TIMED_ROBOT + '\nsleec.trigger("UserFell")\n',
+    TIMED_RULES,
 )
 _kind(
     690,

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from sleec_runtime.dispatch.required_code import require_one_start
+from sleec_runtime.errors import NotBound
 from sleec_runtime.model import Rule
 from sleec_runtime.support.suggestions import nearest
 from sleec_verify.conformance.structure.abstract_execution import AbstractExecutor
@@ -48,6 +50,7 @@ class MethodCheck:
     def run(self) -> None:
         """Reports every difference."""
         self._sort()
+        self._starts()
         expected = {number: self._positive(number) for number, _ in enumerate(self.rule.clauses())}
         missing = [number for number in expected if number not in self.units and self._needed(number)]
         self._settle(missing, expected)
@@ -165,6 +168,25 @@ class MethodCheck:
             return None
 
         return self.tracer.trace(variant.function, self.method.class_, inherited)
+
+    def _starts(self) -> None:
+        """A method is called once for a clause, so the windows of the clause must open at one time."""
+        for number, clause in enumerate(self.rule.clauses()):
+            try:
+                require_one_start(self.rule, clause)
+            except NotBound:
+                unit = self.units.get(number)
+                function = (unit[0].variant if unit else self.method.variants[0]).function
+                self.findings.add(
+                    "different-starts",
+                    f"{self.method.name} is called once, but the obligations of {clause_name(self.rule, number)} start "
+                    "at different times",
+                    (function.file, function.node),
+                    clause=ClauseRef(self.rule.label, number),
+                    obligations=tuple(self._positive(number)),
+                    note=self.findings.obliged(self.rule, number),
+                    help="implement() each obligation in place of this method, or write two rules",
+                )
 
     # What follows ---------------------------------------------------------------------------------------
 

@@ -7,7 +7,7 @@ from collections.abc import Collection
 from sleec_runtime.dispatch.implementations import snake_case
 from sleec_verify.conformance.structure.program import Function
 from sleec_verify.conformance.structure.resolve import Resolver
-from sleec_verify.conformance.structure.values import ObligationMark
+from sleec_verify.conformance.structure.values import Api, ObligationMark
 
 
 class Names:
@@ -51,3 +51,7 @@ class Names:
         """The obligation that code outside the target implements, if its name says so."""
         names = self.by_method.get(name)
         return names[0] if names else None
+
+    def called_outside(self, function: Api) -> str | None:
+        """The obligation that a function of another package implements, if its name says so."""
+        return None if function.standard else self.called(function.name.rpartition(".")[2])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass, field
 
-from sleec_runtime.model import Rule, Ruleset, Span
+from sleec_runtime.model import Rule, Ruleset, Span, obligation_text
 from sleec_verify.conformance.structure.kinds import KINDS
 from sleec_verify.conformance.structure.target import PythonFile
 from sleec_verify.results.finding import ClauseRef, Finding
@@ -71,7 +71,7 @@ class Findings:
     def obliged(self, rule: Rule, number: int) -> str:
         """The obligations of a clause in words, with its place in the rules."""
         clause = tuple(rule.clauses())[number]
-        names = [str(literal) for literal in clause.obligations]
+        names = [obligation_text(literal) for literal in clause.obligations]
         source = self.ruleset.source
         what = f"requires {listed(names)}" if names else "requires nothing"
         return f"{clause_name(rule, number)} {what} ({source.path}:{source.place(clause.span).line})"

@@ -17,7 +17,7 @@ from sleec_verify.conformance.structure.program import (
 )
 from sleec_verify.conformance.structure.values import (
     NOTHING_GIVEN,
-    OUTSIDE,
+    STANDARD,
     UNKNOWN,
     Advice,
     Api,
@@ -66,7 +66,7 @@ class Resolver:
         """The value of an expression in a scope; `given` are the arguments of the call under way, if one is."""
         method = getattr(self, f"_{type(node).__name__}", None)
         if method is None:
-            return OUTSIDE if isinstance(node, _LITERALS) else UNKNOWN
+            return STANDARD if isinstance(node, _LITERALS) else UNKNOWN
         value: Value = method(node, scope, given)
         return value
 
@@ -170,7 +170,7 @@ class Resolver:
     # Strings --------------------------------------------------------------------------------------------
 
     def _Constant(self, node: ast.Constant, scope: Scope, given: Environment) -> Value:  # noqa: N802
-        return Text(str(node.value)) if isinstance(node.value, (str, int)) else OUTSIDE
+        return Text(str(node.value)) if isinstance(node.value, (str, int)) else STANDARD
 
     def _JoinedStr(self, node: ast.JoinedStr, scope: Scope, given: Environment) -> Value:  # noqa: N802
         parts = [self.of(part, scope, given) for part in node.values]
@@ -246,7 +246,9 @@ class Resolver:
         first = self.of(node.args[0], scope, given) if node.args else UNKNOWN
         text = first.value if isinstance(first, Text) else None
         if isinstance(called, Api) and called.name in _OBLIGATION:
-            return MarkedCallable(text) if called.name.endswith("recorded") else ObligationMark(text)
+            if called.name.endswith("recorded"):
+                return MarkedCallable(text)
+            return ObligationMark(text, _completes(node))
         if isinstance(called, ObligationMark):
             return MarkedCallable(called.name)
         if called == Api("builtins.super"):
@@ -271,7 +273,7 @@ class Resolver:
         if isinstance(called, Api):
             if called.name in _RUNTIME:
                 return Runtime()
-            return OwnLayer() if called.name == "contextpy3.Layer" else OUTSIDE
+            return OwnLayer() if called.name == "contextpy3.Layer" else ForeignValue(called.standard)
         return UNKNOWN
 
     def _advice(self, kind: Kind, node: ast.Call, scope: Scope, given: Environment) -> Value:
@@ -333,6 +335,14 @@ def maybe_runtime(value: Value) -> bool:
     if isinstance(value, Api):
         return not value.name.startswith(("builtins.", "contextpy3"))
     return isinstance(value, (UnknownValue, ForeignValue))
+
+
+def _completes(mark: ast.Call) -> bool | None:
+    """The argument `completes` of ``obligation(name, completes=True)``; None if it is known only at run time."""
+    given = [*mark.args[1:2], *(keyword.value for keyword in mark.keywords if keyword.arg in ("completes", None))]
+    if not given:
+        return True
+    return bool(given[0].value) if isinstance(given[0], ast.Constant) else None
 
 
 def _all_text(values: list[Value]) -> bool:

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import ast
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Rule
 from sleec_runtime.support.suggestions import nearest
+from sleec_verify.conformance.structure.alternatives import alternative_obligations
+from sleec_verify.conformance.structure.methods import Method
 from sleec_verify.conformance.structure.names import Names
 from sleec_verify.conformance.structure.program import Class, Function, Scope
 from sleec_verify.conformance.structure.report import Findings
 from sleec_verify.conformance.structure.resolve import Resolver, maybe_runtime
+from sleec_verify.conformance.structure.target import PythonFile
 from sleec_verify.conformance.structure.values import Api, Code, Module, Object, Runtime, Table, Text, Value
+from sleec_verify.results.finding import ClauseRef
 from sleec_verify.results.phrases import listed
 
 if TYPE_CHECKING:
@@ -26,7 +29,8 @@ class Tables:
     """All that the target gives to `implement`. `allowed` maps the nodes of an entry's callable to its obligation;
     `robots` are the classes, `modules` the modules, whose members implement. `callables` are the functions, and the
     names of what is outside, that entries are, with their obligations; `attributes` the same for attributes of which
-    nothing more is known, by the attribute's name and with what they are attributes of."""
+    nothing more is known, by the attribute's name and with what they are attributes of. `missing` are the obligations
+    that are reported as having no callable."""
 
     resolver: Resolver
     names: Names
@@ -39,6 +43,7 @@ class Tables:
     callables: dict[Function | str, set[str]] = field(default_factory=dict)
     attributes: dict[str, list[tuple[Value, str]]] = field(default_factory=dict)
     undecided: bool = False
+    missing: set[str] = field(default_factory=set)
 
     def read(self, use: Use) -> None:
         """Takes note of a call of `implement`, or of `replace` with one."""
@@ -112,7 +117,7 @@ class Tables:
             for function in value.definitions:
                 self.callables.setdefault(function, set()).add(name)
         elif isinstance(value, Api):
-            if value.name.partition(".")[0] not in ("builtins", *sys.stdlib_module_names):
+            if not value.standard:
                 self.callables.setdefault(value.name, set()).add(name)
         elif isinstance(node, ast.Attribute):
             self.attributes.setdefault(node.attr, []).append((self.resolver.of(node.value, scope), name))
@@ -163,6 +168,7 @@ class Tables:
         scope, call = self.calls[-1]
         for name, labels in missing.items():
             labels = list(dict.fromkeys(labels))
+            self.missing.add(name)
             self.findings.add(
                 "missing-callable",
                 f"{name} has no callable, but {listed(labels)} {'needs' if len(labels) == 1 else 'need'} it",
@@ -172,6 +178,28 @@ class Tables:
                 help=f"add one: implement({{{name!r}: …}})",
             )
         return []
+
+    def check_alternatives(self, rule: Rule, method: Method | None) -> None:
+        """Reports the obligations of alternatives of a rule that have no callable, also if the rule has a method."""
+        if self.undecided or not (self.calls or method):
+            return
+        if self.calls:
+            scope, call = self.calls[-1]
+            at: tuple[PythonFile, ast.AST] = (scope.file, call.func)
+        elif method:
+            function = method.variants[0].function
+            at = (function.file, function.node)
+        for name, number, branch in alternative_obligations(rule):
+            if name not in self.given and name not in self.missing:
+                self.findings.add(
+                    "missing-callable",
+                    f"{name} has no callable, but {branch} in {rule.label} requires it",
+                    at,
+                    clause=ClauseRef(rule.label, number),
+                    obligations=(name,),
+                    note=self.findings.obliged(rule, number),
+                    help=f"add one: implement({{{name!r}: …}}); alternatives have no variants",
+                )
 
 
 def _entries(node: ast.Dict | ast.Call) -> Iterator[tuple[ast.expr | str | None, ast.expr]]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import builtins
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Union
@@ -26,10 +28,20 @@ class Api:
 
     name: str
 
+    @property
+    def standard(self) -> bool:
+        """Whether it is of the standard library. A name that is bound nowhere may be from an import with a star."""
+        package, _, last = self.name.rpartition(".")
+        package = package.partition(".")[0]
+        return hasattr(builtins, last) if package == "builtins" else package in sys.stdlib_module_names
+
 
 @dataclass(frozen=True)
 class ForeignValue:
-    """A value returned by code outside the target, or a literal: it is not code of the robot."""
+    """A value returned by code outside the target, or a literal: it is not code of the robot. `standard`: it is a
+    literal, or the standard library returned it."""
+
+    standard: bool = False
 
 
 @dataclass(frozen=True)
@@ -68,9 +80,10 @@ class RuleMark:
 
 @dataclass(frozen=True)
 class ObligationMark:
-    """``sleec_runtime.obligation(name)``."""
+    """``sleec_runtime.obligation(name, completes)``; None for what is not known before the program runs."""
 
     name: str | None
+    completes: bool | None = True
 
 
 @dataclass(frozen=True)
@@ -130,7 +143,7 @@ Value = Union[
     ClassOf, Object, Code, Table, MarkedCallable,
 ]  # fmt: skip
 UNKNOWN = UnknownValue()
-OUTSIDE = ForeignValue()
+STANDARD = ForeignValue(standard=True)
 
 Environment = Mapping[str, Value]
 NOTHING_GIVEN: Environment = {}

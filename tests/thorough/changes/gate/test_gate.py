@@ -6,6 +6,7 @@ import shutil
 
 import pytest
 
+from tests.support import timed_robot
 from tests.support.cli import Cli, Ran
 from tests.support.gates import BOTH, CASES, CLASH, DEAD, LOST, OLD, TIMED, TIMED_ELSE, config, gated, policies
 from tests.support.paths import ROOT
@@ -134,3 +135,18 @@ def test_the_code_of_targets(cli: Cli, repository: Repository) -> None:
     ran = cli("gate", "--base", "main")
     assert ran.code == 2
     assert "robot.py" in ran.err
+
+
+def test_the_code_of_targets_with_time(cli: Cli, repository: Repository) -> None:
+    repository.put("nurse.sleec", timed_robot.RULES)
+    repository.put("robot.py", timed_robot.ROBOT)
+    repository.commit()
+    config(repository, '[[tool.sleec-verify.targets]]\ncode = "robot.py"\nrules = "nurse.sleec"')
+    code, said = gated(cli)
+    assert (code, said["targets"][0]["verdict"]) == (0, "proved")
+    repository.put("robot.py", timed_robot.ROBOT.replace("self.call_nurse()", "self.call_ambulance()"))
+    code, said = gated(cli)
+    assert (code, said["targets"][0]["verdict"]) == (1, "refuted")
+    repository.put("robot.py", timed_robot.ROBOT.replace(timed_robot.COMPLETED, "sleec.pending()[0].completed()"))
+    code, said = gated(cli)
+    assert (code, said["targets"][0]["verdict"]) == (3, "unknown")
