@@ -8,21 +8,19 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 
 from sleec_runtime.evaluation.hedge_chain import decide
-from sleec_runtime.model import Context, Rule, formulas_of, names_of, obligation_text
+from sleec_runtime.model import Context, Rule, obligation_text
 from sleec_verify.encoding.response_windows import ResponseWindows, WindowedResponse
 from sleec_verify.results import timeline
 from sleec_verify.results.timeline import Due, Timeline
 from sleec_verify.traces.index import TraceIndex
+from sleec_verify.traces.relations import names_of_rule
 from sleec_verify.traces.trace import TraceInstant
 
 
 def timeline_of(
     index: TraceIndex, moments: Sequence[TraceInstant], now: int | None = None, labels: Collection[str] | None = None
 ) -> Timeline:
-    """The timeline of a trace, or of a history up to the instant `now`. With `labels`, only of these rules.
-
-    Raises `Undecided` if the length of a window is a measure.
-    """
+    """The timeline of a trace, or of a history up to the instant `now`. With `labels`, only of these rules."""
     shown = []
     for moment in moments:
         rules = [
@@ -31,7 +29,7 @@ def timeline_of(
             for rule in index.by_trigger.get(event, ())
             if labels is None or rule.label in labels
         ]
-        named = {name for rule in rules for formula in formulas_of(rule) for name in names_of(formula)}
+        named = {name for rule in rules for _, name in names_of_rule(rule)}
         telling = tuple(name for name in moment.conditions if labels is None or name in named)
         due = tuple(dict.fromkeys(_due(index, rules, moment, moments, over=now is None)))
         shown.append(timeline.Moment(moment.time, tuple(sorted(moment.events)), moment.conditions, telling, due))
@@ -53,7 +51,7 @@ def _due(
         for one in windows.of(clause):
             if any(_is_met(other, moment.time, course, over) for other in _replaced(one)):
                 continue
-            assert one.start is not None, "the engine refuses windows whose length a measure gives"
+            assert one.start is not None, "a trace gives a value to the measures of its windows"
             yield Due(
                 rule.label,
                 decision.clause,
@@ -76,7 +74,7 @@ def _replaced(one: WindowedResponse) -> Iterator[WindowedResponse]:
 
 def _is_met(one: WindowedResponse, triggered: int, course: Sequence[TraceInstant], over: bool) -> bool:
     """Whether a response is certainly met, so that its alternative is not due any more."""
-    assert one.start is not None, "the engine refuses windows whose length a measure gives"
+    assert one.start is not None, "a trace gives a value to the measures of its windows"
     start, end = triggered + one.start, None if one.end is None else triggered + one.end
     open_still = not over and (end is None or end >= course[-1].time)
     done = any(

@@ -10,12 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from sleec_runtime.model import RELATIONS, MeasureRelation, Obligation, Rule, formulas_of, literals, names_of
+from sleec_runtime.model import RELATIONS, MeasureRelation, Obligation, Rule, literals, names_of
 from sleec_verify.encoding.relations import Relation, events_of, formulas_of_relation
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.union_find import UnionFind
+from sleec_verify.traces.demands import Some
 from sleec_verify.traces.event_conditions import is_of_state
 from sleec_verify.traces.index import TraceIndex
+from sleec_verify.traces.relations import names_of_rule
 from sleec_verify.traces.trivial_responses import contested_obligations
 
 
@@ -59,14 +61,16 @@ def components(index: TraceIndex) -> list[TraceIndex]:
     return [
         index.part(group, [r for root in _roots(union, root, group) for r in relations.get(root, ())])
         for root, group in rules.items()
-        if root in relations or _has_sides([(rule, contested[rule.label]) for rule in group])
+        if root in relations
+        or _has_sides([(rule, contested[rule.label]) for rule in group])
+        or any(_cannot_be_met(index, rule) for rule in group)
     ]
 
 
 def _roots(union: UnionFind, root: object, rules: list[Rule]) -> list[object]:
     """The groups of relations that bind rules: through events, or through the measures that the rules read."""
-    measures = (name for rule in rules for formula in formulas_of(rule) for name in names_of(formula))
-    return list(dict.fromkeys([root, *(union.root(("measure", name)) for name in measures)]))
+    measures = (name for rule in rules for name in names_of_rule(rule) if name[0] == "measure")
+    return list(dict.fromkeys([root, *map(union.root, measures)]))
 
 
 def _contested(index: TraceIndex, rule: Rule) -> Iterator[Obligation]:
@@ -85,6 +89,20 @@ def _has_sides(rules: list[tuple[Rule, list[Obligation]]]) -> bool:
     triggers = {rule.trigger for rule, _ in rules}
     forbidden = {response.name for _, responses in rules for response in responses if response.negated}
     return bool(required & forbidden or required & triggers or forbidden & triggers)
+
+
+def _cannot_be_met(index: TraceIndex, rule: Rule) -> bool:
+    """Whether some value of a measure gives a window without a second."""
+    try:
+        return any(
+            demand == Some(())
+            for clause in rule.clauses()
+            for obligation in clause.obligations
+            if index.lengths.cases(obligation) is not None
+            for demand, _ in index.responses.variants(obligation)
+        )
+    except Undecided:
+        return False
 
 
 def needs_traces(component: TraceIndex) -> bool:

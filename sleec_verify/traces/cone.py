@@ -9,18 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from sleec_runtime.model import Formula, Rule, formulas_of
+from sleec_runtime.model import Rule
 from sleec_verify.encoding.relations import Relation
 from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.relations import Name, holds_in_empty_context, may_require, names_in, names_of_relation
+from sleec_verify.traces.relations import Name, holds_in_empty_context, may_require, names_of_relation, names_of_rule
 
 
-def cone(index: TraceIndex, events: Iterable[str], formulas: Iterable[Formula]) -> TraceIndex:
-    """The part of a ruleset that can affect a question about these events and formulas. Linear in the size of that
+def cone(index: TraceIndex, events: Iterable[str], names: Iterable[Name]) -> TraceIndex:
+    """The part of a ruleset that can affect a question about these events and names. Linear in the size of that
     part, and of the relations."""
     ahead: list[Name] = [("event", event) for event in events]
-    ahead += [name for formula in formulas for name in names_in(formula)]
+    ahead += names
     rules: dict[str, Rule] = {}
     relations: dict[str, Relation] = {}
 
@@ -44,7 +44,7 @@ def cone(index: TraceIndex, events: Iterable[str], formulas: Iterable[Formula]) 
             if rule.label not in rules:
                 rules[rule.label] = rule
                 ahead += (("event", response.name) for response in responses_of(rule))
-                ahead += (one for formula in formulas_of(rule) for one in names_in(formula))
+                ahead += names_of_rule(rule)
     return index.part(rules.values(), relations.values())
 
 

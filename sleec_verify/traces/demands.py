@@ -8,6 +8,7 @@ window of seconds after that instant.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from itertools import chain as chained
 from itertools import product
 from math import ceil, floor
@@ -16,6 +17,7 @@ from typing import NamedTuple, Union
 from sleec_runtime.model import Clause, Length, Obligation, Rational, Window, in_text_order
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.encoding.window_lengths import WindowLengths
 
 
 class Occurs(NamedTuple):
@@ -33,11 +35,13 @@ class Occurs(NamedTuple):
         return self.start == self.end == 0
 
 
-class Every(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Every:
     parts: tuple[Demand, ...]
 
 
-class Some(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Some:
     parts: tuple[Demand, ...]
 
 
@@ -51,14 +55,16 @@ Chain = Callable[[Clause], Sequence[int]]
 class Responses:
     """The demands of responses, under one meaning of those without a window."""
 
-    def __init__(self, untimed: Untimed) -> None:
+    def __init__(self, untimed: Untimed, lengths: WindowLengths | None = None) -> None:
+        """Without `lengths`, no window may depend on a measure."""
         self._untimed = untimed
+        self._lengths = lengths
 
     def of(self, obligations: tuple[Obligation, ...], chain: Chain, kept: bool = True, after: int = 0) -> Demand:
         """The demand that all of `obligations`, which are due after this number of seconds, are met (not `kept`: that
         one is not met).
 
-        Raises `Undecided` if the length of a window is a measure.
+        Raises `Undecided` if the length of a window has no bounds.
         """
         parts = tuple(self._obligation(o, chain, kept, after) for o in obligations)
         return _joined(parts, every=kept)
@@ -67,19 +73,28 @@ class Responses:
         """The same as `of`, for a response with its own chain of hedges."""
         members = []
         for member, decides in zip(in_text_order(clause), chain(clause)):
+            if decides == _NEVER:
+                continue
             due = self.of(member.obligations, chain, kept, after)
             members.append(Some((-decides, due)) if kept else Every((decides, due)))
         return _joined(tuple(members), every=kept)
 
     def _obligation(self, obligation: Obligation, chain: Chain, kept: bool, after: int) -> Demand:
+        cases = None if self._lengths is None else self._lengths.cases(obligation)
+        if cases is not None:
+            return self.of_clause(cases, chain, kept, after)
         timing = obligation.timing
         start, end = self.window(obligation)
         negated = obligation.negated == kept
-        itself = Occurs(obligation.name, after + start, None if end is None else after + end, negated)
+        itself: Demand = Occurs(obligation.name, after + start, None if end is None else after + end, negated)
+        if end is not None and end < start:
+            itself = _joined((), every=negated)
         if timing is None:
             return itself
-        parts: list[Demand] = [itself]
+        parts = [itself]
         if timing.otherwise is not None:
+            if end is not None and end < 0:
+                raise Undecided(f"the length of a window of `{obligation.name}` can be negative; exclude such values")
             closed = after + end if timing.window is not None and end is not None else after
             parts.append(self.of_clause(timing.otherwise, chain, kept, closed))
         if timing.instead is not None:
@@ -89,7 +104,7 @@ class Responses:
     def window(self, obligation: Obligation) -> tuple[int, int | None]:
         """The first and the last second of the window of a response, after its trigger.
 
-        Raises `Undecided` if the length is a measure.
+        Raises `Undecided` if a measure gives the length.
         """
         window: Window | None = None if obligation.timing is None else obligation.timing.window
         if window is None:
@@ -102,11 +117,27 @@ class Responses:
         """The demands of one obligation, without literals, each with the choices that lead to it: which clause of each
         chain of hedges inside the response decides."""
         found: dict[Demand, list[tuple[int, ...]]] = {}
-        for choice in _choices(obligation):
+        for choice in self._choices(obligation):
             values = {_DECIDES: True, -_DECIDES: False}
             demand = simplified(self.of((obligation,), _Chosen(choice, lambda _: ()).flags), values)
             found.setdefault(demand, []).append(choice)
         return list(found.items())
+
+    def _choices(self, obligation: Obligation) -> Iterator[tuple[int, ...]]:
+        """Which clause of each chain inside a response decides, in the order in which the chains are read. A clause
+        that does not decide is not read."""
+        cases = None if self._lengths is None else self._lengths.cases(obligation)
+        if cases is not None:
+            yield from self._choices_of_chain(cases)
+            return
+        alternatives = [] if obligation.timing is None else list(obligation.timing.alternatives())
+        for parts in product(*(list(self._choices_of_chain(clause)) for clause in alternatives)):
+            yield tuple(chained.from_iterable(parts))
+
+    def _choices_of_chain(self, clause: Clause) -> Iterator[tuple[int, ...]]:
+        for number, member in enumerate(in_text_order(clause)):
+            for parts in product(*(list(self._choices(obligation)) for obligation in member.obligations)):
+                yield (number, *chained.from_iterable(parts))
 
     def deciding(self, obligation: Obligation, choice: tuple[int, ...], chain: Chain) -> list[int]:
         """The literals for which the chains inside a response decide as in `choice`."""
@@ -128,25 +159,12 @@ class _Chosen:
         literals = self._chain(clause)
         if number < len(literals):
             self.literals.append(literals[number])
-        return [_DECIDES if place == number else -_DECIDES for place, _ in enumerate(in_text_order(clause))]
+        return [_DECIDES if place == number else _NEVER for place, _ in enumerate(in_text_order(clause))]
 
 
 _DECIDES = 1
-
-
-def _choices(obligation: Obligation) -> Iterator[tuple[int, ...]]:
-    """Which clause of each chain inside a response decides, in the order in which `Responses` reads the chains."""
-    alternatives = [] if obligation.timing is None else list(obligation.timing.alternatives())
-    for parts in product(*(list(_choices_of_chain(clause)) for clause in alternatives)):
-        yield tuple(chained.from_iterable(parts))
-
-
-def _choices_of_chain(clause: Clause) -> Iterator[tuple[int, ...]]:
-    members = list(in_text_order(clause))
-    inner = [_choices(obligation) for member in members for obligation in member.obligations]
-    for parts in product(*(list(choices) for choices in inner)):
-        for number in range(len(members)):
-            yield (number, *chained.from_iterable(parts))
+_NEVER = 0
+"""In place of the literal of a clause that does not decide. No literal is 0."""
 
 
 def simplified(demand: Demand, values: dict[int, bool]) -> Demand:
@@ -169,15 +187,15 @@ def simplified(demand: Demand, values: dict[int, bool]) -> Demand:
 
 
 def seconds(length: Length) -> Rational:
-    """A length of time in seconds. Raises `Undecided` if it is a measure."""
+    """A length of time in seconds. Raises `Undecided` if it depends on measures."""
     value = length.seconds
     if value is None:
-        raise Undecided(f"the duration {length} is a measure; this is not supported")
+        raise Undecided(f"nothing bounds a measure that gives the duration `{length}`; declare a range of the measure")
     return value
 
 
 def last_second(length: Length) -> int:
-    """The last second of this length of time, counted from 0. Raises `Undecided` if the length is a measure."""
+    """The last second of this length of time, counted from 0. Raises `Undecided` if the length depends on measures."""
     return int(-(-seconds(length) // 1) - 1)
 
 

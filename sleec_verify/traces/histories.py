@@ -6,14 +6,14 @@ a trace model in which all instants are before now, and a demand whose window is
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
-from sleec_runtime.model import Lasting, Rule
+from sleec_runtime.model import Lasting, Obligation, Rule
 from sleec_verify.encoding.budget import as_far_as_decided
 from sleec_verify.traces.cone import surroundings
 from sleec_verify.traces.demands import Demand, Every, Occurs
 from sleec_verify.traces.model import TraceModel
-from sleec_verify.traces.pending_demands import Slot
+from sleec_verify.traces.pending_demands import Slot, from_last_end, is_open, last_end
 from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.trace import TraceInstant
 from sleec_verify.traces.trivial_responses import contested_obligations
@@ -42,6 +42,11 @@ class Histories(TraceModel):
                 self._slots[nodes.setdefault(slot.node, self.node())] = slot
             elif fact[0] == "lasts" and fact[-1]:
                 nodes.setdefault(situations.lasting[str(fact[1])][2], self.node())
+        self._triggers_of = {
+            node: self.node() if any(choice.shift for choice in slot.pending.choices) else node
+            for node, slot in self._slots.items()
+        }
+        """For the node of a slot, that of the trigger. The slot can count from an earlier time (`Pending`)."""
         for fact in wanted:
             literal = self._literal(fact)
             if literal is not None:
@@ -76,28 +81,52 @@ class Histories(TraceModel):
         return self._lasts(law, nodes[node]) if value else None
 
     def _triggers(self, slot: Slot, node: int) -> int:
-        """A literal that implies that a slot's demand is triggered at the time of a node and, as far as flags do
-        not say it, is neither met nor violated."""
+        """A literal that implies that a slot's demand is triggered and, as far as flags do not say it, is neither met
+        nor violated."""
         unmet = [self._never(node, leaf) for leaf, flag in slot.came.items() if flag == -self._situations.true]
+        trigger = self._triggers_of[node]
 
         def triggered(at: int) -> int:
-            same_time = self.times.within(node, at, 0, 0)
+            same_time = self.times.within(trigger, at, 0, 0)
             if -self.formula.true in same_time:
                 return -self.formula.true
             guard = self.instants[at].guards(slot.rule, self.reading)[slot.pending.number]
             choices = [
-                self.formula.every(self.index.responses.deciding(slot.pending.obligation, choice, self.chain(at)))
+                self.formula.every(
+                    [
+                        *self.index.responses.deciding(slot.pending.obligation, choice.clauses, self.chain(at)),
+                        *self.times.within(node, trigger, choice.shift, choice.shift),
+                    ]
+                )
                 for choice in slot.pending.choices
             ]
             return self.formula.every([*same_time, self.instants[at].used, guard, self.formula.any_of(choices)])
 
         return self.formula.every([self.exists(triggered), *unmet])
 
-    def _came(self, at: int, leaf: Occurs) -> int:
-        return self.exists(lambda other: self.occurrence(at, other, leaf._replace(negated=False)))
+    def _came(self, node: int, leaf: Occurs) -> int:
+        return self.exists(
+            lambda other: self.formula.every([self.instants[other].event(leaf.event), *self._window(node, leaf, other)])
+        )
 
-    def _never(self, at: int, leaf: Occurs) -> int:
-        return self.occurs(at, leaf._replace(negated=True))
+    def _never(self, node: int, leaf: Occurs) -> int:
+        never = self.formula.fresh()
+
+        def exclude(other: int) -> None:
+            bounds = self._window(node, leaf, other)
+            if -self.formula.true not in bounds:
+                self.add([-never, -self.instants[other].event(leaf.event), *(-bound for bound in bounds)])
+
+        self.everywhere(exclude)
+        return never
+
+    def _window(self, node: int, leaf: Occurs, other: int) -> list[int]:
+        """Literals that together say that an instant is in the window of an atom of a slot."""
+        if is_open(leaf):
+            trigger = self._triggers_of[node]
+            opened = self.times.within(trigger, other, leaf.start, None)
+            return [*opened, *self.times.within(node, other, None, leaf.end)]
+        return self.times.within(node, other, leaf.start, leaf.end)
 
     def _lasts(self, law: Lasting, node: int) -> int:
         """A literal that implies that a relation begins at the time of a node and is not over before now."""
@@ -128,9 +157,21 @@ class Histories(TraceModel):
             return
         for number, (clause, guard) in enumerate(self.guards(at, rule)):
             for obligation in contested_obligations(self.index, clause):
-                demand = self.due(at, (obligation,))
-                settled = self.formula.any_of([self._settled(at, demand), *self._dominated(at, rule, number, demand)])
-                self.add([-self.strict, -guard, settled])
+                for conditions, demand in self._demands(at, obligation):
+                    settled = self.formula.any_of(
+                        [self._settled(at, demand), *self._dominated(at, rule, number, demand)]
+                    )
+                    self.add([-self.strict, -guard, *(-literal for literal in conditions), settled])
+
+    def _demands(self, at: int, obligation: Obligation) -> Iterator[tuple[list[int], Demand]]:
+        """The demand of an obligation; if measures give its windows, one for each of their values, with literals that
+        together say that the measures have them."""
+        if self.index.lengths.cases(obligation) is None:
+            yield [], self.due(at, (obligation,))
+            return
+        for demand, choices in self.index.responses.variants(obligation):
+            for choice in choices:
+                yield self.index.responses.deciding(obligation, choice, self.chain(at)), demand
 
     def _settled(self, at: int, demand: Demand) -> int:
         """A literal that implies that a demand is met before now, for every continuation."""
@@ -150,10 +191,14 @@ class Histories(TraceModel):
         found = []
         for node, slot in self._slots.items():
             if (slot.rule.label, slot.pending.number) == (rule.label, number):
-                found.append(self.formula.every(self.times.within(node, at, 0, 0)))
-                if slot.pending.is_dominant and slot.demand == demand and isinstance(demand, Occurs):
-                    earlier, later = (at, node) if demand.negated else (node, at)
-                    found.append(self.times.at_most(later, earlier, 0))
+                found.append(self.formula.every(self.times.within(self._triggers_of[node], at, 0, 0)))
+                if not slot.pending.is_dominant or not isinstance(demand, Occurs):
+                    continue
+                if from_last_end(slot.demand) == from_last_end(demand):
+                    # The demand counts from this many seconds before `at`.
+                    shift = last_end(slot.demand) - last_end(demand)
+                    at_most = self.times.at_most
+                    found.append(at_most(node, at, shift) if demand.negated else at_most(at, node, -shift))
         return found
 
     # Questions ------------------------------------------------------------------------------------------------

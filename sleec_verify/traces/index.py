@@ -15,15 +15,18 @@ from sleec_runtime.model import (
     Clause,
     Declaration,
     Exclusive,
+    Formula,
     Never,
     Obligation,
     Rule,
     Ruleset,
+    formulas_of,
     in_text_order,
 )
 from sleec_verify.encoding.relations import Relation, events_of
 from sleec_verify.encoding.solver import Recorder
 from sleec_verify.encoding.trace_scope import Untimed, responses_of
+from sleec_verify.encoding.window_lengths import WindowLengths
 from sleec_verify.query.memo import Memo
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.traces.demands import Occurs, Responses, occurrences
@@ -51,7 +54,7 @@ class TraceIndex(Memo):
             self.mere_inputs = whole.mere_inputs
         self.untimed = untimed
         self.recorder = recorder
-        self.responses = Responses(untimed)
+        self.responses = Responses(untimed, self.lengths)
         self._windows: dict[str, list[Occurs]] = {}
         self.impossible: dict[frozenset[str], frozenset[str]] = {}
         """The events that never occur under the counting rules and relations (`sleec_verify.traces.induction`)."""
@@ -79,7 +82,7 @@ class TraceIndex(Memo):
         return self.ruleset.rules
 
     def windows(self, rule: Rule) -> list[Occurs]:
-        """Every atom that a rule can demand. Raises `Undecided` if the length of a window is a measure."""
+        """Every atom that a rule can demand. Raises `Undecided` if the length of a window has no bounds."""
         found = self._windows.get(rule.label)
         if found is None:
             found = self._windows[rule.label] = [
@@ -88,13 +91,32 @@ class TraceIndex(Memo):
         return found
 
     def atoms(self, obligations: tuple[Obligation, ...]) -> Iterator[Occurs]:
-        """Every atom that obligations can demand. Raises `Undecided` if the length of a window is a measure."""
+        """Every atom that obligations can demand. Raises `Undecided` if the length of a window has no bounds."""
         return occurrences(self.responses.of(obligations, lambda inner: [1] * _members(inner)))
+
+    def formulas(self, rule: Rule) -> Iterator[Formula]:
+        """The conditions that decide what a rule requires: guards, hedges, and those of the lengths of its windows.
+
+        Raises `Undecided` if the length of a window has no bounds.
+        """
+        yield from formulas_of(rule)
+        for clause in rule.clauses():
+            yield from self.lengths.formulas(clause)
+
+    @cached_property
+    def lengths(self) -> WindowLengths:
+        """The windows for each value of the measures that give their lengths."""
+        return WindowLengths(self.ruleset, self._stated_relations) if self.whole is None else self.whole.lengths
+
+    @cached_property
+    def _stated_relations(self) -> list[Relation]:
+        return [s for s in self.ruleset.statements if isinstance(s, (*RELATIONS, Exclusive, Never, Assume))]
 
     @cached_property
     def relations(self) -> list[Relation]:
-        """Relations and constraints, in the order of the text."""
-        return [s for s in self.ruleset.statements if isinstance(s, (*RELATIONS, Exclusive, Never, Assume))]
+        """Relations and constraints, in the order of the text. One whose duration depends on measures is one relation
+        for each of their values, if these have bounds."""
+        return [one for relation in self._stated_relations for one in self.lengths.of_relation(relation)]
 
     @cached_property
     def relation_by_key(self) -> dict[str, Relation]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from sleec_runtime.model import Measure, Value
+from sleec_runtime.model import Clause, Measure, Reading, Value
 from sleec_verify.encoding.cnf import Encoder, Key
 
 
@@ -62,6 +62,7 @@ class Instant(Encoder):
         self.used = used
         self.expanded: set[str] = set()
         self._regions = 0
+        self._chains: dict[int, tuple[Clause, list[int]]] = {}
 
     def fresh(self) -> int:
         return self._formula.fresh()
@@ -69,6 +70,12 @@ class Instant(Encoder):
     def event(self, name: str) -> int:
         """The literal "the event occurs at this instant"; the trace then has the instant."""
         return self.variable(("event", name))
+
+    def chain(self, clause: Clause, reading: Reading) -> list[int]:
+        known = self._chains.get(id(clause))
+        if known is None or known[0] is not clause:
+            known = self._chains[id(clause)] = clause, super().chain(clause, reading)
+        return known[1]
 
     def variable(self, key: Key) -> int:
         if key[0] in ("trigger", "obligation"):

@@ -7,9 +7,10 @@ proofs/traces).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 from sleec_runtime.model import Obligation, Rule
 from sleec_verify.traces.demands import Demand, Every, Occurs, occurrences
@@ -17,16 +18,28 @@ from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.trivial_responses import contested_obligations
 
 
+class Choice(NamedTuple):
+    """Which clause of each chain inside a response decides. The demand is then that of a trigger `shift` seconds
+    earlier."""
+
+    clauses: tuple[int, ...]
+    shift: int
+
+
 @dataclass(frozen=True, eq=False)
 class Pending:
-    """What a history can leave pending: the `demand` of a response of clause `number` of a rule, if the chains of
-    hedges inside the response decide as in one of `choices`."""
+    """What a history can leave pending: the `demand` of a response of clause `number` of a rule, if the chains inside
+    the response decide as in one of `choices`.
+
+    Some choices have the same demand, but counted from an earlier time: "X within 2 minutes" is pending in the same way
+    as "X within 5 minutes" of a trigger 3 minutes earlier.
+    """
 
     rule: Rule
     number: int
     obligation: Obligation
     demand: Demand
-    choices: tuple[tuple[int, ...], ...]
+    choices: tuple[Choice, ...]
 
     @cached_property
     def atoms(self) -> list[Occurs]:
@@ -76,7 +89,7 @@ class Slot:
 
 
 def pending_of(index: TraceIndex) -> Iterator[Pending]:
-    """Everything that a history can leave pending. Raises `Undecided` if the length of a window is a measure."""
+    """Everything that a history can leave pending. Raises `Undecided` if the length of a window has no bounds."""
     return (one for one in _demands(index) if one.can_last)
 
 
@@ -84,8 +97,44 @@ def _demands(index: TraceIndex) -> Iterator[Pending]:
     for rule in index.ruleset.rules:
         for number, clause in enumerate(rule.clauses()):
             for obligation in contested_obligations(index, clause):
-                for demand, choices in index.responses.variants(obligation):
+                for demand, choices in _shifted(index.responses.variants(obligation)):
                     yield Pending(rule, number, obligation, demand, tuple(choices))
+
+
+def _shifted(variants: Iterable[tuple[Demand, list[tuple[int, ...]]]]) -> Iterator[tuple[Demand, list[Choice]]]:
+    """The demands that no shift makes equal, each with the choices that lead to it."""
+    groups: dict[Demand, list[tuple[Demand, list[tuple[int, ...]]]]] = {}
+    for demand, choices in variants:
+        groups.setdefault(from_last_end(demand), []).append((demand, choices))
+    for group in groups.values():
+        latest, _ = max(group, key=lambda one: last_end(one[0]))
+        yield (
+            latest,
+            [Choice(c, last_end(latest) - last_end(demand)) for demand, choices in group for c in choices],
+        )
+
+
+def is_open(atom: Occurs) -> bool:
+    """Whether the window of an atom is open at every instant after its trigger, up to its end."""
+    return atom.start is None or atom.start <= 1
+
+
+def last_end(demand: Demand) -> int:
+    """The last second of the bounded windows of a demand; 0 if there are none."""
+    return max((atom.end for atom in occurrences(demand) if atom.end is not None), default=0)
+
+
+def from_last_end(demand: Demand) -> Demand:
+    """The demand with all times counted from its last end, except for the begin of windows that are open."""
+    return _counted_from(demand, last_end(demand))
+
+
+def _counted_from(demand: Demand, origin: int) -> Demand:
+    if isinstance(demand, Occurs):
+        start = demand.start if demand.start is None or is_open(demand) else demand.start - origin
+        return demand._replace(start=start, end=None if demand.end is None else demand.end - origin)
+    assert not isinstance(demand, int), "slots have no literals"
+    return type(demand)(tuple(_counted_from(part, origin) for part in demand.parts))
 
 
 def alternatives(demand: Demand) -> Iterator[Occurs]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import NamedTuple
 
-from sleec_runtime.model import Claim, Formula, Rule, formulas_of
+from sleec_runtime.model import Claim, Formula, Length, Rule
 from sleec_verify.encoding.budget import begin
 from sleec_verify.encoding.mentioned_names import add_claim
 from sleec_verify.encoding.solver import Undecided
@@ -16,6 +16,7 @@ from sleec_verify.traces.cone import cone
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.induction import InductiveModel
 from sleec_verify.traces.model import TraceModel
+from sleec_verify.traces.relations import names_in, names_of_rule
 from sleec_verify.traces.trace import TraceInstant
 
 What = Callable[[TraceModel, int], Sequence[int]]
@@ -96,8 +97,11 @@ def find_claim(index: TraceIndex, claim: Claim) -> Answer:
 
     events: set[str] = set()
     formulas: list[Formula] = []
-    add_claim(claim, events, formulas, [])
-    return _ask(cone(index, events, formulas), _Shown(claim.kind, claim.label), what)
+    lengths: list[Length] = []
+    add_claim(claim, events, formulas, lengths)
+    names = [name for formula in formulas for name in names_in(formula)]
+    names += [("measure", measure) for length in lengths for measure in length.measures]
+    return _ask(cone(index, events, names), _Shown(claim.kind, claim.label), what)
 
 
 def _parts(claim: Claim) -> list[Claim]:
@@ -107,7 +111,7 @@ def _parts(claim: Claim) -> list[Claim]:
 def _about(index: TraceIndex, rules: Sequence[Rule]) -> TraceIndex:
     """The cone of the question about some rules."""
     events = {event for rule in rules for event in (rule.trigger, *(o.name for o in responses_of(rule)))}
-    return cone(index, sorted(events), [formula for rule in rules for formula in formulas_of(rule)])
+    return cone(index, sorted(events), [name for rule in rules for name in names_of_rule(rule)])
 
 
 def _broken(model: TraceModel, at: int, rule: Rule) -> int:

@@ -14,16 +14,20 @@ from sleec_runtime.model import (
     Lasting,
     MeasureRelation,
     Never,
+    Rule,
+    formulas_of,
     leaves,
     measures_of,
 )
 from sleec_verify.encoding.relations import Relation, at_one_instant, events_of, formulas_of_relation
 from sleec_verify.encoding.three_valued import is_true_in_empty_context, value_of
+from sleec_verify.encoding.window_lengths import measures_of_lengths
 
 
 def relation_key(relation: Relation) -> str:
-    """A key for a relation that is not the label of a rule: the place of its text."""
-    return f"relation at {relation.span.start}"
+    """A key for a relation that is not the label of a rule: the place of its text, and its duration."""
+    duration = relation.duration if isinstance(relation, Lasting) else None
+    return f"relation at {relation.span.start}" + (f" for {duration}" if duration is not None else "")
 
 
 Name = tuple[str, str]
@@ -37,6 +41,14 @@ def names_in(formula: Formula) -> Iterator[Name]:
             yield "measure" if leaf.kind == "condition" else "event", leaf.name
         else:
             yield from (("measure", measure) for measure in measures_of(leaf))
+
+
+def names_of_rule(rule: Rule) -> Iterator[Name]:
+    """The events, conditions and measures that decide what a rule requires."""
+    for formula in formulas_of(rule):
+        yield from names_in(formula)
+    for clause in rule.clauses():
+        yield from (("measure", measure) for measure in measures_of_lengths(clause))
 
 
 def names_of_relation(relation: Relation) -> Iterator[Name]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 
-from sleec_runtime.model import Atom, EventRelation, Lasting, formulas_of, leaves
+from sleec_runtime.model import Atom, EventRelation, Lasting, leaves
 from sleec_runtime.model import Formula as Condition
 from sleec_verify.encoding.relations import formulas_of_relation
 from sleec_verify.encoding.solver import MiniSat, Undecided
@@ -290,7 +290,7 @@ class Situations:
 def state_formulas(index: TraceIndex) -> Iterator[Condition]:
     """All formulas over conditions and measures that decide anything at one instant."""
     for rule in index.ruleset.rules:
-        yield from formulas_of(rule)
+        yield from index.formulas(rule)
     for relation in index.relations:
         if isinstance(relation, Lasting) or not isinstance(relation, EventRelation):
             yield from (f for f in formulas_of_relation(relation) if _is_about_state(f))

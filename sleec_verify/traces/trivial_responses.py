@@ -24,7 +24,7 @@ def free_events(index: TraceIndex) -> frozenset[str]:
 def contested_obligations(index: TraceIndex, clause: Clause) -> tuple[Obligation, ...]:
     """The obligations of a clause that cannot always be met, for all decisions of the hedges inside them.
 
-    Raises `Undecided` if the length of a window is a measure.
+    Raises `Undecided` if the length of a window has no bounds.
     """
     known = index.once(_contested)
     entry = known.get(id(clause))

@@ -11,6 +11,7 @@ from sleec_verify.encoding.cnf import Key
 from sleec_verify.encoding.formula_truth import truth_in
 from sleec_verify.encoding.relations import events_of, formula_at_one_instant
 from sleec_verify.encoding.solver import MiniSat
+from sleec_verify.encoding.window_lengths import measures_of_lengths
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.instant import Instant, SharedClauses
 from sleec_verify.traces.situations import Fact, Situations
@@ -38,8 +39,10 @@ def needed_values(
     values: Mapping[str, Value],
 ) -> Mapping[str, Value]:
     """The `values` of a minimal set of conditions and measures with which no response complies with `rules`, and
-    the clauses `deciding` decide. All other conditions may be false."""
+    the clauses `deciding` decide, and those of the lengths of their windows. All other conditions may be false."""
     index = situations.index
+    deciding = list(deciding)
+    clauses = [list(index.ruleset.by_label[label].clauses())[number] for label, number in deciding]
     facts = [fact for fact in continuations.facts if fact[0] == "state"]
     formula = SharedClauses()
     instant = Instant(formula, index.ruleset.measures, formula.true)
@@ -74,6 +77,7 @@ def needed_values(
             with as_far_as_decided():
                 less = refuted(kept - {name}) if name in kept else None
                 kept = kept if less is None else less
+    kept.update(name for clause in clauses for name in measures_of_lengths(clause))
     closed = _closed(situations, kept, values)
     return {name: value for name, value in values.items() if name in closed}
 

@@ -84,11 +84,11 @@ def conflicts(ruleset):
     return found
 
 
-def compare_conflicts(first: int, last: int) -> int:
+def compare_conflicts(first: int, last: int, lengths: bool = False) -> int:
     """How many conflicts were found; AssertionError names the ruleset about which the two methods differ."""
     total = 0
     for seed in range(first, last):
-        ruleset = timed_ruleset(seed, **SIZES[0])
+        ruleset = timed_ruleset(seed, **SIZES[0], lengths=lengths)
         (result,) = run_checks(ruleset, ["conflict"])
         found = {frozenset(finding.rules) for finding in result.findings}
         smallest = {rules for rules in found if not any(other < rules for other in found)}
@@ -150,6 +150,18 @@ def compare_named(first: int, last: int) -> int:
         ruleset = timed_ruleset(seed, **SIZES[0], named=True)
         try:
             total += compare(ruleset, "at")
+        except AssertionError as error:
+            raise AssertionError(f"seed {seed}: {error}\n{ruleset.source.text}") from error
+    return total
+
+
+def compare_lengths(first: int, last: int) -> int:
+    """As `compare_all`, about rulesets in which measures give lengths of windows."""
+    total = 0
+    for seed in range(first, last):
+        ruleset = timed_ruleset(seed, **SIZES[seed % 2], lengths=True)
+        try:
+            total += compare(ruleset, ("at", "eventually")[seed % 7 == 0])
         except AssertionError as error:
             raise AssertionError(f"seed {seed}: {error}\n{ruleset.source.text}") from error
     return total

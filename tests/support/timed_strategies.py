@@ -27,13 +27,14 @@ def timed_ruleset(
     hedges: int = 2,
     calculations: bool = False,
     named: bool = False,
+    lengths: bool = False,
 ) -> Ruleset:
     """A ruleset with one rule at least and the given numbers at most; no window is over after `longest` seconds. With
     `calculations`, half of its conditions calculate with two numbers; with `named`, half of those of its rules and
-    claims name events."""
+    claims name events. With `lengths`, measures with declared ranges give half of the lengths of its windows."""
     random = Random(seed)
     writer = _Writer(random, rules, events, booleans, scale, longest, relations, hedges, calculations)
-    writer.named = named
+    writer.named, writer.lengths = named, lengths
     return parse(writer.text())
 
 
@@ -58,16 +59,21 @@ class _Writer:
         self.longest = longest
         self.calculations = calculations
         self.named = False
+        self.lengths = False
 
     def text(self) -> str:
         definitions = [f"event {e}" for e in self.events]
         definitions += [f"measure {m}: boolean" for m in self.booleans]
         if self.calculations:
             definitions += ["measure x: numeric", "measure y: numeric"]
+        if self.lengths:
+            definitions += ["measure w: numeric", "measure v: numeric"]
         if self.scale:
             definitions.append(f"measure risk: scale({', '.join(SCALE)})")
         rules = [self.rule(f"R{number}") for number in range(self.random.randint(1, self.rules))]
         relations = [self.relation() for _ in range(self.few(self.relations))]
+        if self.lengths:
+            relations += self.ranges()
         concerns = [self.claim("c1")] if self.random.random() < 0.5 else []
         purposes = [self.claim("p1")] if self.random.random() < 0.5 else []
         blocks = (
@@ -87,6 +93,15 @@ class _Writer:
         """None or a few, and none about half of the time."""
         return max(0, self.random.randint(-most, most))
 
+    def ranges(self) -> list[str]:
+        """Relations that bound the measures of lengths, one of them perhaps by the other."""
+        least, most = self.random.randint(0, 1), self.random.randint(1, self.longest)
+        bound = self.random.choice((str(most), "{w}"))
+        return [
+            f"measure invariant (({{w}} >= {least}) and ({{w}} <= {most}))",
+            f"measure invariant (({{v}} >= 0) and ({{v}} <= {bound}))",
+        ]
+
     def event(self) -> str:
         return self.random.choice(self.events)
 
@@ -104,6 +119,10 @@ class _Writer:
             return (
                 f"(({calculated}) {self.random.choice(('<', '<=', '=', '<>', '>=', '>'))} {self.random.randint(-3, 4)})"
             )
+        if self.lengths and kind in (3, 4):
+            side = self.random.choice(("{w}", "{v}"))
+            other = self.random.choice(("{w}", str(self.random.randint(0, self.longest))))
+            return f"({side} {self.random.choice(('<', '<=', '=', '<>', '>=', '>'))} {other})"
         if self.scale and kind in (3, 4):
             return f"({{risk}} {self.random.choice(('<', '<=', '=', '<>', '>=', '>'))} {self.random.choice(SCALE)})"
         return "{" + self.random.choice(self.booleans) + "}"
@@ -130,10 +149,16 @@ class _Writer:
             return ""
         if kind == 2:
             return " eventually"
+        if self.lengths and self.random.randrange(2):
+            return self.measured_window()
         end = self.random.randint(0, self.longest)
         if kind < 6:
             return f" within {end} seconds"
         return f" within [{self.random.randint(0, end)}, {end}] seconds"
+
+    def measured_window(self) -> str:
+        written = ("{w}", "{w}", "{v}", "({w} + 1)", "[{v}, {w}]", "[{v}, {w} + {v}]", f"[{{v}}, {self.longest}]")
+        return f" within {self.random.choice(written)} seconds"
 
     def hedges(self) -> list[str]:
         return [self.hedge() for _ in range(self.few(self.most_hedges))]
@@ -168,7 +193,8 @@ class _Writer:
             return f"{('causation', 'includes', 'forbid', 'forbid')[kind - 7]} {a} {p}"
         if kind == 11:
             return f"when {a}{self.maybe_condition()} then {p} until {b}{self.maybe_condition()}"
-        return f"when {a}{self.maybe_condition()} then {p} for {self.random.randint(0, self.longest)} seconds"
+        most = self.random.choice(("{w}", "{v}")) if self.lengths else str(self.random.randint(0, self.longest))
+        return f"when {a}{self.maybe_condition()} then {p} for {most} seconds"
 
     def claim(self, label: str) -> str:
         if self.random.randrange(2):

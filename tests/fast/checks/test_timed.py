@@ -94,14 +94,14 @@ def test_a_window_that_a_measure_says_is_a_matter_of_the_rules_around_it_only():
         )
         assert {f.rules for f in found["conflict"].findings} == (set() if more else {("R2", "R3")})
         if more:
-            assert found["conflict"].verdict.why.startswith(f"{concerned}: the duration x seconds is a measure")
+            assert found["conflict"].verdict.why.startswith(f"{concerned}: nothing bounds `x`")
         assert found["vacuous-conflict"].verdict.why.startswith("`R1`: ")
 
 
-def test_the_length_of_a_window_that_a_measure_says_is_not_analysed():
+def test_a_window_without_a_bound_is_not_analysed():
     found = verdicts(text("B within x seconds"))
     assert set(unknown(found)) == {"conflict", "vacuous-conflict", "redundant-rule", "redundant-hedge"}
-    assert "the duration x seconds is a measure" in found["conflict"].verdict.why
+    assert "nothing bounds `x`" in found["conflict"].verdict.why
 
 
 def test_the_readings_part_where_only_times_differ():

@@ -15,7 +15,7 @@ PATH = re.compile(rf"`((?:{'|'.join(FOLDERS)})/[\w./-]*)`")
 MODULE = re.compile(r"`([a-z_]+/)*([a-z_]+\.py)`")
 ENGINES = {
     "untimed.md": ("encoding", "query", "entailment", "checks"),
-    "traces.md": ("traces", "query", "replay"),
+    "traces.md": ("encoding", "traces", "query", "replay"),
     "games.md": ("games", "replay"),
     "comparison.md": ("changes",),
 }

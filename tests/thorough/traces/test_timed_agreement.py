@@ -14,6 +14,7 @@ from tests.support.timed_agreement import (
     compare_calculations,
     compare_conflicts,
     compare_english,
+    compare_lengths,
     compare_named,
 )
 
@@ -43,6 +44,21 @@ def test_rulesets_whose_conditions_name_events_are_answered_as_z3_answers_them()
 @pytest.mark.timeout(300)
 def test_conflicts_of_random_rulesets_are_those_that_z3_finds():
     assert compare_conflicts(0, 80) > 5
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(300)
+def test_windows_whose_lengths_measures_give_are_answered_as_z3_answers_them():
+    assert compare_lengths(0, 60) > 300
+    assert compare_conflicts(0, 40, lengths=True) > 5
+
+
+@pytest.mark.long
+@pytest.mark.timeout(3600)
+@pytest.mark.parametrize("first", range(60, 1_060, 100))
+def test_many_windows_whose_lengths_measures_give_are_answered_as_z3_answers_them(first):
+    compare_lengths(first, first + 100)
+    compare_conflicts(first, first + 100, lengths=True)
 
 
 @pytest.mark.long
