@@ -355,7 +355,8 @@ def test_a_threshold_is_not_met_by_using_no_rules(run, pytester: pytest.Pytester
 def test_a_project_without_rules_pays_nothing(tmp_path: Path) -> None:
     code = (
         "import sys, pytest\n"
-        "pytest.main(['-p', 'no:cacheprovider', '-p', 'sleec_verify.pytest_plugin', '-q', '--co', sys.argv[1]])\n"
+        "pytest.main(['-p', 'no:cacheprovider', '-p', 'sleec_verify.pytest_plugin', '-q', '--co', '--rootdir', "
+        "sys.argv[1], sys.argv[1]])\n"
         "print(*[m for m in sys.modules if m.startswith(('sleec_runtime', 'sleec_verify.', 'pysat', 'contextpy3'))])"
     )
     environment = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTHONPATH": ".", "PATH": ""}
