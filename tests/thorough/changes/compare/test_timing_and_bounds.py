@@ -38,13 +38,41 @@ from tests.support.differences import CURTAINS, differ, edit, gained, lost
         ("X ELSE NOT X", "Y ELSE NOT Y", "equivalent"),
         ("X WITHIN n minutes OTHERWISE Y", "X WITHIN n minutes OTHERWISE Z", "unknown"),
         ("X WITHIN 5 minutes AND Y", "X WITHIN 5 minutes AND Z", "incomparable"),
+        ("X WITHIN 5 minutes AND Y", "X WITHIN 5 minutes", "laxer"),
+        ("X WITHIN 5 minutes", "X WITHIN [1, 5] minutes", "stricter"),
+        ("X WITHIN [1, 5] minutes", "X WITHIN [2, 6] minutes", "incomparable"),
+        ("NOT X WITHIN [1, 5] minutes", "NOT X WITHIN 5 minutes", "stricter"),
+        ("NOT X WITHIN 5 minutes", "NOT X EVENTUALLY", "stricter"),
+        ("X WITHIN 5 minutes", "NOT X WITHIN 5 minutes", "incomparable"),
+        ("X EVENTUALLY", "X WITHIN [0, 9] minutes", "stricter"),
+        ("X EVENTUALLY", "X EVENTUALLY ELSE Y", "laxer"),
+        ("X EVENTUALLY OTHERWISE Y", "X EVENTUALLY", "stricter"),
+        ("X WITHIN 5 minutes", "X WITHIN 5 minutes ELSE Y", "laxer"),
+        ("X WITHIN 5 minutes ELSE Y", "X WITHIN 5 minutes ELSE Y WITHIN 1 minute", "laxer"),
+        ("X WITHIN 5 minutes ELSE Y", "X WITHIN 4 minutes ELSE Y", "stricter"),
+        ("X WITHIN 5 minutes ELSE Y", "X WITHIN 5 minutes OTHERWISE Y", "incomparable"),
+        ("X WITHIN 5 minutes OTHERWISE Y OTHERWISE Z", "X WITHIN 5 minutes OTHERWISE Y", "stricter"),
+        ("X WITHIN 5 minutes OTHERWISE NOT Y", "X WITHIN 5 minutes OTHERWISE NOT Y WITHIN 1 minute", "stricter"),
+        ("NOT X WITHIN 5 minutes OTHERWISE Y", "NOT X WITHIN 5 minutes", "stricter"),
+        ("X WITHIN 5 minutes OTHERWISE X EVENTUALLY", "X EVENTUALLY", "equivalent"),
+        ("X WITHIN 5 minutes UNLESS c", "X WITHIN 5 minutes", "stricter"),
+        ("X WITHIN 5 minutes UNLESS c", "X WITHIN 4 minutes UNLESS c", "stricter"),
+        ("X WITHIN 5 minutes UNLESS c IN WHICH CASE X WITHIN 9 minutes", "X WITHIN 9 minutes", "laxer"),
+        ("X WITHIN 5 minutes UNLESS c IN WHICH CASE Y", "X WITHIN 5 minutes UNLESS c IN WHICH CASE Z", "incomparable"),
+        ("X WITHIN 5 minutes OTHERWISE (Y UNLESS c)", "X WITHIN 5 minutes OTHERWISE (Y UNLESS d)", "incomparable"),
+        ("X WITHIN n minutes", "X WITHIN n minutes", "equivalent"),
+        ("X WITHIN n minutes", "X WITHIN n minutes AND Y", "stricter"),
+        ("X WITHIN n minutes", "X WITHIN 5 minutes", "unknown"),
     ],
 )
 def test_windows(before: str, after: str, relation: str) -> None:
     beside = "MEASURE n: integer\nRULE s\nWHEN u AND n > 3 THEN W\n"
-    found = differ(f"{beside}RULE r\nWHEN t THEN {before}\n", f"{beside}RULE r\nWHEN t THEN {after}\n")
-    assert found.relation == relation
-    assert bool(found.undecided) == (relation == "unknown")
+    sides = [f"{beside}RULE r\nWHEN t THEN {response}\n" for response in (before, after)]
+    mirrored = {"stricter": "laxer", "laxer": "stricter"}
+    for (old, new), expected in ((sides, relation), (sides[::-1], mirrored.get(relation, relation))):
+        found = differ(old, new)
+        assert found.relation == expected
+        assert bool(found.undecided) == (expected == "unknown")
 
 
 def test_the_hedges_of_what_is_due_in_place_are_counted() -> None:
