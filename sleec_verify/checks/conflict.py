@@ -128,6 +128,7 @@ def _finding(index: RulesetIndex, cause: Cause, shown: list[tuple[InconsistentSe
 def _of_trace(traces: TraceIndex, conflict: Conflict) -> Finding:
     from sleec_verify.replay.timeline import timeline_of
     from sleec_verify.traces.conflicts import LATER
+    from sleec_verify.traces.trivial_responses import cannot_be_met
 
     rules = traces.ruleset.by_label
     now = conflict.now
@@ -141,15 +142,17 @@ def _of_trace(traces: TraceIndex, conflict: Conflict) -> Finding:
         else:
             span = list(rule.clauses())[pair.clause].span
             clauses.append(_Deciding(rule, pair.clause, clause_name(rule, pair.clause), span))
-    relations = [traces.relation_by_key[key] for key in conflict.relations]
+    # A relation whose duration a measure gives has a key for each value.
+    relations = list({one.span: one for one in map(traces.relation_by_key.__getitem__, conflict.relations)}.values())
     required, forbidden = _sides(clauses)
+    ends_early = any(cannot_be_met(traces, one.rule) for one in clauses)
     at_odds = _at_odds(relations, required, forbidden, now.events)
     is_instant = not conflict.history and not any(one.number == LATER for one in clauses)
     is_instant = is_instant and all(_is_immediate(traces, one) for one in clauses)
     labels = [one.rule.label for one in clauses]
     return _conflict(
         clauses,
-        _reason_of_trace(traces, relations, required, forbidden, at_odds),
+        _reason_of_trace(traces, relations, required, forbidden, at_odds, ends_early),
         sorted(at_odds),
         [(relation.span, f"the {kind_of(relation)}") for relation in relations],
         Witness(tuple(sorted(now.events)), now.conditions),
@@ -191,6 +194,7 @@ def _reason_of_trace(
     required: set[str],
     forbidden: set[str],
     at_odds: set[str],
+    ends_early: bool,
 ) -> str:
     if relations:
         due = sides_in_words(sorted(at_odds & required), sorted(at_odds & forbidden))
@@ -201,6 +205,8 @@ def _reason_of_trace(
     names = sorted(at_odds & forbidden)
     if names:
         return f"{listed(map(quoted, names))} {'occurs but is' if len(names) == 1 else 'occur but are'} forbidden"
+    if ends_early:
+        return f"{listed(map(quoted, sorted(required)))} is required in a window that ends before it begins"
     return f"{listed(map(quoted, sorted(required)))} would have to occur again and again without end"
 
 

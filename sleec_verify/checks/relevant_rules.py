@@ -18,7 +18,8 @@ def in_words(index: TraceIndex, matter: Iterable[str]) -> list[str]:
     relations = [index.relation_by_key[key] for key in matter if key in index.relation_by_key]
     relations.sort(key=lambda relation: relation.span)
     rules = map(quoted, rules_in(index, matter))
-    return [*rules, *(relation_in_words(index.ruleset, relation) for relation in relations)]
+    # A relation whose duration a measure gives has a key for each value.
+    return list(dict.fromkeys([*rules, *(relation_in_words(index.ruleset, relation) for relation in relations)]))
 
 
 def rules_in(index: TraceIndex, matter: Iterable[str]) -> tuple[str, ...]:

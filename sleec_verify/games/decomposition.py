@@ -9,12 +9,14 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from sleec_runtime.model import Atom, Formula, Rule, formulas_of, leaves, measures_of
+from sleec_runtime.model import Atom, Formula, Rule, leaves, measures_of
 from sleec_verify.encoding.relations import Relation, events_of, formulas_of_relation
 from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.traces.demands import Occurs
 from sleec_verify.traces.event_conditions import named_atoms
 from sleec_verify.traces.index import TraceIndex
+from sleec_verify.traces.relations import names_of_rule
+from sleec_verify.traces.trivial_responses import cannot_be_met
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,8 @@ def free_events(index: TraceIndex) -> frozenset[str]:
     bound |= {name for name, agent in index.agents.items() if agent != "system"} | tied | set(_endless(index, windows))
     calling: dict[str, set[str]] = {}
     for rule in index.rules:
+        if cannot_be_met(index, rule):
+            bound.add(rule.trigger)
         for window in windows[rule.label]:
             if window.negated:
                 bound.add(rule.trigger)
@@ -77,7 +81,7 @@ def parts(index: TraceIndex) -> Iterator[GamePart]:
     """
     free = free_events(index)
     windows = {r.label: tuple(w for w in index.windows(r) if w.event not in free) for r in index.rules}
-    contested = [rule for rule in index.rules if windows[rule.label]]
+    contested = [rule for rule in index.rules if windows[rule.label] or cannot_be_met(index, rule)]
     union = UnionFind()
     laws = [(law, list(events_of(law)), set(_facts(formulas_of_relation(law)))) for law in index.relations]
     users: dict[str, str] = {}
@@ -91,7 +95,7 @@ def parts(index: TraceIndex) -> Iterator[GamePart]:
             union.join(rule.trigger, window.event)
         for event in named_atoms(rule):
             union.join(rule.trigger, event)
-        for fact in _facts(formulas_of(rule)):
+        for fact in _facts_of(rule):
             if fact in tied:
                 union.join(rule.trigger, users[fact])
     for _, events, facts in laws:
@@ -112,7 +116,7 @@ def parts(index: TraceIndex) -> Iterator[GamePart]:
             part[2].update(events)
     of_measures = [(law, facts) for law, events, facts in laws if not events]
     for rules, own, events_here in found.values():
-        facts = {fact for rule in rules for fact in _facts(formulas_of(rule))}
+        facts = {fact for rule in rules for fact in _facts_of(rule)}
         facts.update(fact for law in own for fact in _facts(formulas_of_relation(law)))
         joined = [law for law, about in _reached(of_measures, facts)]
         own_windows = {rule.label: windows[rule.label] for rule in rules}
@@ -131,6 +135,11 @@ def _reached(laws: list[tuple[Relation, set[str]]], facts: set[str]) -> list[tup
         left = [entry for entry in left if entry not in near]
         facts = facts.union(*(about for _, about in near))
     return found
+
+
+def _facts_of(rule: Rule) -> Iterator[str]:
+    """The conditions and measures that decide what a rule requires."""
+    return (name for kind, name in names_of_rule(rule) if kind == "measure")
 
 
 def _facts(formulas: Iterable[Formula]) -> Iterator[str]:

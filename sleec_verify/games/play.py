@@ -15,7 +15,6 @@ from sleec_runtime.model import (
     EventRelation,
     Lasting,
     Rule,
-    formulas_of,
 )
 from sleec_verify.encoding.relations import Relation, at_one_instant, events_of, formulas_of_relation
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
@@ -109,7 +108,7 @@ class Play:
         self._events = frozenset(part.events)
         self._rules = part.rules
         self._reading = index.ruleset.reading
-        formulas = [formula for rule in part.rules for formula in formulas_of(rule)]
+        formulas = [formula for rule in part.rules for formula in index.formulas(rule)]
         formulas += [formula for law in part.laws for formula in formulas_of_relation(law)]
         scales = Scales(index.ruleset.measures, formulas)
         self.grid = TimeGrid(lengths(part), steps * (1 + spare), (1 + spare) * 2 ** (steps - 1))
@@ -344,7 +343,7 @@ class Play:
 
 def lengths(part: GamePart) -> set[int]:
     """The lengths, in seconds, with which differences of times are compared. Raises `Undecided` if the length of a
-    window is a measure."""
+    window has no bounds."""
     found = {
         bound
         for rule in part.rules

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import islice
 
-from sleec_runtime.model import EventRelation, Lasting, Rule, Span
+from sleec_runtime.model import EventRelation, Lasting, Obligation, Rule, Span, in_text_order
 from sleec_verify.encoding.relations import Relation
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.games.decomposition import GamePart, parts
@@ -110,8 +110,9 @@ class _Costs:
         """The number if each of these rules is triggered once. None if later responses lead back to themselves."""
         whole = 0
         for rule in rules:
-            for window in self._part.windows[rule.label]:
-                if not window.negated and window.event not in self._never and _is_delayed(window):
+            windows = self._part.windows[rule.label]
+            for window in _windows_of_one_value(self._index, rule):
+                if window in windows and window.event not in self._never and _is_delayed(window):
                     cost = self._of(window.event)
                     if cost is None:
                         return None
@@ -136,6 +137,21 @@ class _Costs:
 
 def _is_delayed(window: Occurs) -> bool:
     return not window.start == window.end == 0
+
+
+def _windows_of_one_value(index: TraceIndex, rule: Rule) -> Iterator[Occurs]:
+    """The windows of the obligations of a rule, for values of its measures with which most are delayed."""
+    for clause in rule.clauses():
+        for obligation in clause.obligations:
+            yield from _most_windows(index, obligation)
+
+
+def _most_windows(index: TraceIndex, obligation: Obligation) -> list[Occurs]:
+    cases = index.lengths.cases(obligation)
+    if cases is None:
+        return [window for window in index.atoms((obligation,)) if not window.negated]
+    found = [_most_windows(index, one) for member in in_text_order(cases) for one in member.obligations]
+    return max(found, key=lambda windows: sum(map(_is_delayed, windows)))
 
 
 def _looks_back(law: Relation) -> bool:

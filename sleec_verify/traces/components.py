@@ -14,11 +14,10 @@ from sleec_runtime.model import RELATIONS, MeasureRelation, Obligation, Rule, li
 from sleec_verify.encoding.relations import Relation, events_of, formulas_of_relation
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.union_find import UnionFind
-from sleec_verify.traces.demands import Some
 from sleec_verify.traces.event_conditions import is_of_state
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.relations import names_of_rule
-from sleec_verify.traces.trivial_responses import contested_obligations
+from sleec_verify.traces.trivial_responses import cannot_be_met, contested_obligations
 
 
 def components(index: TraceIndex) -> list[TraceIndex]:
@@ -63,7 +62,7 @@ def components(index: TraceIndex) -> list[TraceIndex]:
         for root, group in rules.items()
         if root in relations
         or _has_sides([(rule, contested[rule.label]) for rule in group])
-        or any(_cannot_be_met(index, rule) for rule in group)
+        or any(cannot_be_met(index, rule) for rule in group)
     ]
 
 
@@ -89,20 +88,6 @@ def _has_sides(rules: list[tuple[Rule, list[Obligation]]]) -> bool:
     triggers = {rule.trigger for rule, _ in rules}
     forbidden = {response.name for _, responses in rules for response in responses if response.negated}
     return bool(required & forbidden or required & triggers or forbidden & triggers)
-
-
-def _cannot_be_met(index: TraceIndex, rule: Rule) -> bool:
-    """Whether some value of a measure gives a window without a second."""
-    try:
-        return any(
-            demand == Some(())
-            for clause in rule.clauses()
-            for obligation in clause.obligations
-            if index.lengths.cases(obligation) is not None
-            for demand, _ in index.responses.variants(obligation)
-        )
-    except Undecided:
-        return False
 
 
 def needs_traces(component: TraceIndex) -> bool:

@@ -1,4 +1,4 @@
-"""Responses that can always be met: the only static argument in addition to refinement.
+"""Responses that can always be met: the only static argument in addition to refinement. Responses that never can.
 
 An event is *free* if no rule forbids it, no relation or condition mentions it, and everything that it triggers can
 always be met. A demand with a free event in a window that closes last can always be met: the event occurs in that
@@ -7,7 +7,7 @@ window. Such a demand is in no minimal set of rules in conflict.
 
 from __future__ import annotations
 
-from sleec_runtime.model import Clause, Obligation
+from sleec_runtime.model import Clause, Obligation, Rule
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.traces.demands import Demand, Every, Occurs, Some, occurrences
 from sleec_verify.traces.index import TraceIndex
@@ -62,6 +62,20 @@ def _leads_to_free(index: TraceIndex, event: str, free: frozenset[str]) -> bool:
             for rule in index.by_trigger.get(event, ())
             for clause in rule.clauses()
             for obligation in clause.obligations
+            for demand, _ in index.responses.variants(obligation)
+        )
+    except Undecided:
+        return False
+
+
+def cannot_be_met(index: TraceIndex, rule: Rule) -> bool:
+    """Whether some value of a measure gives an obligation of a rule a window without a second."""
+    try:
+        return any(
+            demand == Some(())
+            for clause in rule.clauses()
+            for obligation in clause.obligations
+            if index.lengths.cases(obligation) is not None
             for demand, _ in index.responses.variants(obligation)
         )
     except Undecided:

@@ -11,12 +11,13 @@ from itertools import chain, combinations, product
 
 from sleec_runtime.evaluation.trace import Instant, Trace
 from sleec_runtime.evaluation.trace_violations import violations
-from sleec_runtime.model import RELATIONS, Assume, Exclusive, Never, Rule, Ruleset
+from sleec_runtime.model import RELATIONS, Assume, Exclusive, Never, Rule, Ruleset, Value
 
 
 class Game:
     """`environments` and `robots` are events, `laws` the texts of the relations that the environment keeps. Times are
-    whole seconds; nothing in the rules may reach further than `reach` of them."""
+    whole seconds; nothing in the rules may reach further than `reach` of them. The measure `w` is 1 or 2, the others
+    are true or false."""
 
     def __init__(
         self,
@@ -61,8 +62,9 @@ class Game:
             for values in self._values():
                 yield Instant(time, events, values)
 
-    def _values(self) -> Iterator[dict[str, bool]]:
-        for values in product((False, True), repeat=len(self.measures)):
+    def _values(self) -> Iterator[dict[str, Value]]:
+        domains: list[tuple[Value, ...]] = [(1, 2) if name == "w" else (False, True) for name in self.measures]
+        for values in product(*domains):
             yield dict(zip(self.measures, values))
 
     def _replies(self, act: Instant) -> Iterator[tuple[Instant, tuple[Instant, ...]]]:

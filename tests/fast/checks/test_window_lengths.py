@@ -140,3 +140,19 @@ def test_a_duration_of_a_relation():
     ).replace("def_end", "measure quiet: boolean def_end")
     assert verdict("purpose", text.replace("BOUND", "10")).verdict == Proved()
     assert verdict("purpose", text.replace("BOUND", "9")).findings
+
+
+@pytest.mark.parametrize(("least", "wins"), [(10, True), (11, False)])
+def test_the_environment_chooses_the_worst_value(least, wins):
+    rules = WAIT + "RULE R2 WHEN Fall THEN NOT Call WITHIN 10 minutes\n"
+    ranged = f"ASSUME patience >= {least} AND patience <= 12\n"
+    (result,) = run_checks(parse(ENGLISH + ranged + rules), names=(), realizable=1)
+    assert bool(result.findings) is wins
+    (result,) = run_checks(parse(ENGLISH + "ASSUME patience >= -1 AND patience <= 1\n" + WAIT), names=(), realizable=1)
+    (finding,) = result.findings
+    assert finding.strategy.act.conditions["patience"] == -1
+
+
+def test_a_window_that_ends_before_it_begins_is_named():
+    (finding,) = conflict(WAIT, "ASSUME patience >= -1 AND patience <= 2\n").findings
+    assert "`Call` is required in a window that ends before it begins" in finding.message

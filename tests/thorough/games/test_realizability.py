@@ -40,10 +40,13 @@ def _words(rules: str, steps: int, relations: str = "", head: str = HEAD) -> lis
     return list(in_words(finding.strategy))
 
 
-@pytest.mark.parametrize(("seed", "named"), [*((n, False) for n in range(150)), *((n, True) for n in range(60))])
+@pytest.mark.parametrize(
+    ("seed", "kind"),
+    [*((n, "") for n in range(150)), *((n, "named") for n in range(60)), *((n, "lengths") for n in range(60))],
+)
 @pytest.mark.parametrize("steps", [1, 2])
-def test_who_wins_is_what_trying_all_says(seed: int, named: bool, steps: int) -> None:
-    text, lawful, measures, reach = drawn(seed, named)
+def test_who_wins_is_what_trying_all_says(seed: int, kind: str, steps: int) -> None:
+    text, lawful, measures, reach = drawn(seed, named=kind == "named", lengths=kind == "lengths")
     ruleset = parse(text)
     (result,) = run_checks(ruleset, names=(), realizable=steps)
     wins = Game(ruleset, ["A", "B"], ["X"], lawful, measures, reach).environment_wins(steps)
