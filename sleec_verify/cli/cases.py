@@ -13,8 +13,7 @@ from sleec_verify.cli.output import tell, write_data
 from sleec_verify.results.phrases import counted
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Reading
-    from sleec_verify.conformance.cases.selection import Cases
+    from sleec_runtime.model import Reading, Ruleset
 
 
 @click.command(
@@ -50,27 +49,27 @@ def command(
     force: bool,
 ) -> int:
     """Choose a small set of situations that covers the rules in FILE (- for standard input), with the obligations in
-    each situation.
+    each situation. If the rules have times, choose scenarios: events and values at given times, with the window of each
+    obligation.
 
     The pytest plugin collects the TOML output from files named *.cases.toml. The output lists what no situation can
     cover.
     """
-    from sleec_verify.conformance.cases.selection import choose_cases
-    from sleec_verify.conformance.cases.writer import json_text, toml
+    from sleec_runtime.model import constructs
 
     if output is not None and os.path.lexists(output) and not force:
         raise click.UsageError(f"{output} exists; use --force to overwrite it")
     ruleset = one_ruleset(path, reading, domain)
-    found = choose_cases(ruleset, criterion, domain if domain in ruleset.domains else None, single)
-    render = toml if form == "toml" else json_text
-    text = render(ruleset, criterion, found, _from(output, path))
+    where = domain if domain in ruleset.domains else None
+    choose = _scenarios if any(constructs(ruleset)) else _situations
+    text, in_short = choose(ruleset, criterion, where, single, form, _from(output, path))
     if output is None:
         write_data((text,))
     else:
         from sleec_verify.files.placement import write_new, write_whole
 
         (write_whole if force else write_new)(output, text.encode())
-    tell(_in_short(found))
+    tell(in_short)
     return exits.HOLDS
 
 
@@ -83,6 +82,29 @@ def _from(output: str | None, path: str) -> str | None:
     return os.path.relpath(path, os.path.dirname(output) or ".").replace(os.sep, "/")
 
 
-def _in_short(found: Cases) -> str:
-    every = found.reached + len(found.unreached)
-    return f"{counted(len(found.cases), 'situation')}: {found.reached} of {every} goals covered"
+def _situations(
+    ruleset: Ruleset, criterion: str, domain: str | None, single: bool, form: str, path: str | None
+) -> tuple[str, str]:
+    """The text of a set of situations, and its size in words."""
+    from sleec_verify.conformance.cases.selection import choose_cases
+    from sleec_verify.conformance.cases.writer import json_text, toml
+
+    found = choose_cases(ruleset, criterion, domain, single)
+    text = (toml if form == "toml" else json_text)(ruleset, criterion, found, path)
+    return text, _in_short(counted(len(found.cases), "situation"), found.reached, len(found.unreached))
+
+
+def _scenarios(
+    ruleset: Ruleset, criterion: str, domain: str | None, single: bool, form: str, path: str | None
+) -> tuple[str, str]:
+    """The same, with scenarios."""
+    from sleec_verify.conformance.scenarios.selection import choose_scenarios
+    from sleec_verify.conformance.scenarios.writer import json_text, toml
+
+    found = choose_scenarios(ruleset, criterion, domain, single)
+    text = (toml if form == "toml" else json_text)(ruleset, criterion, found, path)
+    return text, _in_short(counted(len(found.scenarios), "scenario"), found.reached, len(found.unreached))
+
+
+def _in_short(found: str, reached: int, unreached: int) -> str:
+    return f"{found}: {reached} of {reached + unreached} goals covered"

@@ -18,6 +18,8 @@ from sleec_verify.conformance.cases.case import Case
 from sleec_verify.conformance.cases.reader import read_cases
 from sleec_verify.conformance.exhaustive import each_rule, tried
 from sleec_verify.conformance.failure import Nonconformance, situation_text
+from sleec_verify.conformance.scenarios.expectations import unexpected
+from sleec_verify.conformance.scenarios.scenario import Scenario
 from sleec_verify.conformance.subject import Bench, Factory, whole_ruleset
 from sleec_verify.pytest_plugin import settings
 from sleec_verify.pytest_plugin.coverage import not_counted
@@ -124,6 +126,9 @@ class CasesFile(pytest.File):
         except SleecError as error:
             raise self.CollectError(str(error)) from None
         for case in cases:
+            if isinstance(case, Scenario):
+                yield ScenarioItem.from_parent(self, name=case.name, ruleset=ruleset, scenario=case)
+                continue
             yield CaseItem.from_parent(self, name=case.name, ruleset=ruleset, case=case, target=target)
 
 
@@ -168,6 +173,21 @@ class CaseItem(_Item):
             failure = tried(running, self.case.context())
             if failure is not None:
                 raise failure
+
+
+class ScenarioItem(_Item):
+    """One scenario: what it states is what the rules require."""
+
+    def __init__(self, *, ruleset: Ruleset, scenario: Scenario, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.ruleset = ruleset
+        self.scenario = scenario
+
+    def runtest(self) -> None:
+        domain = self.scenario.domain or settings.domain(self.config, self.ruleset)
+        found = list(unexpected(self.ruleset if domain is None else self.ruleset.in_domain(domain), self.scenario))
+        if found:
+            raise CaseFailure("\n".join(found))
 
 
 def stand_in(ruleset: Ruleset, domain: str | None = None) -> Sleec:

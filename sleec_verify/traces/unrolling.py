@@ -172,6 +172,10 @@ class Unrolling(ABC):
                 return False
             self._grow()
 
+    def ask_here(self, *required: int) -> bool:
+        """Whether there is a trace in which all these literals are true, without further instants."""
+        return self._solve(required, None, closed=True)
+
     def reduce(self, spared: Iterable[int]) -> None:
         """Remove unnecessary instants and events from the trace of the last `ask`, and make the literals `spared`
         false, as far as possible."""

@@ -55,7 +55,7 @@ def cases(data: bytes, folder: Path) -> None:
     path = folder / "fuzz.cases.toml"
     path.write_bytes(data)
     found = unless_refused(read_cases, path, RULESET)
-    for case in () if found is None else found.cases:
+    for case in () if found is None else found.situations:
         assert set(case.obligations) <= RULESET.obligations
         due(RULESET, case.context())
 

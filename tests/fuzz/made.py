@@ -43,6 +43,6 @@ def _cases(ruleset: Ruleset, path: Path) -> None:
     found = unless_refused(choose_cases, ruleset, "clause")
     if found is not None and found.cases:
         path.write_text(toml(ruleset, "clause", found, None), encoding="utf-8")
-        for written, again in zip(found.cases, read_cases(path, ruleset).cases, strict=True):
+        for written, again in zip(found.cases, read_cases(path, ruleset).situations, strict=True):
             assert again.context() == written.context()
             assert again.obligations == written.obligations

@@ -22,7 +22,7 @@ def coverage(ruleset: Ruleset, errors: list[SleecError]) -> Coverage | None:
     reached: set[tuple[str, int]] = set()
     if cases.exists():
         try:
-            found = read_cases(cases, ruleset).cases
+            found = read_cases(cases, ruleset).situations
         except UnsupportedTimes as error:
             return Coverage(0, len(every), why=str(error))
         except SleecError as error:

@@ -28,7 +28,7 @@ class AllowedSituations:
         self.index = index
         self.question = Question(index)
         self.encoder = self.question.encoder
-        self.guards = [self.question.guards(position) for position in range(len(index.rules))]
+        self._guards = [self.question.guards(position) for position in range(len(index.rules))]
         # Including those that share no name with a rule: a situation must satisfy every one.
         for assumption in index.assumptions:
             self.question.require_formula(assumption.formula)
@@ -36,6 +36,10 @@ class AllowedSituations:
             self._forbid_conflicts()
         if single:
             self._at_most_one([self.trigger(name) for name in sorted(index.ruleset.triggers)])
+
+    def guards(self, position: int) -> list[int]:
+        """The literals of the guards of one rule's clauses."""
+        return self._guards[position]
 
     def trigger(self, name: str) -> int:
         return self.encoder.variable(("trigger", name))
@@ -49,7 +53,7 @@ class AllowedSituations:
 
     def _forbid_conflicts(self) -> None:
         due = self.encoder.due(
-            pair for clauses, guards in zip(self.index.clauses, self.guards) for pair in zip(clauses, guards)
+            pair for clauses, guards in zip(self.index.clauses, self._guards) for pair in zip(clauses, guards)
         )
         for obligation, literal in due.items():
             if not obligation.negated and opposite(obligation) in due:

@@ -29,7 +29,8 @@ def minimise(world: AllowedSituations, sets: list[list[Goal]]) -> list[list[Goal
 def _least(world: AllowedSituations, goals: Sequence[Goal]) -> int:
     """A lower bound: a rule has one active clause at a time, so it needs one situation for each of its clauses."""
     wanted = {goal.literal for goal in goals}
-    return max((len(wanted.intersection(guards)) for guards in world.guards), default=0)
+    rules = range(len(world.index.rules))
+    return max((len(wanted.intersection(world.guards(rule))) for rule in rules), default=0)
 
 
 def _in(world: AllowedSituations, goals: Sequence[Goal], copies: int) -> list[list[Goal]] | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,7 @@ from sleec_verify.results.phrases import value_text
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset, Value
     from sleec_verify.conformance.cases.case import Case
-    from sleec_verify.conformance.cases.selection import Cases
+    from sleec_verify.conformance.cases.selection import Cases, UnreachedGoal
     from sleec_verify.results.json_values import Json
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
@@ -26,84 +26,109 @@ def toml(ruleset: Ruleset, criterion: str, found: Cases, path: str | None) -> st
 
 
 def _toml(ruleset: Ruleset, criterion: str, found: Cases, path: str | None) -> Iterator[str]:
-    if path is not None:
-        yield f"ruleset = {_quoted(path)}"
-    yield f"reading = {_quoted(ruleset.reading)}"
-    yield f"coverage = {_quoted(criterion)}"
-    if found.unreached:
-        yield "unreachable = ["
-        yield from (f"  {_quoted(u.name)},  # {u.why}" for u in found.unreached)
-        yield "]"
+    yield from header(ruleset, criterion, found.unreached, path)
     for case in found.cases:
         yield ""
         yield from _case(case)
 
 
+def header(ruleset: Ruleset, criterion: str, unreached: Sequence[UnreachedGoal], path: str | None) -> Iterator[str]:
+    """The lines before the first case."""
+    if path is not None:
+        yield f"ruleset = {quoted_text(path)}"
+    yield f"reading = {quoted_text(ruleset.reading)}"
+    yield f"coverage = {quoted_text(criterion)}"
+    if unreached:
+        yield "unreachable = ["
+        yield from (f"  {quoted_text(u.name)},  # {u.why}" for u in unreached)
+        yield "]"
+
+
 def _case(case: Case) -> Iterator[str]:
     yield "[[case]]"
-    yield f"name = {_quoted(case.name)}"
+    yield f"name = {quoted_text(case.name)}"
     if case.domain is not None:
-        yield f"domain = {_quoted(case.domain)}"
-    yield f"when = {_list(case.triggers)}"
-    given = ", ".join(f"{_key(name)} = {_value(value)}" for name, value in case.conditions.items())
-    yield f"given = {{ {given} }}" if given else "given = {}"
-    yield f"obligations = {_list(case.obligations)}"
+        yield f"domain = {quoted_text(case.domain)}"
+    yield f"when = {list_of(case.triggers)}"
+    yield f"given = {table_of(case.conditions)}"
+    yield f"obligations = {list_of(case.obligations)}"
     if case.prohibitions:
-        yield f"prohibitions = {_list(case.prohibitions)}"
+        yield f"prohibitions = {list_of(case.prohibitions)}"
     yield "reaches = ["
-    yield from (f"  {_quoted(name)}," for name in case.reaches)
+    yield from (f"  {quoted_text(name)}," for name in case.reaches)
     yield "]"
 
 
+def table_of(values: Mapping[str, Value | None]) -> str:
+    """Values as an inline table."""
+    given = ", ".join(f"{_key(name)} = {_value(value)}" for name, value in values.items() if value is not None)
+    return f"{{ {given} }}" if given else "{}"
+
+
 def _key(name: str) -> str:
-    return name if _BARE.fullmatch(name) else _quoted(name)
+    return name if _BARE.fullmatch(name) else quoted_text(name)
 
 
-def _quoted(text: str) -> str:
+def quoted_text(text: str) -> str:
+    """A text in quotes."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def _list(names: Sequence[str]) -> str:
-    return f"[{', '.join(map(_quoted, names))}]"
+def list_of(names: Sequence[str]) -> str:
+    """A list of texts."""
+    return f"[{', '.join(map(quoted_text, names))}]"
 
 
 def _value(value: Value) -> str:
     text = value_text(value)
     # TOML has integers of 64 bits.
     is_long = isinstance(value, int) and not -(2**63) <= value < 2**63
-    return _quoted(text) if isinstance(value, str) or "/" in text or is_long else text
+    return quoted_text(text) if isinstance(value, str) or "/" in text or is_long else text
 
 
 def json_text(ruleset: Ruleset, criterion: str, found: Cases, path: str | None) -> str:
     """The same as one JSON object. A number that is not a finite decimal is a string such as ``1/3``."""
-    from sleec_verify.results.json_values import dump
-
     cases: list[Json] = [
         {
             "name": case.name,
             "domain": case.domain,
             "when": list(case.triggers),
-            "given": {name: _number(value) for name, value in case.conditions.items()},
+            "given": {name: json_value(value) for name, value in case.conditions.items()},
             "obligations": list(case.obligations),
             "prohibitions": list(case.prohibitions or ()),
             "reaches": list(case.reaches),
         }
         for case in found.cases
     ]
+    return json_document(ruleset, criterion, found.reached, found.unreached, path, cases)
+
+
+def json_document(
+    ruleset: Ruleset,
+    criterion: str,
+    reached: int,
+    unreached: Sequence[UnreachedGoal],
+    path: str | None,
+    cases: list[Json],
+) -> str:
+    """The whole JSON object with these cases."""
+    from sleec_verify.results.json_values import dump
+
     return dump(
         {
             "ruleset": path,
             "sha256": ruleset.source.sha256,
             "reading": ruleset.reading,
             "coverage": criterion,
-            "reached": found.reached,
-            "unreachable": [{"goal": u.name, "why": u.why} for u in found.unreached],
+            "reached": reached,
+            "unreachable": [{"goal": u.name, "why": u.why} for u in unreached],
             "cases": cases,
         }
     )
 
 
-def _number(value: Value) -> Json:
+def json_value(value: Value) -> Json:
+    """A value of a condition or measure. A number that is not a finite decimal is a string."""
     if isinstance(value, Fraction):
         text = value_text(value)
         return text if "/" in text else float(value)

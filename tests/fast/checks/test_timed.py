@@ -198,18 +198,6 @@ def test_the_runtime_takes_rules_of_the_dsl_without_times():
     assert sleec.trigger("A").obligations == ("C",)
 
 
-@pytest.mark.parametrize("arguments", [["cases"], ["conform", "robot.py", "--ruleset"]])
-def test_commands_refuse_what_they_cannot_keep(arguments, tmp_path, monkeypatch):
-    from click.testing import CliRunner
-
-    from sleec_verify.cli.commands import sleec_verify
-
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "robot.py").write_text("", encoding="utf-8")
-    (tmp_path / "timed.sleec").write_text(text("B eventually"), encoding="utf-8")
-    assert isinstance(CliRunner().invoke(sleec_verify, [*arguments, "timed.sleec"]).exception, UnsupportedTimes)
-
-
 @pytest.mark.parametrize("form", FORMS)
 def test_equation_1_has_no_times(form, tmp_path):
     from click.testing import CliRunner

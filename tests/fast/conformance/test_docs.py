@@ -48,6 +48,7 @@ def test_the_cases_are_due(tmp_path: Path) -> None:
     path = tmp_path / "household.cases.toml"
     path.write_text(blocks("toml", CASES)[0], encoding="utf-8")
     (tmp_path / "household.sleec").write_bytes(Path("rulesets/household.sleec").read_bytes())
-    ruleset, cases = read_cases(path)
-    for case in cases:
+    found = read_cases(path)
+    ruleset = found.ruleset
+    for case in found.situations:
         assert set(Oracle(ruleset).expected(case.context()).due) == set(case.obligations)

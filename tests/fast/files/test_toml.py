@@ -90,5 +90,5 @@ def test_cases_that_are_none(text: str, message: str, tmp_path: Path) -> None:
 def test_numbers_in_cases(value: str, tmp_path: Path) -> None:
     path = tmp_path / "a.cases.toml"
     path.write_text(f"{CASE}given = {{ Age = {value} }}")
-    (case,) = read_cases(path, RULES).cases
+    (case,) = read_cases(path, RULES).situations
     assert case.conditions == {"Age": 1000}

@@ -185,7 +185,7 @@ def test_what_is_written_is_read(tmp_path_factory, data) -> None:
         return
     path = tmp_path_factory.mktemp("cases") / "x.cases.toml"
     path.write_text(toml(ruleset, "clause", found, None), encoding="utf-8")
-    for written, read in zip(found.cases, read_cases(path, ruleset).cases, strict=True):
+    for written, read in zip(found.cases, read_cases(path, ruleset).situations, strict=True):
         assert read.context() == written.context()
         assert read.obligations == written.obligations
         assert (read.prohibitions or ()) == written.prohibitions
@@ -205,7 +205,7 @@ def test_long_integers_are_written_and_read(tmp_path: Path) -> None:
     found = choose_cases(ruleset, "clause")
     (tmp_path / "x.cases.toml").write_text(toml(ruleset, "clause", found, None), encoding="utf-8")
     read = read_cases(tmp_path / "x.cases.toml", ruleset)
-    assert [case.context() for case in read.cases] == [case.context() for case in found.cases]
+    assert [case.context() for case in read.situations] == [case.context() for case in found.cases]
 
 
 def test_atoms_are_conditions_once_each() -> None:
@@ -224,7 +224,7 @@ def test_the_command_never_overwrites_unasked(tmp_path: Path, capsys: pytest.Cap
     assert output.read_text(encoding="utf-8") == before
     assert run([*arguments, "--coverage", "mcdc", "--force"]) == 0
     assert output.read_text(encoding="utf-8") != before
-    assert len(read_cases(output).cases) == 3
+    assert len(read_cases(output).situations) == 3
     assert run([*arguments[:-1], str(tmp_path / "no" / "folder"), "--force"]) == 2
     assert "cannot be written" in capsys.readouterr().err
 

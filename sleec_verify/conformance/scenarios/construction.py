@@ -1,0 +1,105 @@
+"""From a trace to a scenario: what the test does, when the robot completes what is due, and what the rules require."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+
+from sleec_runtime.evaluation.trace import Instant, Trace
+from sleec_runtime.evaluation.trace_violations import violations
+from sleec_runtime.model import Value, formulas_of, literals, names_of
+from sleec_verify.conformance.scenarios.scenario import Completion, Scenario, Step
+from sleec_verify.replay.timeline import timeline_of
+from sleec_verify.results.timeline import Due
+from sleec_verify.traces.index import TraceIndex
+from sleec_verify.traces.relations import names_of_relation
+from sleec_verify.traces.trace import TraceInstant
+
+
+def scenario_of(index: TraceIndex, name: str, trace: Sequence[TraceInstant]) -> Scenario | None:
+    """The scenario in which this trace happens, or None if the evaluator does not confirm the trace.
+
+    An event occurs because a rule requires it, or else the test causes it. Values change only where rules read them,
+    or else where relations do.
+    """
+    related = {name for relation in index.relations for kind, name in names_of_relation(relation) if kind == "measure"}
+    candidates = (list(_with_lasting_values(index, trace, read)) for read in (frozenset[str](), related))
+    moments = next((found for found in candidates if _is_lawful(index, found)), None)
+    if moments is None:
+        return None
+    due = due_in(index, moments)
+    required = [one for one in due if not one.negated]
+    steps = tuple(_steps(moments, required))
+    ends = [one.start if one.end is None else one.end for one in due]
+    return Scenario(
+        name,
+        steps,
+        max([moments[-1].time, *ends]),
+        tuple(_completions(required, moments)),
+        tuple(required),
+        tuple(one for one in due if one.negated),
+    )
+
+
+def due_in(index: TraceIndex, moments: Sequence[TraceInstant]) -> tuple[Due, ...]:
+    """What the rules require in a complete trace, by time and then in text order. Raises `Undecided`."""
+    found = (due for moment in timeline_of(index, moments).moments for due in moment.due)
+    return tuple(sorted(dict.fromkeys(found), key=lambda due: due.start))
+
+
+def _is_lawful(index: TraceIndex, moments: Sequence[TraceInstant]) -> bool:
+    instants = tuple(Instant(one.time, one.events, one.conditions) for one in moments)
+    return not violations(index.ruleset, Trace(instants), index.untimed)
+
+
+def _with_lasting_values(
+    index: TraceIndex, trace: Sequence[TraceInstant], related: Collection[str]
+) -> Iterator[TraceInstant]:
+    """The instants with the values of the names in `related`, and of those that rules read there. Other values are
+    those from before."""
+    values: dict[str, Value] = {}
+    for instant in trace:
+        read = _read_at(index, instant).union(related)
+        values = {**values, **{name: value for name, value in instant.conditions.items() if name in read}}
+        yield TraceInstant(instant.time, instant.events, values)
+
+
+def _read_at(index: TraceIndex, instant: TraceInstant) -> set[str]:
+    """The conditions and measures that the rules which are triggered at an instant read."""
+    rules = [rule for event in instant.events for rule in index.by_trigger.get(event, ())]
+    windows = (o.timing.window for rule in rules for c in rule.clauses() for o in literals(c) if o.timing is not None)
+    lengths = (length for window in windows if window for length in (window.start, window.end) if length)
+    named = {name for rule in rules for formula in formulas_of(rule) for name in names_of(formula)}
+    return named.union(*(length.measures for length in lengths))
+
+
+def _completions(required: Sequence[Due], moments: Sequence[TraceInstant]) -> Iterator[Completion]:
+    """When requirements that start at one time are met, unless this is at once."""
+    starts: dict[tuple[str, int], list[Due]] = {}
+    for due in required:
+        starts.setdefault((due.event, due.start), []).append(due)
+    for (event, since), together in starts.items():
+        times = (one.time for one in moments if event in one.events and any(_covers(due, one.time) for due in together))
+        at = next(times, None)
+        if at != since:
+            yield Completion(event, since, at)
+
+
+def _covers(due: Due, time: int) -> bool:
+    return due.start <= time and (due.end is None or time <= due.end)
+
+
+def _steps(moments: Sequence[TraceInstant], required: Sequence[Due]) -> Iterator[Step]:
+    """The times at which the test changes values or causes events."""
+    before: Mapping[str, Value] = {}
+    for moment in moments:
+        done = {one.event for one in required if _met_at(one, moment.time, moments)}
+        given = {name: value for name, value in moment.conditions.items() if before.get(name) != value}
+        when = tuple(sorted(moment.events - done))
+        if when or any(name in before or value is not False for name, value in given.items()):
+            yield Step(moment.time, when, given)
+            before = moment.conditions
+
+
+def _met_at(due: Due, time: int, moments: Sequence[TraceInstant]) -> bool:
+    """Whether the first event that meets a requirement occurs at this time."""
+    return _covers(due, time) and not any(due.start <= one.time < time and due.event in one.events for one in moments)

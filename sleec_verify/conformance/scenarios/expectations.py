@@ -1,0 +1,77 @@
+"""Whether what a scenario states is what the rules require in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from sleec_runtime.evaluation.trace import Instant, Trace
+from sleec_runtime.evaluation.trace_violations import violations
+from sleec_runtime.model import Ruleset, Value
+from sleec_verify.conformance.scenarios.construction import due_in
+from sleec_verify.conformance.scenarios.scenario import Scenario
+from sleec_verify.results.phrases import quoted
+from sleec_verify.results.timeline import Due
+from sleec_verify.traces.index import TraceIndex
+from sleec_verify.traces.trace import TraceInstant
+
+
+def trace_of(scenario: Scenario) -> tuple[TraceInstant, ...]:
+    """The trace of a scenario if the robot does what it states: each obligation when the scenario completes it,
+    otherwise at once."""
+    events: dict[int, set[str]] = {step.at: set(step.when) for step in scenario.steps}
+    late = {(one.name, one.since): one.at for one in scenario.completions}
+    for due in scenario.obligations:
+        at = late.get((due.event, due.start), due.start)
+        if at is not None:
+            events.setdefault(at, set()).add(due.event)
+    changes = {step.at: step.given for step in scenario.steps}
+    values: dict[str, Value] = {}
+    trace = []
+    for time in sorted(events):
+        values = _changed(values, changes.get(time, {}))
+        trace.append(TraceInstant(time, frozenset(events[time]), values))
+    return tuple(trace)
+
+
+def _changed(values: Mapping[str, Value], changes: Mapping[str, Value | None]) -> dict[str, Value]:
+    return {name: value for name, value in {**values, **changes}.items() if value is not None}
+
+
+def unexpected(ruleset: Ruleset, scenario: Scenario) -> Iterator[str]:
+    """The differences between what a scenario states and what the rules of its domain require, in words.
+
+    The windows are those of the solver, and the evaluator of traces finds violations. Raises `Undecided`.
+    """
+    trace = trace_of(scenario)
+    due = due_in(TraceIndex(ruleset), trace)
+    yield from _different("obligation", scenario.obligations, [one for one in due if not one.negated])
+    if scenario.prohibitions is not None:
+        yield from _different("prohibition", scenario.prohibitions, [one for one in due if one.negated])
+    instants = tuple(Instant(one.time, one.events, one.conditions) for one in trace)
+    for broken in violations(ruleset, Trace(instants)):
+        text = ruleset.source.text[broken.statement.span.start : broken.statement.span.end].split("\n")[0]
+        yield f"violated at {broken.time}: {text}"
+
+
+def _different(what: str, stated: Sequence[Due], required: Sequence[Due]) -> Iterator[str]:
+    for due in _missing(stated, required):
+        yield f"{what} that the rules do not require: {_in_words(due)}"
+    for due in _missing(required, stated):
+        yield f"{what} that the case does not state: {_in_words(due)}"
+
+
+def _missing(ones: Iterable[Due], others: Sequence[Due]) -> Iterator[Due]:
+    """Those that are not among others. A case need not name the rule."""
+    for one in ones:
+        if not any(_is_same(one, other) for other in others):
+            yield one
+
+
+def _is_same(one: Due, other: Due) -> bool:
+    same_rule = "" in (one.rule, other.rule) or (one.rule, one.clause) == (other.rule, other.clause)
+    return same_rule and (one.event, one.start, one.end) == (other.event, other.start, other.end)
+
+
+def _in_words(due: Due) -> str:
+    end = "on" if due.end is None else f"to {due.end} seconds"
+    return f"{quoted(due.event)} from {due.start} {end}" + (f" (rule {quoted(due.rule)})" if due.rule else "")

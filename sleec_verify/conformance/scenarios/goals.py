@@ -1,0 +1,162 @@
+"""The goals of a set of scenarios: those of situations, at the instant of a trigger, and those that windows add.
+
+- A window is **met at the first second**, and **met at the last second**.
+- A response is **missed** or **replaced**, so that its alternative is due: one goal for each clause of the
+  alternative's chain, and the goals of the windows of that clause.
+- A prohibition is **in force at the last second**: the event is required from that second on, and occurs one second
+  later.
+- A prohibition is **over one second later**: the event is required from then on, and occurs at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
+
+from sleec_runtime.language import print_formula
+from sleec_runtime.model import Clause, Obligation, Rule, Timing, in_text_order
+from sleec_verify.conformance.cases.goals import clause_name
+from sleec_verify.conformance.scenarios.lawful_traces import LawfulTraces
+from sleec_verify.traces.demands import Occurs
+from sleec_verify.traces.index import TraceIndex
+
+Literals = Callable[[LawfulTraces], Sequence[int]]
+"""A function from a question to literals that together imply a goal."""
+
+
+class TraceGoal(NamedTuple):
+    """Something that a trace can reach. `situation` is about the instant `now` alone. It is asked first, because
+    `windows` may add instants. Of the goals about one `response`, a trace reaches one at most. `at_once`: the response
+    is met as soon as it may be."""
+
+    name: str
+    situation: Literals
+    windows: Literals
+    response: str = ""
+    at_once: bool = False
+
+
+def trace_goals(world: LawfulTraces, criterion: str) -> list[TraceGoal]:
+    """The goals of all rules for a criterion of situations. Raises `Undecided`."""
+    found: list[TraceGoal] = []
+    for position in range(len(world.index.rules)):
+        for number, goal in enumerate(world.situations(criterion, position)):
+
+            def situation(other: LawfulTraces, position: int = position, number: int = number) -> list[int]:
+                return [other.situations(criterion, position)[number].literal]
+
+            found.append(TraceGoal(goal.name, situation, _nothing))
+        found += _goals_of_windows(world, position)
+    return list({goal.name: goal for goal in found}.values())
+
+
+def _nothing(world: LawfulTraces) -> Sequence[int]:
+    return ()
+
+
+class _Response(NamedTuple):
+    """A response in the words of the goals. It is due `after` seconds after now if `given` and `unmet` hold."""
+
+    said: str
+    obligation: Obligation
+    given: Literals
+    unmet: tuple[Occurs, ...] = ()
+    after: int = 0
+
+
+def _goals_of_windows(world: LawfulTraces, position: int) -> Iterator[TraceGoal]:
+    rule = world.index.rules[position]
+    for number, clause in enumerate(world.index.clauses[position]):
+
+        def decides(other: LawfulTraces, number: int = number) -> list[int]:
+            return [other.guards(position)[number]]
+
+        for obligation in clause.obligations:
+            said = f"{clause_name(rule, number)}: {_words(obligation)}"
+            yield from _goals_of_response(world.traces, _Response(said, obligation, decides))
+
+
+def _goals_of_response(traces: TraceIndex, one: _Response) -> Iterator[TraceGoal]:
+    obligation, after = one.obligation, one.after
+    start, end = traces.responses.window(obligation)
+    window = Occurs(obligation.name, after + start, None if end is None else after + end)
+    timing = obligation.timing or Timing()
+    if timing.window is not None:
+        yield from _forbidden(traces, one, window) if obligation.negated else _required(one, window)
+    unmet = (*one.unmet, window._replace(negated=not obligation.negated))
+    if timing.otherwise is not None:
+        closed = after if timing.window is None or end is None else after + end
+        yield from _alternative(traces, one, "missed", unmet, timing.otherwise, closed)
+    if timing.instead is not None:
+        yield from _alternative(traces, one, "replaced", unmet, timing.instead, after)
+
+
+def _required(one: _Response, window: Occurs) -> Iterator[TraceGoal]:
+    first = _goal(one, "met at the first second", window._replace(end=window.start))
+    yield first._replace(at_once=True)
+    if window.end is not None and window.end != window.start:
+        before = window._replace(end=window.end - 1, negated=True)
+        yield _goal(one, "met at the last second", window._replace(start=window.end), before)
+
+
+def _forbidden(traces: TraceIndex, one: _Response, window: Occurs) -> Iterator[TraceGoal]:
+    if window.end is None:
+        return
+    last = window.end
+    asking = list(_asking(traces, window.event))
+    done = Occurs(window.event, last + 1, last + 1)
+    waiting = [(rule, number, last - start) for rule, number, start, can_wait in asking if can_wait]
+    at_once = [(rule, number, last + 1 - start) for rule, number, start, _ in asking]
+    for what, ways in (("in force at the last second", waiting), ("over one second later", at_once)):
+        if ways:
+            yield TraceGoal(
+                f"{one.said} {what}",
+                one.given,
+                lambda world, ways=ways: [  # type: ignore[misc]
+                    *(world.occurs(each) for each in (*one.unmet, done)),
+                    world.one_decides(ways),
+                ],
+            )
+
+
+def _asking(traces: TraceIndex, event: str) -> Iterator[tuple[Rule, int, int, bool]]:
+    """The rules and clauses that require an event, with the start of its window, and whether it may occur later."""
+    for rule in traces.obliging.get(event, ()):
+        for number, clause in enumerate(rule.clauses()):
+            for obligation in clause.obligations:
+                if obligation.name == event and not obligation.negated:
+                    start, end = traces.responses.window(obligation)
+                    yield rule, number, start, end != start
+
+
+def _alternative(
+    traces: TraceIndex, one: _Response, what: str, unmet: tuple[Occurs, ...], clause: Clause, after: int
+) -> Iterator[TraceGoal]:
+    """The goals of an alternative, in traces in which the response itself is not met."""
+    members = list(in_text_order(clause))
+    for number, member in enumerate(members):
+
+        def decides(world: LawfulTraces, number: int = number) -> list[int]:
+            return [*one.given(world), world.chain(clause)[number]]
+
+        case = "default" if member.condition is None else print_formula(member.condition)
+        said = f"{one.said} {what}" + (f" ({case})" if len(members) > 1 else "")
+        yield _goal(_Response(said, one.obligation, decides, unmet), "")
+        for obligation in member.obligations:
+            inner = _Response(f"{said}, {_words(obligation)}", obligation, decides, unmet, after)
+            yield from _goals_of_response(traces, inner)
+
+
+def _goal(one: _Response, what: str, *occurs: Occurs) -> TraceGoal:
+    return TraceGoal(
+        f"{one.said} {what}".rstrip(),
+        one.given,
+        lambda world: [world.occurs(each) for each in (*one.unmet, *occurs)],
+        one.said if occurs else "",
+    )
+
+
+def _words(obligation: Obligation) -> str:
+    """The response itself with its window, without its alternatives."""
+    window = None if obligation.timing is None else obligation.timing.window
+    return str(obligation) if window is None else f"{obligation} {window}"
