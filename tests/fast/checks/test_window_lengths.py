@@ -150,6 +150,7 @@ def test_the_environment_chooses_the_worst_value(least, wins):
     assert bool(result.findings) is wins
     (result,) = run_checks(parse(ENGLISH + "ASSUME patience >= -1 AND patience <= 1\n" + WAIT), names=(), realizable=1)
     (finding,) = result.findings
+    assert finding.strategy is not None
     assert finding.strategy.act.conditions["patience"] == -1
 
 
