@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sleec_runtime.model import require_untimed
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import note_mixed_domains, one_ruleset
 from sleec_verify.cli.output import write_data
-from sleec_verify.exchange.compilation import FORMS, TEMPORAL_FORMS, compile_to, compile_with_time
+from sleec_verify.exchange.compilation import FORMS, compile_to
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
     epilog="Example: sleec-verify compile rulesets/household.sleec --to dimacs > household.cnf",
 )
 @options.paths(several=False)
-@click.option("--to", "form", type=click.Choice((*FORMS, *TEMPORAL_FORMS)), required=True, help="Output format.")
+@click.option("--to", "form", type=click.Choice(FORMS), required=True, help="Output format.")
 @options.domain
 @options.reading
 @options.untimed
@@ -34,16 +33,12 @@ def command(path: str, form: str, domain: str | None, reading: Reading | None, u
     sympy and latex are for people: the guards and implications of Equation 1 of the paper. cnf, dimacs, smtlib and json
     are for solvers: clauses, with a map from variables to names. The number of clauses grows linearly with the rules.
 
-    mtl and mtl-latex are metric temporal logic, for rules with and without time. The other formats reject times.
+    In these formats, a response with a window is one proposition, such as Call[0,300]: Call occurs within 300 seconds.
+    mtl and mtl-latex are metric temporal logic. They state the full meaning of rules with time.
     """
     ruleset = one_ruleset(path, reading, domain)
-    if form in FORMS:
-        require_untimed(ruleset, "Equation 1")
     if domain is None:
         note_mixed_domains(ruleset)
-    if form in TEMPORAL_FORMS:
-        text = compile_with_time(ruleset, form, domain, untimed)
-    else:
-        text = compile_to(ruleset, form, domain)
+    text = compile_to(ruleset, form, domain, untimed)
     write_data((text if text.endswith("\n") else text + "\n",))
     return exits.HOLDS

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -17,15 +17,17 @@ from sleec_runtime.model import (
     Never,
     Not,
     Number,
-    Obligation,
     Or,
     Ruleset,
     ScaleValue,
     Term,
     Truth,
+    relation_name,
 )
-from sleec_verify.encoding.equation import implications
-from sleec_verify.exchange.compilation.symbols import escaped, symbol
+from sleec_verify.encoding.equation import conjunction, disjunction, implications
+from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.exchange.compilation.equation_one import EquationOne
+from sleec_verify.exchange.compilation.symbols import escaped
 
 if TYPE_CHECKING:
     import sympy
@@ -38,17 +40,19 @@ class Line(NamedTuple):
     formula: sympy.Basic
 
 
-def lines(ruleset: Ruleset) -> Iterator[Line]:
-    """Equation 1 of every rule, one line for each clause that obliges something, then constraints and assumptions."""
+def lines(equation: EquationOne) -> Iterator[Line]:
+    """Equation 1 of every rule, one line for each clause that obliges something, then constraints, assumptions and
+    relations."""
     import sympy
 
-    translate = Translator(ruleset)
+    ruleset = equation.ruleset
+    translate = Translator(equation)
     for rule in ruleset.rules:
         for number, guard, clause in implications(rule, ruleset.reading):
             title = f"{rule.label}, {f'hedge {number}' if number else 'default'}"
             if clause.obligations:
                 # Not evaluated, because sympy would change the implication into a less readable form.
-                response = translate.response(clause.obligations)
+                response = translate(conjunction(list(map(equation.response, clause.obligations))))
                 yield Line(title, sympy.Implies(translate(guard), response, evaluate=False))
     for constraint in ruleset.constraints:
         if isinstance(constraint, Exclusive):
@@ -60,19 +64,22 @@ def lines(ruleset: Ruleset) -> Iterator[Line]:
         else:
             assert isinstance(constraint, Assume)
             yield Line("ASSUME", translate(constraint.formula))
+    for relation, disjunctions in equation.relations():
+        formula = conjunction(list(map(disjunction, disjunctions)))
+        yield Line(relation_name(relation), translate(formula))
 
 
 class Translator:
     """Translates formulas of a ruleset to sympy."""
 
-    def __init__(self, ruleset: Ruleset) -> None:
-        self._ruleset = ruleset
+    def __init__(self, equation: EquationOne) -> None:
+        self._equation = equation
 
     def __call__(self, formula: Formula) -> sympy.Basic:
         import sympy
 
         if isinstance(formula, Atom):
-            return sympy.Symbol(symbol(self._ruleset, formula.kind, formula.name))
+            return sympy.Symbol(self._equation.symbol(formula.kind, formula.name))
         if isinstance(formula, Not):
             return sympy.Not(self(formula.operand))
         if isinstance(formula, And):
@@ -82,12 +89,6 @@ class Translator:
         if isinstance(formula, Truth):
             return sympy.true if formula.value else sympy.false
         return self._comparison(formula)
-
-    def response(self, obligations: Sequence[Obligation]) -> sympy.Basic:
-        """What a clause obliges, as a conjunction of literals."""
-        atoms: list[Formula] = [Atom("obligation", o.name) for o in obligations]
-        literals = [Not(atom) if o.negated else atom for atom, o in zip(atoms, obligations)]
-        return self(literals[0] if len(literals) == 1 else And(tuple(literals)))
 
     def _comparison(self, comparison: Comparison) -> sympy.Basic:
         import sympy
@@ -105,18 +106,30 @@ class Translator:
         return sympy.Symbol(term.value if isinstance(term, ScaleValue) else term.name)
 
 
-def as_sympy(ruleset: Ruleset) -> str:
+def as_sympy(ruleset: Ruleset, untimed: Untimed = "at") -> str:
     """One formula per line, each below a comment with its origin."""
-    return "\n".join(f"# {title}\n{formula}" for title, formula in lines(ruleset)) + "\n"
+    equation = EquationOne(ruleset, untimed)
+    rows = [f"# {title}\n{formula}" for title, formula in lines(equation)]
+    return "\n".join((*rows, *(f"# {excluded}" for excluded in equation.excluded()))) + "\n"
 
 
-def as_latex(ruleset: Ruleset) -> str:
+def as_latex(ruleset: Ruleset, untimed: Untimed = "at") -> str:
     """One aligned block with one line for each formula, for a document that loads amsmath."""
     from sympy import latex
     from sympy.core.symbol import Symbol
 
+    equation = EquationOne(ruleset, untimed)
     rows = []
-    for title, formula in lines(ruleset):
-        names = {s: rf"\mathit{{{escaped(s.name)}}}" for s in formula.atoms(Symbol)}
+    for title, formula in lines(equation):
+        names = {s: _latex_name(s.name, equation) for s in formula.atoms(Symbol)}
         rows.append(rf"  & {latex(formula, symbol_names=names)} && \text{{{escaped(title)}}} \\")
-    return "\n".join((r"\begin{align*}", *rows, r"\end{align*}")) + "\n"
+    comments = (f"% {excluded}" for excluded in equation.excluded())
+    return "\n".join((r"\begin{align*}", *rows, r"\end{align*}", *comments)) + "\n"
+
+
+def _latex_name(name: str, equation: EquationOne) -> str:
+    atom = equation.windows.get(name)
+    if atom is None:
+        return rf"\mathit{{{escaped(name)}}}"
+    last = r"\infty)" if atom.last is None else f"{escaped(atom.last)}]"
+    return rf"\mathit{{{escaped(atom.event)}}}_{{[{escaped(atom.first)},{last}}}"

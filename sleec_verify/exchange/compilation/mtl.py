@@ -6,17 +6,14 @@ Windows are in seconds, from the instant of the operator on. A length that a mea
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 from typing import NamedTuple
 
 from sleec_runtime.model import (
-    SECONDS,
     And,
     Atom,
     Calculation,
     Comparison,
     Formula,
-    Length,
     MeasureRef,
     Not,
     Number,
@@ -26,12 +23,11 @@ from sleec_runtime.model import (
     Truth,
 )
 from sleec_verify.encoding.trace_scope import Untimed
-from sleec_verify.exchange.compilation.symbols import escaped
+from sleec_verify.exchange.compilation.symbols import bound_text, escaped
 from sleec_verify.exchange.compilation.temporal_logic import (
     AllOf,
     Always,
     Before,
-    Bound,
     Eventually,
     Holds,
     Implies,
@@ -118,7 +114,7 @@ class _Writer:
         n = self._n
         interval = ""
         if formula.duration is not None:
-            interval = f"{n.half_open[0]}0,{self._bound((formula.duration,))}{n.half_open[1]}"
+            interval = f"{n.half_open[0]}0,{bound_text((formula.duration,), self._term)}{n.half_open[1]}"
         if formula.end is None:
             return f"{n.always}{interval} {self.state(formula.part, True)}"
         parts = [self.state(formula.part, True), self.state(formula.end, True)]
@@ -127,20 +123,9 @@ class _Writer:
     def _window(self, window: Window) -> str:
         if window.start == () and window.end is None:
             return ""
-        end = self._n.infinity if window.end is None else self._bound(window.end)
+        end = self._n.infinity if window.end is None else bound_text(window.end, self._term)
         left, right = self._n.half_open if window.end is None else self._n.open_interval
-        return f"{left}{self._bound(window.start)},{end}{right}"
-
-    def _bound(self, bound: Bound) -> str:
-        fixed = sum((Fraction(length.seconds) for length in bound if length.seconds is not None), Fraction(0))
-        parts = [self._length(length) for length in bound if length.seconds is None]
-        return " + ".join([*([str(fixed)] if fixed or not parts else []), *parts])
-
-    def _length(self, length: Length) -> str:
-        assert not isinstance(length.amount, Number), "a number of seconds is added"
-        factor = SECONDS[length.unit]
-        amount = self._term(length.amount)
-        return amount if factor == 1 else f"{factor}*{amount}"
+        return f"{left}{bound_text(window.start, self._term)},{end}{right}"
 
     def state(self, formula: Formula, inside: bool) -> str:
         """A formula over one instant."""

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import combinations
 
 from sleec_runtime.model import (
     And,
     Assume,
     Atom,
-    Clause,
     Comparison,
     Exclusive,
     Formula,
+    Kind,
     Measure,
     MeasureRef,
     Never,
@@ -24,29 +24,38 @@ from sleec_runtime.model import (
     ScaleValue,
     Term,
     Truth,
+    relation_name,
 )
-from sleec_verify.encoding.equation import implications
-from sleec_verify.exchange.compilation.symbols import symbol
+from sleec_verify.encoding.equation import conjunction, disjunction, implications
+from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.exchange.compilation.equation_one import EquationOne
 
 _OPERATORS = {"<": "<", "<=": "<=", "=": "=", "!=": "distinct", ">=": ">=", ">": ">"}
 _SORTS = {"number": "Real", "integer": "Int", "scale": "Int"}
 
 
-def as_smtlib(ruleset: Ruleset) -> str:
-    """Declarations, one named assertion for each clause and constraint, and ``(check-sat)``."""
-    return "\n".join((*_declarations(ruleset), *_Writer(ruleset).assertions(), "(check-sat)")) + "\n"
+def as_smtlib(ruleset: Ruleset, untimed: Untimed = "at") -> str:
+    """Declarations, one named assertion for each clause, constraint and relation, and ``(check-sat)``."""
+    equation = EquationOne(ruleset, untimed)
+    excluded = (f"; {statement}" for statement in equation.excluded())
+    writer = _Writer(equation)
+    assertions = list(writer.assertions())
+    text = (*_declarations(equation, writer.used), *assertions, *excluded, "(check-sat)")
+    return "\n".join(text) + "\n"
 
 
-def _declarations(ruleset: Ruleset) -> Iterator[str]:
+def _declarations(equation: EquationOne, used: Mapping[Kind, set[str]]) -> Iterator[str]:
+    ruleset = equation.ruleset
     mixed = any(measure.kind != "number" for measure in ruleset.measures.values())
     yield f"(set-logic {'QF_LIRA' if mixed else 'QF_LRA'})"
-    for kind, names in (
-        ("trigger", ruleset.triggers),
-        ("condition", ruleset.conditions),
-        ("obligation", ruleset.obligations),
-    ):
-        for name in sorted(names):
-            yield f"(declare-const {_quoted(symbol(ruleset, kind, name))} Bool) ; {kind}"  # type: ignore[arg-type]
+    declared: Mapping[Kind, frozenset[str]] = {
+        "trigger": ruleset.triggers,
+        "condition": ruleset.conditions,
+        "obligation": ruleset.declared["obligation"],
+    }
+    for kind, names in declared.items():
+        for name in sorted(names | used[kind]):
+            yield f"(declare-const {_quoted(equation.symbol(kind, name))} Bool) ; {kind}"
     for measure in ruleset.measures.values():
         name = _quoted(measure.name)
         yield f"(declare-const {name} {_SORTS[measure.kind]}) ; {_described(measure)}"
@@ -59,15 +68,19 @@ def _described(measure: Measure) -> str:
 
 
 class _Writer:
-    def __init__(self, ruleset: Ruleset) -> None:
-        self._ruleset = ruleset
+    def __init__(self, equation: EquationOne) -> None:
+        self._equation = equation
+        self._ruleset = equation.ruleset
+        self.used: dict[Kind, set[str]] = {"trigger": set(), "condition": set(), "obligation": set()}
+        """The names in the formulas so far."""
 
     def assertions(self) -> Iterator[str]:
         ruleset = self._ruleset
         for rule in ruleset.rules:
             for number, guard, clause in implications(rule, ruleset.reading):
                 if clause.obligations:
-                    yield self._named(f"(=> {self.formula(guard)} {self._response(clause)})", f"{rule.label} {number}")
+                    response = self.formula(conjunction(list(map(self._equation.response, clause.obligations))))
+                    yield self._named(f"(=> {self.formula(guard)} {response})", f"{rule.label} {number}")
         for position, constraint in enumerate(ruleset.constraints):
             if isinstance(constraint, Exclusive):
                 for a, b in combinations(sorted(set(constraint.names)), 2):
@@ -78,18 +91,17 @@ class _Writer:
             else:
                 assert isinstance(constraint, Assume)
                 yield self._named(self.formula(constraint.formula), f"ASSUME {position}")
+        for position, (relation, disjunctions) in enumerate(self._equation.relations()):
+            formula = conjunction(list(map(disjunction, disjunctions)))
+            yield self._named(self.formula(formula), f"{relation_name(relation)} {position}")
 
     def _named(self, formula: str, name: str) -> str:
         return f"(assert (! {formula} :named {_quoted(name)}))"
 
-    def _response(self, clause: Clause) -> str:
-        atoms = (Atom("obligation", o.name) for o in clause.obligations)
-        literals = [self.formula(Not(a) if o.negated else a) for a, o in zip(atoms, clause.obligations)]
-        return literals[0] if len(literals) == 1 else f"(and {' '.join(literals)})"
-
     def formula(self, formula: Formula) -> str:
         if isinstance(formula, Atom):
-            return _quoted(symbol(self._ruleset, formula.kind, formula.name))
+            self.used[formula.kind].add(formula.name)
+            return _quoted(self._equation.symbol(formula.kind, formula.name))
         if isinstance(formula, Not):
             return f"(not {self.formula(formula.operand)})"
         if isinstance(formula, (And, Or)):

@@ -1,14 +1,29 @@
-"""Names of a ruleset as symbols of one formula."""
+"""Names and bounds of windows as symbols of formulas."""
 
 from __future__ import annotations
 
-from sleec_runtime.model import Kind, Ruleset
+from collections.abc import Callable
+from fractions import Fraction
+
+from sleec_runtime.model import SECONDS, Calculation, Length, MeasureRef, Number
+from sleec_verify.exchange.compilation.temporal_logic import Bound
 
 
-def symbol(ruleset: Ruleset, kind: Kind, name: str) -> str:
-    """The symbol of a name, if triggers and obligations share one name space: an obligation that is also a trigger
-    is ``due(name)``, because its occurrence and its obligation are different atoms."""
-    return f"due({name})" if kind == "obligation" and name in ruleset.triggers else name
+def bound_text(bound: Bound, measure: Callable[[MeasureRef | Calculation], str]) -> str:
+    """A bound of a window in seconds, such as ``60`` or ``30 + 60*patience``. `measure` writes measures."""
+    fixed = Fraction(0)
+    parts = []
+    for length in bound:
+        if isinstance(length.amount, Number):
+            fixed += Fraction(length.amount.value) * SECONDS[length.unit]
+        else:
+            parts.append(_product(length, measure(length.amount)))
+    return " + ".join([*([str(fixed)] if fixed or not parts else []), *parts])
+
+
+def _product(length: Length, amount: str) -> str:
+    factor = SECONDS[length.unit]
+    return amount if factor == 1 else f"{factor}*{amount}"
 
 
 def escaped(text: str) -> str:

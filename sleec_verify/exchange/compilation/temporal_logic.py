@@ -25,6 +25,7 @@ from sleec_runtime.model import (
     Never,
     Not,
     Obligation,
+    Reading,
     Rule,
     Ruleset,
     Statement,
@@ -125,49 +126,51 @@ def requirements(ruleset: Ruleset, untimed: Untimed = "at") -> Iterator[Requirem
     """The requirements of each rule, constraint and relation, in the order of the text: one for each clause of a rule
     that obliges something. `untimed` is the meaning of a response without a window. Linear in the size of the rules,
     but for guards, which are written out."""
-    writer = _Writer(ruleset, untimed)
+    responses = Responses(ruleset.reading, untimed)
     for statement in ruleset.statements:
         if isinstance(statement, Rule):
             for number, guard, clause in implications(statement, ruleset.reading):
                 if clause.obligations:
                     title = f"{statement.label}, {f'hedge {number}' if number else 'default'}"
-                    yield Requirement(title, statement, Implies(guard, writer.obligations(clause.obligations, ())))
+                    yield Requirement(title, statement, Implies(guard, responses.all_of(clause.obligations)))
         elif isinstance(statement, (*RELATIONS, Exclusive, Never, Assume)):
             yield Requirement(_title(statement), statement, _relation(statement))
 
 
 def claims_of(ruleset: Ruleset, untimed: Untimed = "at") -> Iterator[tuple[Claim, list[Temporal]]]:
     """The concerns and purposes: each occurs in a trace if each of its formulas is true at some instant."""
-    writer = _Writer(ruleset, untimed)
+    responses = Responses(ruleset.reading, untimed)
     for statement in ruleset.statements:
         if isinstance(statement, Claim):
             parts = []
             claim: Claim | None = statement
             while claim is not None:
                 now = conjunction([_event(claim.event), *([] if claim.condition is None else [claim.condition])])
-                parts.append(AllOf((Holds(now), *(writer.clause(response, ()) for response in claim.responses))))
+                parts.append(AllOf((Holds(now), *(responses.of_chain(response) for response in claim.responses))))
                 claim = claim.meanwhile
             yield statement, list(parts)
 
 
-class _Writer:
-    def __init__(self, ruleset: Ruleset, untimed: Untimed) -> None:
-        self._reading = ruleset.reading
+class Responses:
+    """The formulas of obligations, at the instant of the trigger. Each is due from the time `due` on."""
+
+    def __init__(self, reading: Reading, untimed: Untimed) -> None:
+        self._reading = reading
         self._untimed = untimed
 
-    def obligations(self, obligations: Sequence[Obligation], due: Bound) -> Temporal:
-        parts = tuple(self._obligation(obligation, due) for obligation in obligations)
+    def all_of(self, obligations: Sequence[Obligation], due: Bound = ()) -> Temporal:
+        parts = tuple(self.of(obligation, due) for obligation in obligations)
         return parts[0] if len(parts) == 1 else AllOf(parts)
 
-    def clause(self, clause: Clause, due: Bound) -> Temporal:
+    def of_chain(self, clause: Clause, due: Bound = ()) -> Temporal:
         """A chain that stands by itself: its hedges are decided at the trigger, whatever the time `due`."""
         parts: list[Temporal] = []
         for guard, member in chain(clause, self._reading):
             if member.obligations:
-                parts.append(Implies(guard, self.obligations(member.obligations, due)))
+                parts.append(Implies(guard, self.all_of(member.obligations, due)))
         return parts[0] if len(parts) == 1 else AllOf(tuple(parts))
 
-    def _obligation(self, obligation: Obligation, due: Bound) -> Temporal:
+    def of(self, obligation: Obligation, due: Bound = ()) -> Temporal:
         timing = obligation.timing
         window = None if timing is None else timing.window
         if window is None:
@@ -180,9 +183,9 @@ class _Writer:
         parts = [itself]
         if timing is not None and timing.otherwise is not None:
             closed = due if window is None or own.end is None else own.end
-            parts.append(self.clause(timing.otherwise, closed))
+            parts.append(self.of_chain(timing.otherwise, closed))
         if timing is not None and timing.instead is not None:
-            parts.append(self.clause(timing.instead, due))
+            parts.append(self.of_chain(timing.instead, due))
         return parts[0] if len(parts) == 1 else OneOf(tuple(parts))
 
 

@@ -12,6 +12,7 @@ from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.equation import implications
 from sleec_verify.entailment.entailment import entail
 from sleec_verify.exchange.compilation.clauses import encode_ruleset
+from sleec_verify.exchange.compilation.equation_one import EquationOne
 from tests.support import brute_force as brute
 
 EIGHT = """
@@ -108,7 +109,7 @@ def test_equation_1_is_built_linear():
     sizes = []
     for hedges in (50, 100, 200):
         text = "WHEN t THEN o" + "".join(f" UNLESS c{n} IN WHICH CASE p{n}" for n in range(hedges))
-        sizes.append(sum(map(len, encode_ruleset(parse(text)).clauses)))
+        sizes.append(sum(map(len, encode_ruleset(EquationOne(parse(text))).clauses)))
     assert sizes[1] / sizes[0] < 2.1
     assert sizes[2] / sizes[1] < 2.1
 

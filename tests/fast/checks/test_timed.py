@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from sleec_runtime.errors import UnsupportedTimes
 from sleec_runtime.facade.sleec import Sleec
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context
 from sleec_verify.checks import CHECKS, run_checks
 from sleec_verify.entailment.entailment import entail
-from sleec_verify.exchange.compilation import FORMS
 from sleec_verify.results.finding import Proved, Refuted, Unknown
 
 TEXT = """def_start
@@ -196,18 +194,6 @@ def test_the_runtime_takes_rules_of_the_dsl_without_times():
     assert sleec.trigger("A").obligations == ("B", "C")
     sleec.update({"m": True})
     assert sleec.trigger("A").obligations == ("C",)
-
-
-@pytest.mark.parametrize("form", FORMS)
-def test_equation_1_has_no_times(form, tmp_path):
-    from click.testing import CliRunner
-
-    from sleec_verify.cli.compile import command
-
-    path = tmp_path / "timed.sleec"
-    path.write_text(text("B eventually"), encoding="utf-8")
-    result = CliRunner().invoke(command, [str(path), "--to", form])
-    assert isinstance(result.exception, UnsupportedTimes)
 
 
 TIMED = "WHEN X THEN Y WITHIN 5 minutes\n"

@@ -14,12 +14,12 @@ from sleec_verify.cli import run
 from sleec_verify.conformance.regions import givens
 from sleec_verify.encoding.arithmetic import NotCalculated
 from sleec_verify.encoding.calculations import calculations_in
-from sleec_verify.exchange.compilation import FORMS, compile_to
+from sleec_verify.exchange.compilation import EQUATION_FORMS, compile_to
 from sleec_verify.results.finding import Unknown
 from tests.support.calculations import BOTH, NAMES, NEEDS_Z3, TEXT, guard_of, results, ruleset_of
 
 
-@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("form", EQUATION_FORMS)
 def test_no_form_of_equation_1_takes_them(form):
     with pytest.raises(UnsupportedCalculations, match=r"`x \+ y` in line 11, `x \* y` in line 12") as caught:
         compile_to(ruleset_of(*BOTH), form)

@@ -15,8 +15,8 @@ from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.entailment.definition1 import Definition1
 from sleec_verify.entailment.entailment import entail
 from sleec_verify.exchange.compilation.clauses import encode_ruleset
+from sleec_verify.exchange.compilation.equation_one import EquationOne
 from sleec_verify.exchange.compilation.formulas import Translator, lines
-from sleec_verify.exchange.compilation.symbols import symbol
 from tests.support import brute_force as brute
 from tests.support.small_rulesets import small_rulesets
 
@@ -51,18 +51,19 @@ def by_sympy(ruleset: Ruleset, context) -> frozenset[Obligation] | None:
     import sympy
     from sympy.logic.inference import satisfiable
 
+    equation = EquationOne(ruleset)
     atoms = [Atom("trigger", name) for name in ruleset.triggers]
     atoms += [Atom("condition", name) for name in ruleset.conditions]
     values = {
-        sympy.Symbol(symbol(ruleset, atom.kind, atom.name)): sympy.true if brute.value(atom, context) else sympy.false
+        sympy.Symbol(equation.symbol(atom.kind, atom.name)): sympy.true if brute.value(atom, context) else sympy.false
         for atom in atoms
     }
-    formula = sympy.And(*(line.formula.subs(values) for line in lines(ruleset)))
+    formula = sympy.And(*(line.formula.subs(values) for line in lines(equation)))
     if not satisfiable(formula):
         return None
     found = set()
     for name in ruleset.obligations:
-        variable = sympy.Symbol(symbol(ruleset, "obligation", name))
+        variable = sympy.Symbol(equation.symbol("obligation", name))
         for negated in (False, True):
             if not satisfiable(sympy.And(formula, variable if negated else sympy.Not(variable))):
                 found.add(Obligation(name, negated))
@@ -133,7 +134,7 @@ def test_nothing_is_given_to_measures_without_a_value(ruleset):
 @given(small_rulesets(rules=2, measures=True))
 def test_the_linear_clauses_say_what_the_written_out_formulas_say(ruleset):
     """Over the original names, the clauses with prefix variables have the models of Equation 1 written out."""
-    encoder = encode_ruleset(ruleset)
+    encoder = encode_ruleset(EquationOne(ruleset))
     names = sorted(ruleset.obligations)
     with MiniSat(encoder.clauses) as solver:
         for context in islice(brute.contexts(ruleset), 0, None, 97):
@@ -161,14 +162,14 @@ def test_clauses_are_linear_in_the_hedges(reading, hedges):
     from sleec_runtime.language import parse
 
     text = "WHEN t THEN o" + "".join(f"\nUNLESS c{n} IN WHICH CASE p{n}" for n in range(hedges))
-    encoder = encode_ruleset(parse(text).read_as(reading))
+    encoder = encode_ruleset(EquationOne(parse(text).read_as(reading)))
     assert sum(map(len, encoder.clauses)) <= 40 * hedges
 
 
 @given(small_rulesets(measures=True))
 def test_sympy_formulas_read_as_the_guards_do(ruleset):
     """The written-out formulas hold a symbol for every name that the guard does."""
-    translate = Translator(ruleset)
+    translate = Translator(EquationOne(ruleset))
     for rule in ruleset.rules:
         for _, guard, _ in implications(rule, ruleset.reading):
             for leaf in leaves(guard):

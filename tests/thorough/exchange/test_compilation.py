@@ -13,9 +13,10 @@ from hypothesis import given, settings
 from sleec_runtime.language import parse
 from sleec_verify.exchange.compilation import FORMS, compile_to
 from sleec_verify.exchange.compilation.clauses import encode_ruleset, variable_names
-from sleec_verify.exchange.compilation.symbols import symbol
+from sleec_verify.exchange.compilation.equation_one import EquationOne
 from tests.fast.checks.test_semantics import EIGHT
 from tests.support import brute_force as brute
+from tests.support.growth import grows_in_proportion
 from tests.support.small_rulesets import small_rulesets
 
 TEXT = """
@@ -59,9 +60,10 @@ def test_another_form_is_a_key_error():
 
 def test_a_name_that_is_trigger_and_obligation_is_two_symbols():
     ruleset = parse(TEXT)
-    assert symbol(ruleset, "trigger", "Answer") == "Answer"
-    assert symbol(ruleset, "obligation", "Answer") == "due(Answer)"
-    assert symbol(ruleset, "obligation", "Tell") == "Tell"
+    equation = EquationOne(ruleset)
+    assert equation.symbol("trigger", "Answer") == "Answer"
+    assert equation.symbol("obligation", "Answer") == "due(Answer)"
+    assert equation.symbol("obligation", "Tell") == "Tell"
     assert "due(Answer)" in compile_to(ruleset, "sympy")
 
 
@@ -100,7 +102,7 @@ def test_dimacs_comments_map_every_variable():
 def test_json_and_lines_hold_the_same_clauses():
     ruleset = parse(TEXT)
     document = json.loads(compile_to(ruleset, "json"))
-    encoder = encode_ruleset(ruleset)
+    encoder = encode_ruleset(EquationOne(ruleset))
     assert document["clauses"] == encoder.clauses
     assert document["reading"] == "cascade"
     names = variable_names(encoder)
@@ -128,7 +130,7 @@ def test_smtlib_entails_what_the_rules_entail(ruleset):
         possible = solver.check() == z3.sat
         assert possible == (not brute.conflicts(ruleset, context))
         for literal in brute.due(ruleset, context) if possible else ():
-            variable = z3.Bool(symbol(ruleset, "obligation", literal.name))
+            variable = z3.Bool(EquationOne(ruleset).symbol("obligation", literal.name))
             assert solver.check(variable if literal.negated else z3.Not(variable)) == z3.unsat
         solver.pop()
 
@@ -145,3 +147,33 @@ def test_numbers_of_smtlib_are_exact():
     solver = z3.Solver()
     solver.from_string(text)
     assert solver.check() == z3.sat
+
+
+def _timed(rules: int) -> str:
+    """Rules with every construct for time, each with events and conditions of its own."""
+    each = range(rules)
+    return "".join(
+        (
+            "def_start\n",
+            *(f"event A{n} event B{n} measure p{n}: boolean\n" for n in each),
+            "def_end\nrule_start\n",
+            *(
+                f"R{n} when A{n} then B{n} within {n + 1} seconds otherwise {{B{n} eventually unless {{p{n}}} then not "
+                f"A{n} within 9 seconds}} unless {{p{n}}} then not B{n} within [3, 4] minutes else A{n}\n"
+                for n in each
+            ),
+            "rule_end\nrelation_start\n",
+            *(f"mutualExclusive A{n} B{n}\nhappenBefore A{n} B{n}\n" for n in each),
+            "relation_end\nconcern_start\n",
+            *(f"c{n} exists A{n}\n" for n in each),
+            "concern_end\n",
+        )
+    )
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_the_work_grows_with_the_rules(form):
+    few, many = parse(_timed(20)), parse(_timed(200))
+    for ruleset in (few, many):
+        compile_to(ruleset, form)
+    assert grows_in_proportion(lambda: compile_to(few, form), lambda: compile_to(many, form), 10)
