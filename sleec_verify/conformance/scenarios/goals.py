@@ -26,14 +26,14 @@ Literals = Callable[[LawfulTraces], Sequence[int]]
 
 class TraceGoal(NamedTuple):
     """Something that a trace can reach. `situation` is about the instant `now` alone. It is asked first, because
-    `windows` may add instants. Of the goals about one `response`, a trace reaches one at most. `at_once`: the response
-    is met as soon as it may be."""
+    `windows` may add instants. Of the goals about one `response`, a trace reaches one at most. Unless it
+    `is_startable`, an obligation is forbidden at the instant of its trigger, and only possible later."""
 
     name: str
     situation: Literals
     windows: Literals
     response: str = ""
-    at_once: bool = False
+    is_startable: bool = True
 
 
 def trace_goals(world: LawfulTraces, criterion: str) -> list[TraceGoal]:
@@ -92,8 +92,7 @@ def _goals_of_response(traces: TraceIndex, one: _Response) -> Iterator[TraceGoal
 
 
 def _required(one: _Response, window: Occurs) -> Iterator[TraceGoal]:
-    first = _goal(one, "met at the first second", window._replace(end=window.start))
-    yield first._replace(at_once=True)
+    yield _goal(one, "met at the first second", window._replace(end=window.start))
     if window.end is not None and window.end != window.start:
         before = window._replace(end=window.end - 1, negated=True)
         yield _goal(one, "met at the last second", window._replace(start=window.end), before)
@@ -116,6 +115,7 @@ def _forbidden(traces: TraceIndex, one: _Response, window: Occurs) -> Iterator[T
                     *(world.occurs(each) for each in (*one.unmet, done)),
                     world.one_decides(ways),
                 ],
+                is_startable=ways is not waiting,
             )
 
 

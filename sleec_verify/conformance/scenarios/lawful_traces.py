@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from sleec_runtime.model import Clause, Formula, Rule
 from sleec_verify.conformance.cases.allowed_situations import Goal
@@ -17,11 +17,16 @@ from sleec_verify.traces.trace import TraceInstant
 
 class LawfulTraces:
     """The question, with the rules of one domain. Goals are about the instant `now`. Earlier and later instants are
-    added as they are needed. With `single`, no two mere inputs occur at once. Without `lawful`, traces satisfy the
-    relations, but not necessarily the rules."""
+    added as they are needed.
 
-    def __init__(self, index: RulesetIndex, single: bool = False, lawful: bool = True) -> None:
+    With `single`, no two mere inputs occur at once. With `startable`, no prohibition forbids an obligation at the
+    instant of its trigger: a runtime that starts obligations at once rejects such triggers. Without `lawful`, traces
+    satisfy the relations, but not necessarily the rules.
+    """
+
+    def __init__(self, index: RulesetIndex, single: bool = False, startable: bool = False, lawful: bool = True) -> None:
         self.index = index
+        self._startable = startable
         self.traces = trace_index_of(index)
         self._model = InductiveModel(self.traces) if lawful else TraceModel(self.traces, rules={})
         if single:
@@ -88,28 +93,71 @@ class LawfulTraces:
 
     def reaches(self, literals: Iterable[int]) -> bool:
         """Whether some trace makes all of these true. Raises `Undecided`."""
-        return self._model.ask(*literals)
+        return self._ask(self._model.ask, literals)
 
-    def true(self, literal: int) -> bool:
-        """Whether a literal is true in the trace of the last question."""
-        return self._model.true(literal)
+    def prompt(self, literals: Iterable[int]) -> list[int]:
+        """These literals, which some trace makes true, and literals with which each obligation is met as soon as its
+        window opens, as far as possible. Raises `Undecided`."""
+        model = self._model
+        required = list(literals)
+        seen: set[tuple[int, Occurs]] = set()
+        while self.reaches(required):
+            left = [one for one in self._responses() if not one[1].negated and one[:2] not in seen]
+            if not left:
+                break
+            for at, window, _ in left:
+                seen.add((at, window))
+                met = model.occurs(at, window._replace(end=window.start))
+                if self.reaches([*required, met]):
+                    required.append(met)
+        return required
+
+    def _ask(self, ask: Callable[..., bool], literals: Iterable[int]) -> bool:
+        required = list(literals)
+        while ask(*required):
+            refused = list(self._not_startable()) if self._startable else []
+            if not refused:
+                return True
+            for clause in refused:
+                self._model.add(clause)
+        return False
+
+    def _not_startable(self) -> Iterator[list[int]]:
+        """Clauses that exclude what cannot be started in the trace of the last question."""
+        responses = list(self._responses())
+        forbidden = [one for one in responses if one[1].negated]
+        for at, window, guard in responses:
+            for other, prohibition, why in forbidden:
+                if not window.negated and window.start == 0 != window.end and window.event == prohibition.event:
+                    bounds = self._model.times.within(other, at, prohibition.start, prohibition.end)
+                    if all(map(self._model.true, bounds)):
+                        yield [-guard, -why, *(-bound for bound in bounds)]
+
+    def _responses(self) -> Iterator[tuple[int, Occurs, int]]:
+        """The responses of the clauses that decide in the trace of the last question: the instant of the trigger, the
+        window, and the literal of the guard."""
+        for one in self._model.decided:
+            if self._model.true(one.guard):
+                for obligation in one.clause.obligations:
+                    window = self.traces.responses.window(obligation)
+                    yield one.at, Occurs(obligation.name, *window, negated=obligation.negated), one.guard
 
     def smallest(self, literals: Iterable[int]) -> tuple[TraceInstant, ...]:
         """A trace that makes these true, without unnecessary instants, events and conditions, at the earliest times
         from 0 on. Raises `Undecided`."""
         model = self._model
         required = list(literals)
-        found = model.ask(*required)
+        found = self.reaches(required)
         assert found, "asked for what was found to be reachable"
         needed: set[int] = set()
         while left := [literal for literal in self._parts() if literal not in needed and -literal not in required]:
             for literal in left:
                 # What is false already stays false.
-                if not model.true(literal) or model.ask_here(*required, -literal):
+                if not model.true(literal) or self._ask(model.ask_here, [*required, -literal]):
                     required.append(-literal)
                 else:
                     needed.add(literal)
-            model.ask_here(*required)
+            self._ask(model.ask_here, required)
         times, _ = model.schedule()
         nodes = sorted((node for node in model.used() if node in model.instants), key=times.__getitem__)
         return tuple(model.at(node, times[node] - times[nodes[0]]) for node in nodes)

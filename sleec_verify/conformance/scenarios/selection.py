@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from random import Random
 
@@ -41,13 +42,6 @@ class _Set:
 
     def add(self, goal: TraceGoal) -> bool:
         """Add a goal if one trace reaches it, too. Raises `Undecided`."""
-        added = self.require(goal)
-        if added:
-            self.goals.append(goal)
-        return added
-
-    def require(self, goal: TraceGoal) -> bool:
-        """The same, for a goal that does not count."""
         if goal.response in self.responses:
             return False
         literals = [*self.literals, *goal.situation(self.world)]
@@ -56,6 +50,7 @@ class _Set:
         literals += goal.windows(self.world)
         if not self.world.reaches(literals):
             return False
+        self.goals.append(goal)
         self.literals = literals
         if goal.response:
             self.responses.add(goal.response)
@@ -87,48 +82,62 @@ def choose_scenarios(ruleset: Ruleset, criterion: str, domain: str | None = None
     return Scenarios(tuple(found), len(done), tuple(one for name, one in missed.items() if name not in done))
 
 
+_Cover = tuple[list[_Set], list[tuple[TraceGoal, "str | None"]]]
+"""Sets of goals, and the goals that are not reached. Of those that are not decided, why."""
+
+
 class _Search:
     """The search in one domain."""
 
     def __init__(self, index: RulesetIndex, criterion: str, single: bool) -> None:
         self._index = index
         self._single = single
-        self._goals = trace_goals(self._world(), criterion)
+        self._goals = trace_goals(self._world(False), criterion)
 
-    def _world(self) -> LawfulTraces:
-        return LawfulTraces(self._index, self._single)
+    def _world(self, startable: bool) -> LawfulTraces:
+        return LawfulTraces(self._index, self._single, startable)
 
     def cover(self, done: Collection[str]) -> tuple[list[_Set], list[UnreachedGoal]]:
         """Sets of goals that are not `done` yet, and the goals that cannot be reached."""
         wanted = [goal for goal in self._goals if goal.name not in done]
-        sets, unreached = self._greedily(wanted)
-        reachable = [goal for goal in wanted if goal.name not in {one.name for one in unreached}]
+        sets, rest = self._smallest_cover([goal for goal in wanted if goal.is_startable], startable=True)
+        # What a runtime that starts obligations at once can execute only in part, in scenarios of its own.
+        names = {goal.name for goal, _ in rest}
+        waiting = [goal for goal in wanted if not goal.is_startable or goal.name in names]
+        more, unreached = self._smallest_cover(waiting, startable=False)
+        return [*sets, *more], [UnreachedGoal(goal.name, why or self._reason(goal)) for goal, why in unreached]
+
+    def _smallest_cover(self, wanted: Sequence[TraceGoal], startable: bool) -> _Cover:
+        """The best result of several orders, if there are not too many goals."""
+        sets, unreached = self._greedily(wanted, startable)
+        names = {goal.name for goal, _ in unreached}
+        reachable = [goal for goal in wanted if goal.name not in names]
         if len(reachable) <= _SEVERAL_ORDERS:
             for order in (reachable[::-1], Random(0).sample(reachable, len(reachable))):
-                sets = min(sets, self._greedily(order)[0], key=len)
+                sets = min(sets, self._greedily(order, startable)[0], key=len)
         return sets, unreached
 
-    def _greedily(self, wanted: Iterable[TraceGoal]) -> tuple[list[_Set], list[UnreachedGoal]]:
+    def _greedily(self, wanted: Iterable[TraceGoal], startable: bool) -> _Cover:
         """One set after the other, each with as many goals as one trace can reach together with its first goal."""
         left = {goal.name: goal for goal in wanted}
         sets: list[_Set] = []
-        unreached: list[UnreachedGoal] = []
+        unreached: list[tuple[TraceGoal, str | None]] = []
         while left:
-            one = _Set(self._world())
+            one = _Set(self._world(startable))
             for goal in list(left.values()):
                 try:
                     if one.add(goal):
                         del left[goal.name]
                     elif not one.goals:
-                        unreached.append(UnreachedGoal(goal.name, self._reason(goal)))
+                        unreached.append((goal, None))
                         del left[goal.name]
                 except Undecided as error:
                     if one.goals:
                         # The trace is as large as it can get.
                         break
-                    unreached.append(UnreachedGoal(goal.name, f"unknown: {error.message}"))
+                    unreached.append((goal, f"unknown: {error.message}"))
                     del left[goal.name]
-                    one = _Set(self._world())
+                    one = _Set(self._world(startable))
             if one.goals:
                 sets.append(one)
         return sets, unreached
@@ -146,10 +155,7 @@ class _Search:
 
     def scenario(self, one: _Set, name: str) -> Scenario | None:
         """A scenario that reaches the goals of a set. As far as these leave it open, windows are met at once."""
-        for goal in self._goals:
-            if goal.at_once and all(map(one.world.true, goal.situation(one.world))):
-                try:
-                    one.require(goal)
-                except Undecided:
-                    break
-        return scenario_of(one.world.traces, name, one.world.smallest(one.literals))
+        smallest = one.world.smallest(one.literals)
+        with suppress(Undecided):
+            smallest = one.world.smallest(one.world.prompt(one.literals))
+        return scenario_of(one.world.traces, name, smallest)
