@@ -84,6 +84,8 @@ class Player:
         self._loop = loop
         self._arguments = arguments
         self._completions = list(completions)
+        self._used: dict[str, tuple[int, Completion | None]] = {}
+        """The last completion of each name, with the time at which the name was started."""
         self._due: list[tuple[int, str]] = []
         """What was started and takes time: when the scenario completes it."""
         self._takes_time: frozenset[str] = frozenset(getattr(subject, "takes_time", ()))
@@ -200,12 +202,15 @@ class Player:
             self._due.append((max(completion.at, self.now()), name))
 
     def _completion_of(self, name: str) -> Completion | None:
-        """The completion of what starts now: the last one that is due since now or before."""
+        """The completion of what starts now: the last one that is due since now or before. Several rules may start one
+        obligation at one time."""
+        if self._used.get(name, (-1, None))[0] == self.now():
+            return self._used[name][1]
         of_name = [one for one in self._completions if one.name == name and one.since <= self.now()]
-        if not of_name:
-            return None
-        found = max(of_name, key=lambda one: one.since)
-        self._completions.remove(found)
+        found = max(of_name, key=lambda one: one.since, default=None)
+        if found is not None:
+            self._completions.remove(found)
+        self._used[name] = self.now(), found
         return found
 
     def _ends(self, act: int, name: str, error: BaseException | None) -> None:

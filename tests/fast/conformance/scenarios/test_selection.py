@@ -81,7 +81,19 @@ def test_prohibitions_at_their_borders() -> None:
 
 
 def test_goals_of_independent_rules_share_scenarios() -> None:
-    assert len(chosen(FALL + REST.replace("RULE dust", "RULE dirt")).scenarios) <= 5
+    found = chosen(FALL + REST)
+    assert len(found.scenarios) == len(chosen(FALL).scenarios) + 1
+    assert found.scenarios[-1].reaches == ("rest (default): NOT Vacuum within 1 hour in force at the last second",)
+
+
+def test_a_runtime_can_start_what_is_due() -> None:
+    """Only the last scenario of `rest` asks for something at a time at which it is forbidden."""
+    ruleset = parse(REST + "RULE night WHEN NightBegins THEN Vacuum WITHIN 2 hours AND LockDoor WITHIN 1 hour")
+    for one in choose_scenarios(ruleset, "clause").scenarios:
+        forbidden = [(due.start, due.end) for due in one.prohibitions or ()]
+        asked = [due.start for due in one.obligations if due.event == "Vacuum"]
+        blocked = any(start <= at <= end for at in asked for start, end in forbidden if end is not None)
+        assert blocked == any("in force" in goal for goal in one.reaches)
 
 
 def test_what_cannot_be_reached_has_a_reason() -> None:
