@@ -51,11 +51,10 @@ class Defeat:
         """A literal that leaves only the situations that the template does not fit, because of these slots."""
         now = Point(self._s.now, 0, self._true, self._events_now(template.acts))
         fixed = [now, *(self._point(node, self._s.active[node], later) for node, later in template.later)]
-        policies = dict(template.policies)
         plans: dict[Slot, _Plan] = {}
         for slot in slots:
-            plan = policies.get(slot.pending)
-            if plan is not None:
+            plan = template.policy(slot.pending)
+            if plan:
                 plans[slot] = self._plan(slot, plan, fixed)
         failures = [*self._in_the_way(fixed, list(plans.values())), *self._broken(fixed, plans, slots)]
         counts = self._formula.fresh()

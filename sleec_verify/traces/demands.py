@@ -59,6 +59,8 @@ class Responses:
         """Without `lengths`, no window may depend on a measure."""
         self._untimed = untimed
         self._lengths = lengths
+        self._fixed: dict[tuple[int, bool, int], tuple[Obligation, Demand]] = {}
+        """The demands of obligations without chains, as `_obligation` returns them."""
 
     def of(self, obligations: tuple[Obligation, ...], chain: Chain, kept: bool = True, after: int = 0) -> Demand:
         """The demand that all of `obligations`, which are due after this number of seconds, are met (not `kept`: that
@@ -71,6 +73,8 @@ class Responses:
 
     def of_clause(self, clause: Clause, chain: Chain, kept: bool = True, after: int = 0) -> Demand:
         """The same as `of`, for a response with its own chain of hedges."""
+        if not clause.hedges:
+            return self.of(clause.obligations, chain, kept, after)
         members = []
         for member, decides in zip(in_text_order(clause), chain(clause)):
             if decides == _NEVER:
@@ -80,6 +84,22 @@ class Responses:
         return _joined(tuple(members), every=kept)
 
     def _obligation(self, obligation: Obligation, chain: Chain, kept: bool, after: int) -> Demand:
+        key = id(obligation), kept, after
+        known = self._fixed.get(key)
+        if known is not None and known[0] is obligation:
+            return known[1]
+        chains: list[Clause] = []
+
+        def literals(clause: Clause) -> Sequence[int]:
+            chains.append(clause)
+            return chain(clause)
+
+        demand = self._demand(obligation, literals, kept, after)
+        if not chains:
+            self._fixed[key] = obligation, demand
+        return demand
+
+    def _demand(self, obligation: Obligation, chain: Chain, kept: bool, after: int) -> Demand:
         cases = None if self._lengths is None else self._lengths.cases(obligation)
         if cases is not None:
             return self.of_clause(cases, chain, kept, after)
@@ -137,7 +157,7 @@ class Responses:
     def _choices_of_chain(self, clause: Clause) -> Iterator[tuple[int, ...]]:
         for number, member in enumerate(in_text_order(clause)):
             for parts in product(*(list(self._choices(obligation)) for obligation in member.obligations)):
-                yield (number, *chained.from_iterable(parts))
+                yield (*([number] if clause.hedges else ()), *chained.from_iterable(parts))
 
     def deciding(self, obligation: Obligation, choice: tuple[int, ...], chain: Chain) -> list[int]:
         """The literals for which the chains inside a response decide as in `choice`."""

@@ -7,7 +7,7 @@ demands of one response, each of them that is not met otherwise has these instan
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from sleec_runtime.model import Value
@@ -39,6 +39,37 @@ class Template:
     acts: frozenset[str] = frozenset()
     later: tuple[tuple[int, Later], ...] = ()
     policies: tuple[tuple[Pending, tuple[Later, ...]], ...] = ()
+
+    def policy(self, pending: Pending) -> tuple[Later, ...]:
+        """The policy for a pending demand: its own, or that of the same response with other lengths of its windows."""
+        known = dict(self.policies)
+        if pending in known:
+            return known[pending]
+        for other, policy in self.policies:
+            if other.obligation is pending.obligation and other.number == pending.number and other.rule is pending.rule:
+                moved = [_moved(later.seconds, other.atoms, pending.atoms) for later in policy]
+                if None not in moved:
+                    return tuple(
+                        replace(later, seconds=seconds) for later, seconds in zip(policy, moved) if seconds is not None
+                    )
+        return ()
+
+
+def _moved(seconds: int, atoms: Sequence[Occurs], others: Sequence[Occurs]) -> int | None:
+    """A time that is as far from a bound of the windows of `others` as `seconds` is from the nearest bound of those of
+    `atoms`; None if these are not the same windows with other bounds."""
+    if [(one.event, one.negated) for one in atoms] != [(one.event, one.negated) for one in others]:
+        return None
+    bounds = [
+        (own, other)
+        for one, another in zip(atoms, others)
+        for own, other in ((one.start, another.start), (one.end, another.end))
+        if own is not None and other is not None
+    ]
+    if not bounds:
+        return None
+    own, other = min(bounds, key=lambda bound: abs(bound[0] - seconds))
+    return seconds - own + other
 
 
 def templates_of(found: Continuations) -> Iterator[Template]:
