@@ -19,13 +19,15 @@ from tests.support.timed_strategies import BOOLEANS, SCALE, timed_ruleset
 
 STEPS = 8
 LONG = 60 * 60
+NUMBERS = {"v": (0, 1), "w": (1, 1), "x": (0, 3), "y": (0, 3)}
+"""The values of measures. Those of `v` and `w` are in every range that `timed_ruleset` declares."""
 
 
-def in_minutes(seed: int):
+def in_minutes(seed: int, **features: bool):
     """Windows in whole minutes. Step i comes 7·i seconds after a full minute, so that nothing that it leads to comes
     with another step, even if it is held back for a second or two: what comes from two sides at one reading of the
     clock comes one after the other, and a trace knows no order within an instant."""
-    text = timed_ruleset(seed, relations=0).source.text
+    text = timed_ruleset(seed, relations=0, **features).source.text
     return parse(text.replace(" seconds", " minutes"))
 
 
@@ -47,11 +49,11 @@ def taking_time(ruleset, random: Random) -> set[str]:
 
 
 class World:
-    """A run of the rules, and a log of it."""
+    """A run of the rules, and a log of it. `features` are those of `timed_ruleset`."""
 
-    def __init__(self, seed: int, start: int = 0) -> None:
+    def __init__(self, seed: int, start: int = 0, **features: bool) -> None:
         self.random = Random(seed)
-        self.ruleset = in_minutes(seed)
+        self.ruleset = in_minutes(seed, **features)
         self.clock = VirtualClock(start)
         self.instants: dict[int, set[str]] = {}
         self.values: dict[int, dict[str, Value]] = {}
@@ -97,6 +99,7 @@ class World:
         self.sleec.update({name: value for name, value in values.items() if name in self.sleec.vocabulary})
         if "risk" in self.sleec.vocabulary:
             self.sleec.update({"risk": self.random.choice(SCALE)})
+        self.sleec.update({n: self.random.randint(*NUMBERS[n]) for n in NUMBERS if n in self.sleec.vocabulary})
         waiting = sorted({one.obligation for one in self.sleec.pending() if one.state == "under way"})
         if waiting and self.random.random() < 0.6:
             name = self.random.choice(waiting)
