@@ -95,7 +95,7 @@ _TEXTS = _list(_TEXT)
 _FLAG = _exact("true or false", bool)
 _INTEGER = _exact("an integer", int)
 _DIGEST = _matching("[0-9a-f]{64}", "a SHA-256 in hexadecimal")
-_FILE = _matching(r"[a-z-]+(-[0-9]+)?\.(cnf|lrat)|traces\.json", "the name of a file of a certificate")
+_FILE = _matching(r"[a-z-]+(-[0-9]+)?\.(cnf|lrat)|(traces|templates)\.json", "the name of a file of a certificate")
 _SPAN = _record(dict.fromkeys(("line", "column", "end_line", "end_column"), _INTEGER))
 _CONDITIONS = _table(_TEXT, _exact("a value", bool, int, float, str))
 _DUE = _record(
@@ -133,11 +133,12 @@ _CHECK = _record(
         "name": _matching("[a-z-]+", "the name of a check"),
         "verdict": _one_of("proved", "refuted", "unknown"),
         "reason": _or_null(_TEXT),
-        "evidence": _one_of("proof", "trivial", "witnesses", "situations", "text", "none"),
+        "evidence": _one_of("proof", "trivial", "witnesses", "situations", "traces", "text", "none"),
         "refuted": _INTEGER,
         "models": _INTEGER,
         "files": _list(_FILE),
         "traces": _INTEGER,
+        "uncertified": _list(_record({"what": _TEXT, "why": _TEXT})),
         "findings": _list(_FINDING),
     }
 )

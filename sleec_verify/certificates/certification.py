@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.certificate.coverage import Use
 from sleec_runtime.certificate.manifest import Required
+from sleec_verify.certificates.check_evidence import CheckEvidence
 from sleec_verify.certificates.conflict_freedom import conflict_free
 from sleec_verify.certificates.manifest import Evidence, manifest
 from sleec_verify.certificates.recorder import RecordedQuestion, Recorder
 from sleec_verify.certificates.refutation import Disjunction, disjunctions
-from sleec_verify.certificates.trace_file import TRACES, CheckTrace, traces_text
+from sleec_verify.certificates.theory.theory_questions import not_modelled
+from sleec_verify.certificates.trace_evidence import TEMPLATES, TRACES, CheckTemplates, CheckTrace, file_text
 from sleec_verify.checks import Checking, checks_for
 from sleec_verify.encoding.trace_scope import speaks_of_traces
 from sleec_verify.query.question import is_possible
@@ -29,25 +31,6 @@ if TYPE_CHECKING:
 
 
 NOTHING_REQUIRED = Required()
-
-
-@dataclass(frozen=True)
-class CheckEvidence:
-    """The verdict of a check, the formulas whose refutations prove it, by the names of their files, and the traces that
-    it found."""
-
-    result: CheckResult
-    models: int
-    formulas: dict[str, Disjunction]
-    traces: tuple[CheckTrace, ...] = ()
-
-    def shown(self) -> Evidence:
-        refuted = sum(formula.questions for formula in self.formulas.values())
-        files = (f"{name}.{kind}" for name in self.formulas for kind in ("cnf", "lrat"))
-        return Evidence(self.result, refuted, self.models, tuple(files), len(self.traces))
-
-    def dimacs(self, name: str) -> str:
-        return self.formulas[name].dimacs(f"what sleec-verify refutes for the check {self.result.name}")
 
 
 @dataclass(frozen=True)
@@ -88,14 +71,17 @@ def certify(
         domain = None
     shown, files = [], {}
     traces: list[CheckTrace] = []
+    templates: list[CheckTemplates] = []
     for rebuilt in rebuild(ruleset, domain, untimed, progress, chains=chains):
         shown.append(rebuilt.shown())
         for name, formula in rebuilt.formulas.items():
             files[f"{name}.cnf"] = rebuilt.dimacs(name)
             files[f"{name}.lrat"] = formula.lrat()
         traces += rebuilt.traces
-    if traces:
-        files[TRACES] = traces_text(traces)
+        templates += rebuilt.templates
+    for name, entries in ((TRACES, traces), (TEMPLATES, templates)):
+        if entries:
+            files[name] = file_text(entries)
     digests = {name: sha256(text.encode()).hexdigest() for name, text in files.items()}
     meaning = untimed if speaks_of_traces(ruleset) else None
     whole = manifest(ruleset, domain, meaning, chains, required, shown, digests)
@@ -119,6 +105,9 @@ def rebuild(
     assumed, models = recorder.take()
     recorder.take_traces()
     domains = {id(index.ruleset): (domain, index) for domain, index in checking.by_domain.items()}
+    reasons = (not_modelled(index.ruleset, chains) for index in checking.by_domain.values())
+    uncovered = "; ".join(dict.fromkeys(filter(None, reasons))) or None
+    timed = any(partition_of(index).traces is not None for index in checking.by_domain.values())
     names = checks_for(ruleset)
     for done, name in enumerate(names):
         if progress is not None:
@@ -126,14 +115,15 @@ def rebuild(
         result = checking.result(name)
         asked, found = recorder.take()
         traces = tuple(CheckTrace(name, *domains[id(one.ruleset)], one) for one in recorder.take_traces())
+        templates = tuple(CheckTemplates(name, *domains[id(one.ruleset)], one) for one in recorder.take_free())
         if name == "assumptions":
             asked, found = assumed + asked, models + found
         if name == "conflict":
-            asked = _conflict(checking, recorder, result, asked)
+            asked = _conflict(checking, recorder, result, asked, timed)
         if isinstance(result.verdict, Unknown):
             asked = []
         formulas = _named(name, asked, name == "conflict" and isinstance(result.verdict, Proved))
-        yield CheckEvidence(result, found, formulas, traces)
+        yield CheckEvidence(result, found, formulas, traces, templates, uncovered, timed)
 
 
 def _ask_what_is_possible(index: RulesetIndex) -> bool:
@@ -142,12 +132,13 @@ def _ask_what_is_possible(index: RulesetIndex) -> bool:
 
 
 def _conflict(
-    checking: Checking, recorder: Recorder, result: CheckResult, asked: list[RecordedQuestion]
+    checking: Checking, recorder: Recorder, result: CheckResult, asked: list[RecordedQuestion], timed: bool
 ) -> list[RecordedQuestion]:
     if not isinstance(result.verdict, Proved):
-        # Its findings have witnesses, and that there are no further causes is not claimed.
-        return []
-    if any(partition_of(index).traces is not None for index in checking.by_domain.values()):
+        # Its findings have witnesses, and that there are no further causes is not claimed. That no response complies
+        # with the rules of a conflict is refuted.
+        return [one for one in asked if any(one.questions.values())]
+    if timed:
         return asked
     free = [conflict_free(partition_of(index).situations) for index in checking.by_domain.values()]
     assert all(free), "no cause of a conflict was found"

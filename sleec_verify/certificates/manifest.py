@@ -21,16 +21,28 @@ LEFT_OUT = ("check", "note", "help", "related")
 """The parts of a finding for readers, which are not part of a certificate."""
 
 
+FORMULAS = "that the formulas are those of the rules"
+"""What the oracle certifies, for rules that the theory covers."""
+
+
+class Uncertified(NamedTuple):
+    """`what` is not certified, because of `why`."""
+
+    what: str
+    why: str
+
+
 class Evidence(NamedTuple):
-    """A verdict and its evidence: the number of refuted questions, the number of models (situations or traces), the
-    names of the files with the proofs, and the number of traces in the file of traces. The files alternate between
-    formula and refutation."""
+    """A verdict and its evidence: the number of refuted questions, the number of models (situations), the names of the
+    files with the proofs, the number of traces in the file of traces, and what is not certified. The files alternate
+    between formula and refutation."""
 
     result: CheckResult
     refuted: int
     models: int
     files: tuple[str, ...]
     traces: int = 0
+    uncertified: tuple[Uncertified, ...] = ()
 
     @property
     def evidence(self) -> str:
@@ -40,6 +52,7 @@ class Evidence(NamedTuple):
         - ``trivial``: no question had to be refuted, so the formula is only the empty clause.
         - ``witnesses``: a witness for each finding.
         - ``situations``: every question had a model, so nothing was found.
+        - ``traces``: the same, and each model is a trace in the file of traces.
         - ``text``: the check needs no solver.
         - ``none``: the verdict is unknown.
         """
@@ -50,7 +63,9 @@ class Evidence(NamedTuple):
             return "proof" if self.refuted else "trivial"
         if isinstance(verdict, Refuted) and all(finding.witness for finding in verdict.findings):
             return "witnesses"
-        return "situations" if self.models else "text"
+        if self.models:
+            return "situations"
+        return "traces" if self.traces else "text"
 
 
 def manifest(
@@ -98,6 +113,7 @@ def check_json(one: Evidence, ruleset: Ruleset) -> dict[str, Json]:
         "models": one.models,
         "files": list(one.files),
         "traces": one.traces,
+        "uncertified": [{"what": missing.what, "why": missing.why} for missing in one.uncertified],
         "findings": [
             {
                 key: value

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from itertools import chain
 
 from sleec_runtime.errors import SleecError
+from sleec_verify.results.conflict_freedom import FreeComponent
 from sleec_verify.results.found_trace import FoundTrace
 
 
@@ -16,10 +17,11 @@ class NoModel(SleecError):
 
 @dataclass
 class RecordedQuestion:
-    """A formula and its unsatisfiable questions. Each question asks whether some literals can be true together."""
+    """A formula and its unsatisfiable questions. Each question asks whether some literals can be true together, and has
+    words for what the answer no shows."""
 
     clauses: Sequence[Sequence[int]]
-    questions: dict[tuple[int, ...], None] = field(default_factory=dict)
+    questions: dict[tuple[int, ...], str] = field(default_factory=dict)
 
 
 class Recorder:
@@ -33,20 +35,25 @@ class Recorder:
         self._asked: dict[int, RecordedQuestion] = {}
         self._models = 0
         self._traces: list[FoundTrace] = []
+        self._free: list[FreeComponent] = []
 
-    def refuted(self, clauses: Sequence[Sequence[int]], literals: Sequence[int]) -> None:
-        """Records that no model of `clauses` makes all `literals` true."""
+    def refuted(self, clauses: Sequence[Sequence[int]], literals: Sequence[int], what: str = "") -> None:
+        """Records that no model of `clauses` makes all `literals` true, which shows `what`."""
         asked = self._asked.setdefault(id(clauses), RecordedQuestion(clauses))
-        asked.questions[tuple(dict.fromkeys(literals))] = None
+        asked.questions[tuple(dict.fromkeys(literals))] = what
 
     def satisfied(
         self, clauses: Sequence[Sequence[int]], literals: Sequence[int], holds: Callable[[int], bool]
     ) -> None:
-        """Records a model of `clauses` and `literals`. `holds` says which literals are true in it.
-
-        Raises NoModel, if examining, if it is not a model.
-        """
+        """Records a situation: a model of `clauses` and `literals`. Raises NoModel as `examine`."""
         self._models += 1
+        self.examine(clauses, literals, holds)
+
+    def examine(self, clauses: Sequence[Sequence[int]], literals: Sequence[int], holds: Callable[[int], bool]) -> None:
+        """Checks a model of `clauses` and `literals`, if examining. `holds` says which literals are true in it.
+
+        Raises NoModel if it is not a model.
+        """
         if not self._examining:
             return
         true = set(filter(holds, {*literals, *chain.from_iterable(clauses)}))
@@ -56,6 +63,15 @@ class Recorder:
     def found(self, trace: FoundTrace) -> None:
         """Records a trace that answers a question with yes."""
         self._traces.append(trace)
+
+    def conflict_free(self, component: FreeComponent) -> None:
+        """Records that rules are in no conflict."""
+        self._free.append(component)
+
+    def take_free(self) -> list[FreeComponent]:
+        """The components without conflicts since the last call."""
+        taken, self._free = self._free, []
+        return taken
 
     def take_traces(self) -> list[FoundTrace]:
         """The traces since the last call."""

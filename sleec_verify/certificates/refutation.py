@@ -45,12 +45,16 @@ class Disjunction:
                 self.clauses += ((-selector, literal) for literal in _moved(literals, offset))
             self.variables = switch + len(one.questions)
         self.questions = len(selectors)
+        self._words = [what for one in asked for what in one.questions.values()]
         self.clauses.append(tuple(selectors))
 
     def dimacs(self, title: str) -> str:
         """The formula in DIMACS, with a comment that describes it."""
         rows = [" ".join(map(str, (*clause, 0))) for clause in self.clauses]
         said = f"c {title}\nc satisfiable if and only if one of the {self.questions} questions has a model\n"
+        for number, what in enumerate(self._words, 1):
+            if what:
+                said += f"c question {number}: {what.encode('ascii', 'backslashreplace').decode()}\n"
         return f"{said}p cnf {self.variables} {len(rows)}\n" + "\n".join(rows) + "\n"
 
     def lrat(self) -> str:

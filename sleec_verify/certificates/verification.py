@@ -16,10 +16,12 @@ from sleec_runtime.certificate.signature import SIGNATURE
 from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.support.files import read_file
 from sleec_verify import __version__
-from sleec_verify.certificates.certification import NOTHING_REQUIRED, CheckEvidence, rebuild
+from sleec_verify.certificates.certification import NOTHING_REQUIRED, rebuild
+from sleec_verify.certificates.check_evidence import CheckEvidence
 from sleec_verify.certificates.manifest import check_json, manifest
 from sleec_verify.certificates.theory.trace_oracle import OracleEvaluator
-from sleec_verify.certificates.trace_file import TRACES, CheckTrace, Replayed, TraceReplay, changed_traces
+from sleec_verify.certificates.trace_evidence import TEMPLATES, TRACES, Entry, changed_entries
+from sleec_verify.certificates.trace_replay import Replayed, TraceReplay
 from sleec_verify.certificates.verdict_binding import MOST_SECONDS, UnboundVerdict, VerdictBinding, bind_verdicts
 from sleec_verify.certificates.witnesses import KEYS, Replay, same
 from sleec_verify.encoding.trace_scope import speaks_of_traces
@@ -162,24 +164,25 @@ class _Examined:
 
     def contents(self, progress: Callable[[str, int, int], None] | None) -> Iterator[Problem]:
         """Checks the verdicts, the refutations of the formulas, the witnesses and the traces."""
-        traces: list[CheckTrace] = []
+        stored: dict[str, list[Entry]] = {TRACES: [], TEMPLATES: []}
         claimed, ruleset = self._claimed, self._ruleset
         untimed = cast("Untimed", claimed.untimed or "at")
         said = {check["name"]: check for check in claimed.whole["checks"]}
         for rebuilt in rebuild(ruleset, claimed.domain, untimed, progress, examining=True, chains=claimed.chains):
             one = rebuilt.shown()
             self.shown.append(one)
-            traces += rebuilt.traces
+            stored[TRACES] += rebuilt.traces
+            stored[TEMPLATES] += rebuilt.templates
             yield from self._formulas(rebuilt)
             entry = said.get(one.result.name)
             if entry is None:
                 yield Problem("verdict", f"{MANIFEST} has no verdict of the check {one.result.name}")
             else:
                 yield from self._entry(one, entry)
-        yield from self._traces(traces)
+        for name, entries in stored.items():
+            yield from self._entries(name, entries)
         digests = {name: claimed.files.get(name, "") for one in self.shown for name in one.files}
-        if traces:
-            digests[TRACES] = claimed.files.get(TRACES, "")
+        digests.update((name, claimed.files.get(name, "")) for name, entries in stored.items() if entries)
         use = (claimed.domain, claimed.untimed, claimed.chains)
         expected = manifest(ruleset, *use, claimed.required, self.shown, digests)
         for key in expected:
@@ -212,27 +215,26 @@ class _Examined:
                 if reason is not None:
                     yield Problem("proof", f"{proof} does not refute {formula}: {reason}")
 
-    def _traces(self, traces: Sequence[CheckTrace]) -> Iterator[Problem]:
-        """Checks that the file of traces has those that are found now, and replays them."""
-        if traces:
-            yield from self._trace_file(traces)
-        for trace in traces:
-            refusing = self.traces.rejected(trace)
+    def _entries(self, name: str, entries: Sequence[Entry]) -> Iterator[Problem]:
+        """Checks that a file about traces has the entries that are found now, and replays their traces."""
+        if entries and name not in self._claimed.files:
+            yield Problem("file-missing", f"the certificate has no {name}")
+        elif entries:
+            data = self._read(name)
+            if isinstance(data, Problem):
+                yield data
+            else:
+                if sha256(data).hexdigest() != self._claimed.files[name]:
+                    yield Problem("file-changed", f"the hash of {name} does not match {MANIFEST}")
+                yield from (self._rejected(name, message) for message in changed_entries(name, data, entries))
+        for entry in entries:
+            refusing = self.traces.rejected(entry)
             if refusing is not None:
-                yield Problem("witness", f"{refusing} does not confirm {trace}")
+                yield self._rejected(name, f"{refusing} does not confirm {entry}")
 
-    def _trace_file(self, traces: Sequence[CheckTrace]) -> Iterator[Problem]:
-        if TRACES not in self._claimed.files:
-            yield Problem("file-missing", f"the certificate has no {TRACES}")
-            return
-        data = self._read(TRACES)
-        if isinstance(data, Problem):
-            yield data
-            return
-        if sha256(data).hexdigest() != self._claimed.files[TRACES]:
-            yield Problem("file-changed", f"the hash of {TRACES} does not match {MANIFEST}")
-        for message in changed_traces(data, traces):
-            yield Problem("witness", message)
+    @staticmethod
+    def _rejected(name: str, message: str) -> Problem:
+        return Problem("template", message) if name == TEMPLATES else Problem("witness", message)
 
     def _entry(self, one: Evidence, entry: Mapping[str, Any]) -> Iterator[Problem]:
         """Checks the entry of a check in the manifest against the rules, and replays its witnesses."""

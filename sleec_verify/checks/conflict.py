@@ -18,6 +18,7 @@ from sleec_verify.checks.untimed_conflicts import Cause, Enough, causes
 from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.query.inconsistent_sets import InconsistentSet, InconsistentSets, opposite
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
+from sleec_verify.results.conflict_freedom import FreeComponent
 from sleec_verify.results.finding import ClauseRef, Finding, Witness
 from sleec_verify.results.found_trace import FoundTrace
 from sleec_verify.results.phrases import clause_name, listed, quoted
@@ -67,6 +68,9 @@ def _of_traces(whole: TraceIndex, component: TraceIndex, incomplete: list[str]) 
             instants = (*conflict.history, conflict.now)
             whole.recorder.found(FoundTrace(whole.root.ruleset, "conflict", conflict.pairs, instants))
         yield _of_trace(whole, conflict)
+    if whole.recorder is not None and search.templates is not None:
+        labels = tuple(rule.label for rule in component.rules)
+        whole.recorder.conflict_free(FreeComponent(whole.root.ruleset, labels, search.templates))
     if search.may_be_more:
         incomplete += (label for label in search.chained if label not in incomplete)
 

@@ -145,10 +145,7 @@ def _hedges_in_traces(traces: TraceIndex) -> Iterator[Finding]:
     def of(place: tuple[Rule, int]) -> Iterator[Finding]:
         rule, number = place
         less = without_hedge(rule, number)
-        if (
-            find_difference(traces, rule, number, less, violated=True).trace is not None
-            or find_difference(traces, rule, number, less, violated=False).trace is not None
-        ):
+        if find_difference(traces, rule, number, less).trace is not None:
             return
         hedge = list(rule.clauses())[number]
         yield REDUNDANT_HEDGE.finding(

@@ -8,14 +8,15 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from threading import current_thread, main_thread
 from types import TracebackType
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import pysolvers
 
 from sleec_verify.encoding.budget import Budget, Undecided, current, spend
+from sleec_verify.results.conflict_freedom import FreeComponent
 from sleec_verify.results.found_trace import FoundTrace
 
-__all__ = ["CONFLICT_BUDGET", "MiniSat", "Recorder", "Solver", "Undecided"]
+__all__ = ["CONFLICT_BUDGET", "MiniSat", "Recorder", "Refutation", "Solver", "Undecided"]
 
 CONFLICT_BUDGET = 500_000
 """The maximal number of conflicts of a question. Questions about rules that people write need a few dozen."""
@@ -59,21 +60,37 @@ class Solver(Protocol):
     ) -> None: ...
 
 
-class Recorder(Protocol):
-    """Receives every question of a check after its answer. The identity of a list of clauses identifies the formula."""
+class Refutation(NamedTuple):
+    """No model of `clauses` makes all `literals` true."""
 
-    def refuted(self, clauses: Sequence[Sequence[int]], literals: Sequence[int]) -> None:
-        """No model of the clauses makes all these literals true."""
+    clauses: Sequence[Sequence[int]]
+    literals: Sequence[int]
+
+
+class Recorder(Protocol):
+    """Receives the questions of a check that decide it, after their answers. The identity of a list of clauses
+    identifies the formula."""
+
+    def refuted(self, clauses: Sequence[Sequence[int]], literals: Sequence[int], what: str = "") -> None:
+        """No model of the clauses makes all these literals true. `what` is what this shows, in words."""
         ...
 
     def satisfied(
         self, clauses: Sequence[Sequence[int]], literals: Sequence[int], holds: Callable[[int], bool]
     ) -> None:
-        """`holds` tells what is true in a model of the clauses that makes all these literals true."""
+        """`holds` tells what is true in a model of the clauses that makes all these literals true: a situation."""
+        ...
+
+    def examine(self, clauses: Sequence[Sequence[int]], literals: Sequence[int], holds: Callable[[int], bool]) -> None:
+        """The same, for a step of a search."""
         ...
 
     def found(self, trace: FoundTrace) -> None:
         """A question was answered with yes by this trace."""
+        ...
+
+    def conflict_free(self, component: FreeComponent) -> None:
+        """No situation of these rules is without one of these templates."""
         ...
 
 

@@ -12,6 +12,7 @@ from sleec_runtime.model import CLAIM_KINDS, Claim, ClaimKind, Rule, Ruleset, cl
 from sleec_verify.encoding.relations import events_of
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay.trace_evaluator import RUNTIME, TraceEvaluator
+from sleec_verify.results.conflict_freedom import Example
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.found_trace import FoundTrace
 from sleec_verify.results.timeline import Timeline
@@ -56,6 +57,13 @@ def replay_found(index: RulesetIndex, found: FoundTrace, evaluator: TraceEvaluat
     broken_without = _broken(index, without, trace, evaluator)
     found_both = (broken, broken_without) if found.shows == "violation-with-hedge" else (broken_without, broken)
     return found_both == ({label}, set())
+
+
+def replay_example(index: RulesetIndex, example: Example, evaluator: TraceEvaluator = RUNTIME) -> bool:
+    """Whether an evaluator confirms that the continuation of a template complies with the rules of an example: the
+    whole trace violates neither these rules nor a relation."""
+    trace = Trace(tuple(Instant(*instant) for instant in example.instants))
+    return not evaluator.violations(_with(_about(index, trace), example.rules), trace, index.untimed)
 
 
 def _broken(index: RulesetIndex, ruleset: Ruleset, trace: Trace, evaluator: TraceEvaluator) -> set[str]:

@@ -6,17 +6,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from sleec_verify.certificates.checker import IN_PYTHON
+from sleec_verify.certificates.manifest import FORMULAS, Uncertified
 from sleec_verify.report.escape import as_text
 from sleec_verify.results.finding import Refuted
 from sleec_verify.results.json_values import VERDICTS, Json, dump
-from sleec_verify.results.phrases import counted
+from sleec_verify.results.phrases import counted, listed
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import CertificateRefused
     from sleec_runtime.model import Ruleset
     from sleec_verify.certificates.checker import Checker
     from sleec_verify.certificates.manifest import Evidence
-    from sleec_verify.certificates.trace_file import Replayed
+    from sleec_verify.certificates.trace_replay import Replayed
     from sleec_verify.certificates.verdict_binding import VerdictBinding
     from sleec_verify.results.finding import Verdict
 
@@ -24,6 +25,7 @@ SHOWN_BY = {
     "trivial": "no question to refute",
     "witnesses": "witnesses",
     "situations": "situations, recomputed by --check",
+    "traces": "traces",
     "text": "from the text of the rules",
     "none": "no proof, because there is no verdict",
 }
@@ -62,14 +64,15 @@ def _in_words(
     widest = max(len(one.result.name) for one in shown)
     for one in shown:
         yield f"  {one.result.name:{widest}}  {VERDICTS[type(one.result.verdict)]:8}  {_shown_by(one)}"
+    if replayed is not None and replayed.traces:
+        yield from _replayed(replayed)
     if judge is not None:
+        yield from _uncertified(shown, tied)
         if judge is IN_PYTHON:
             more = "; `make -C proofs/checker` builds a checker that is proved correct"
         else:
             more = ", which is proved correct" if judge.proved else ""
         yield f"proofs checked by {judge.name}{more}"
-    if replayed is not None and replayed.traces:
-        yield from _replayed(replayed)
     verdicts = {one.result.name: one.result.verdict for one in shown}
     for one_tied in tied:
         yield _tied(one_tied, verdicts[one_tied.check])
@@ -112,6 +115,32 @@ def _replayed(replayed: Replayed) -> Iterator[str]:
         yield f"{counted(number, 'trace')} not replayed by the evaluator extracted from the theory in Coq: {reason}"
 
 
+def _uncertified(shown: Sequence[Evidence], tied: Sequence[VerdictBinding]) -> Iterator[str]:
+    """What is not certified, each with its checks, except what `_tied` says."""
+    known = {one.check for one in tied}
+    found: dict[Uncertified, list[str]] = {}
+    for one in shown:
+        for missing in one.uncertified:
+            if missing.what != FORMULAS or one.result.name not in known:
+                found.setdefault(missing, []).append(one.result.name)
+    for missing, names in found.items():
+        yield f"not certified for {listed(names)}: {missing.what}: {missing.why}"
+
+
+def _uncertified_json(shown: Sequence[Evidence], tied: Sequence[VerdictBinding]) -> Json:
+    """For each check, what is not certified and why."""
+    found: dict[str, Json] = {}
+    for one in shown:
+        missing = list(one.uncertified)
+        if all(known.what != FORMULAS for known in missing):
+            missing += (
+                Uncertified(FORMULAS, str(t.reason)) for t in tied if t.check == one.result.name and not t.proved
+            )
+        if missing:
+            found[one.result.name] = [{"what": known.what, "why": known.why} for known in missing]
+    return found
+
+
 def _shown_by(one: Evidence) -> str:
     traces = f"; {counted(one.traces, 'trace')}" if one.traces else ""
     if one.evidence != "proof":
@@ -146,6 +175,7 @@ def _json(
         **({} if judge is None else {"holds": True, "checker": {"name": judge.name, "proved": judge.proved}}),
         **({} if judge is None else {"theory": {t.check: {"proved": t.proved, "reason": t.reason} for t in tied}}),
         **({} if replayed is None else {"traces": _replayed_json(replayed)}),
+        "uncertified": _uncertified_json(shown, tied),
         "checks": checks,
     }
 

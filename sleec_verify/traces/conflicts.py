@@ -8,20 +8,25 @@ situation. If there is none, the facts that no history produces are excluded.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from functools import cached_property
 from typing import NamedTuple
 
 from sleec_runtime.model import Rule
 from sleec_verify.encoding.budget import OutOfBudget, Undecided, share
+from sleec_verify.encoding.solver import Refutation
+from sleec_verify.results.conflict_freedom import UsedTemplate
+from sleec_verify.results.phrases import listed, quoted
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import drop_slots, minimal_rules, weakest_facts
 from sleec_verify.traces.event_conditions import event_of, is_of_state, named_atoms
 from sleec_verify.traces.histories import Histories
 from sleec_verify.traces.index import TraceIndex
+from sleec_verify.traces.model import TraceModel
 from sleec_verify.traces.refinement import Refinement
 from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.trace import TraceInstant
+from sleec_verify.traces.used_templates import used_templates
 from sleec_verify.traces.witness import needed_relations, needed_values
 
 MOST_UNDECIDED = 4
@@ -39,6 +44,10 @@ def _without_states(moment: TraceInstant) -> TraceInstant:
     return moment._replace(conditions={n: v for n, v in moment.conditions.items() if event_of(n) is None})
 
 
+def _named(labels: Iterable[str]) -> str:
+    return listed(map(quoted, labels))
+
+
 class Pair(NamedTuple):
     """A rule and its clause that decides."""
 
@@ -48,13 +57,15 @@ class Pair(NamedTuple):
 
 class Conflict(NamedTuple):
     """The rules, each with the clauses that decide; a lawful history up to now; the inputs of now, with the conditions
-    and measures that matter; the keys of the relations that matter; and the rules that every response triggers now."""
+    and measures that matter; the keys of the relations that matter; the rules that every response triggers now; and the
+    refutation of a response that complies with the rules."""
 
     pairs: tuple[Pair, ...]
     history: tuple[TraceInstant, ...]
     now: TraceInstant
     relations: tuple[str, ...]
     forced: frozenset[str]
+    refutation: Refutation
 
     @property
     def rules(self) -> tuple[str, ...]:
@@ -68,6 +79,10 @@ class ConflictSearch:
         self._index = index = index.stated
         self._found: list[Conflict] = []
         self._undecided: list[Undecided] = []
+        self._conclusions: list[tuple[Refutation, str]] = []
+        """What excluded situations, and what this shows."""
+        self.templates: tuple[UsedTemplate, ...] | None = None
+        """The templates that serve all situations, if there is no conflict and a recorder."""
         self.may_be_more = False
         """Whether there may be further conflicts whose rules do not contain the rules of a conflict found."""
 
@@ -94,10 +109,31 @@ class ConflictSearch:
             self._undecided.append(error)
         if not self._undecided and self.chained:
             self._find_hidden()
+        self._record()
         every = [frozenset(conflict.pairs) for conflict in self._found]
         yield from (one for one, pairs in zip(self._found, every) if not any(other < pairs for other in every))
         if self._undecided:
             raise self._undecided[0]
+
+    def _conclude(self, model: TraceModel, what: str) -> None:
+        """Note the last question of a model that was answered with no."""
+        assert model.refutation is not None, "some question was answered with no"
+        self._conclusions.append((model.refutation, what))
+
+    def _record(self) -> None:
+        """Record the evidence: for each conflict, that no response complies with its rules; if there is none, the last
+        round of the refinement and everything that it rests on."""
+        recorder = self._index.recorder
+        if recorder is None or self._undecided:
+            return
+        for conflict in self._found:
+            recorder.refuted(*conflict.refutation, f"no response complies with {_named(conflict.rules)}")
+        if not self._found:
+            for refutation, what in self._conclusions:
+                recorder.refuted(*refutation, what)
+            rules = _named(self._index.ruleset.by_label)
+            recorder.refuted(*self._refinement.refutation, f"no situation of {rules} is left without a template")
+            self.templates = used_templates(self._situations, self._refinement.templates())
 
     @property
     def chained(self) -> list[str]:
@@ -157,7 +193,7 @@ class ConflictSearch:
         rules = [str(fact[1]) for fact in facts if fact[0] == "rule"]
         continuations = Continuations(s, facts)
         if continuations.complies(rules):
-            self._refinement.learn(continuations)
+            self._refinement.learn(continuations, facts)
             return None
         return self._stuck(continuations, rules, facts)
 
@@ -168,6 +204,7 @@ class ConflictSearch:
         rules = minimal_rules(continuations, rules)
         if not rules:
             s.exclude(weakest_facts(continuations, continuations.core(), s))
+            self._conclude(continuations.model, "the relations allow no response in some situations")
             return None
         core = continuations.core()
         given = {str(fact[1]) for fact in facts if fact[0] == "input" and fact[-1]}
@@ -183,11 +220,14 @@ class ConflictSearch:
                 if not any(fact[0] == "input" and fact[1] in foreign for fact in without.core()):
                     return self._stuck(without, fewer_rules, fewer)
             core = weakest_facts(continuations, core, s)
+            self._conclude(continuations.model, f"no response complies with {_named(rules)}, whatever else occurs")
             for event in sorted(foreign):
                 s.exclude(dict.fromkeys([*core, ("input", event, True)]))
             return None
         if not any(self._decides(label, given) for label in rules):
-            return self._doomed(weakest_facts(continuations, core, s), rules)
+            core = weakest_facts(continuations, core, s)
+            self._conclude(continuations.model, f"no response complies with what is pending of {_named(rules)}")
+            return self._doomed(core, rules)
         facts, continuations, given = self._with_fewer_inputs(rules, facts, continuations, given)
         core = drop_slots(continuations, rules, facts)
         slots = {int(str(f[1])) for f in core if f[0] == "slot"}
@@ -253,6 +293,7 @@ class ConflictSearch:
             own = {n for n, slot in enumerate(s.slots) if slot.rule.label in rules and s.holds(slot.active)}
             if not histories.exist(strict=False):
                 s.exclude(weakest_facts(histories, histories.refuted(), s))
+                self._conclude(histories, f"no lawful history leads to some situations of {_named(rules)}")
                 return None
             histories = Histories(s, self._about_past(core, slots | own), rules)
             if not histories.exist():
@@ -262,11 +303,14 @@ class ConflictSearch:
                     *(("rule", label, True) for label in rules),
                 ]
                 s.add([*(-s.literal(fact) for fact in needed), *(slot.active for slot in others), s.more])
+                self._conclude(histories, f"each history to some situations leaves more of {_named(rules)} pending")
                 return None
         moments, time = histories.history()
         counting = set(core)
         left_out = [fact for fact in continuations.facts if fact not in counting and fact[0] != "state"]
         relations = needed_relations(continuations, rules, left_out)
+        refutation = continuations.model.refutation
+        assert refutation is not None, "no response complies"
         pending = {Pair(s.slots[n].rule.label, s.slots[n].pending.number) for n in slots}
         deciding = [
             pair
@@ -277,7 +321,8 @@ class ConflictSearch:
         values = needed_values(s, continuations, rules, left_out, deciding, s.instant.values(s.holds))
         now = TraceInstant(time, frozenset(given), values)
         stated = tuple(key for key in relations if not is_of_state(self._index.relation_by_key[key]))
-        return Conflict(pairs, tuple(map(_without_states, moments)), _without_states(now), stated, forced)
+        history = tuple(map(_without_states, moments))
+        return Conflict(pairs, history, _without_states(now), stated, forced, refutation)
 
     def _about_past(self, core: list[Fact], slots: set[int]) -> list[Fact]:
         """The facts of a core about the past, with all facts about some slots."""

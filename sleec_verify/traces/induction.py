@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from sleec_verify.encoding.budget import as_far_as_decided
+from sleec_verify.results.phrases import listed, quoted
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.model import TraceModel
 
@@ -57,19 +58,28 @@ def impossible_events(index: TraceIndex, counting: Collection[str], among: Colle
     `counting`, as far as this is decided. At most quadratic in the number of events."""
     left = set(among)
     while left:
-        possible = {event for event in sorted(left) if _can_be_last(index, counting, event, left)}
+        refuted = {event: _never_last(index, counting, event, left) for event in sorted(left)}
+        possible = {event for event, model in refuted.items() if model is None}
         if not possible:
+            for event, model in refuted.items():
+                assert model is not None, "no event is possible"
+                model.conclude(f"each occurrence of {quoted(event)} requires a later one of {listed_events(left)}")
             break
         left -= possible
     return frozenset(left)
 
 
-def _can_be_last(index: TraceIndex, counting: Collection[str], event: str, group: Collection[str]) -> bool:
-    """Whether an event can occur at an instant after which none of a group occurs."""
+def listed_events(events: Collection[str]) -> str:
+    """Events, in words."""
+    return listed(map(quoted, sorted(events)))
+
+
+def _never_last(index: TraceIndex, counting: Collection[str], event: str, group: Collection[str]) -> TraceModel | None:
+    """The model that refutes that an event occurs at an instant after which none of a group occurs. None if it can."""
     model = TraceModel(index)
     last = model.instant(model.formula.true)
     for other in group:
         model.exclude(model.formula.true, other, after=last)
     with as_far_as_decided():
-        return model.ask(model.instants[last].event(event), counting=counting)
-    return True
+        return None if model.ask(model.instants[last].event(event), counting=counting) else model
+    return None

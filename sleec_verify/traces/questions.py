@@ -12,6 +12,7 @@ from sleec_verify.encoding.mentioned_names import add_claim
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.results.found_trace import FoundTrace, Shows
+from sleec_verify.results.phrases import quoted
 from sleec_verify.traces.cone import cone
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.induction import InductiveModel
@@ -29,6 +30,13 @@ class Answer(NamedTuple):
 
     trace: tuple[TraceInstant, ...] | None
     matter: tuple[str, ...] = ()
+    model: TraceModel | None = None
+
+    def conclude(self, what: str) -> Answer:
+        """Record the answer no, as one that decides. `what` is what it shows."""
+        if self.model is not None:
+            self.model.conclude(what)
+        return self
 
 
 class _Shown(NamedTuple):
@@ -43,35 +51,49 @@ class _Shown(NamedTuple):
 def find_violation(index: TraceIndex, rule: Rule) -> Answer:
     """A trace that violates `rule` and satisfies everything else. Without one, the rule is redundant."""
     shown = _Shown("violation", rule.label)
-    return _ask(_about(index, [rule]), shown, lambda model, at: [_broken(model, at, rule)], but=rule)
+    answer = _ask(_about(index, [rule]), shown, lambda model, at: [_broken(model, at, rule)], but=rule)
+    return answer.conclude(f"no trace violates {quoted(rule.label)} and nothing else")
 
 
-def find_difference(index: TraceIndex, rule: Rule, number: int, without: Rule, *, violated: bool) -> Answer:
+def find_difference(index: TraceIndex, rule: Rule, number: int, without: Rule) -> Answer:
     """A trace that violates `rule`, and satisfies everything if `without` is in its place: the rule without its hedge
-    `number`. If not `violated`, the reverse."""
-    shown = _Shown("violation-with-hedge" if violated else "violation-without-hedge", rule.label, number, without)
-    if not violated:
-        rule, without = without, rule
-    part = _about(index, [rule, without])
+    `number`. Or the reverse."""
+    first = _violation_of_one(index, rule, without, _Shown("violation-with-hedge", rule.label, number, without))
+    if first.trace is not None:
+        return first
+    second = _violation_of_one(index, without, rule, _Shown("violation-without-hedge", rule.label, number, without))
+    if second.trace is None:
+        hedge = f"hedge {number} of {quoted(rule.label)}"
+        first.conclude(f"no trace violates something only with {hedge}")
+        second.conclude(f"no trace violates something only without {hedge}")
+    return second
+
+
+def _violation_of_one(index: TraceIndex, rule: Rule, other: Rule, shown: _Shown) -> Answer:
+    """A trace that violates `rule`, and satisfies everything with `other` (of the same trigger and label) in its
+    place."""
+    part = _about(index, [rule, other])
     exchanged = [r for r in part.by_trigger[rule.trigger] if r.label != rule.label]
-    rules = {**part.by_trigger, rule.trigger: [*exchanged, without]}
+    rules = {**part.by_trigger, rule.trigger: [*exchanged, other]}
     return _ask(part, shown, lambda model, at: [_broken(model, at, rule)], rules=rules)
 
 
 def find_trigger(index: TraceIndex, rule: Rule) -> Answer:
     """A trace in which `rule` is triggered and its guard holds. Without one, the rule is vacuous."""
-    return _ask(
+    answer = _ask(
         _about(index, [rule]),
         _Shown("trigger", rule.label),
         lambda model, at: [model.instants[at].event(rule.trigger), model.condition(at, rule.guard)],
     )
+    return answer.conclude(f"no trace triggers {quoted(rule.label)} without a violation")
 
 
 def find_decision(index: TraceIndex, rule: Rule, clause: int) -> Answer:
     """An instant at which a clause of `rule` decides, in a trace that satisfies the relations but not necessarily
     the rules."""
     shown = _Shown("decision", rule.label, clause)
-    return _ask(_about(index, [rule]), shown, lambda model, at: [model.guards(at, rule)[clause][1]], rules={})
+    answer = _ask(_about(index, [rule]), shown, lambda model, at: [model.guards(at, rule)[clause][1]], rules={})
+    return answer.conclude(f"hedge {clause} of {quoted(rule.label)} decides in no trace")
 
 
 def find_claim(index: TraceIndex, claim: Claim) -> Answer:
@@ -101,7 +123,8 @@ def find_claim(index: TraceIndex, claim: Claim) -> Answer:
     add_claim(claim, events, formulas, lengths)
     names = [name for formula in formulas for name in names_in(formula)]
     names += [("measure", measure) for length in lengths for measure in length.measures]
-    return _ask(cone(index, events, names), _Shown(claim.kind, claim.label), what)
+    answer = _ask(cone(index, events, names), _Shown(claim.kind, claim.label), what)
+    return answer.conclude(f"the {claim.kind} {quoted(claim.label)} occurs in no trace without a violation")
 
 
 def _parts(claim: Claim) -> list[Claim]:
@@ -147,7 +170,7 @@ def _ask(
             about = ((shown.label, shown.number),)
             index.recorder.found(FoundTrace(index.root.ruleset, shown.shows, about, trace, shown.changed))
         return Answer(trace)
-    return Answer(None, tuple(_minimal(model, required)))
+    return Answer(None, tuple(_minimal(model, required)), model)
 
 
 def _minimal(model: TraceModel, required: Sequence[int]) -> list[str]:

@@ -6,11 +6,13 @@ SMT: B. Dutertre, "Solving exists/forall problems with Yices", 2015.)
 
 from __future__ import annotations
 
-from sleec_verify.encoding.solver import Undecided
+from collections.abc import Collection, Iterator
+
+from sleec_verify.encoding.solver import Refutation, Undecided
 from sleec_verify.traces.blocking import Defeat
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.pending_demands import most_prohibitions
-from sleec_verify.traces.situations import Situations
+from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.templates import Template, templates_of
 
 MOST_COPIES = 8
@@ -35,11 +37,15 @@ class Refinement:
         self._without_history = [-active for active in s.active.values() if active != s.true]
         self._shared: dict[Template, int] = {}
         """For each template, the literal that leaves only the situations that it does not fit."""
+        self._origins: dict[Template, tuple[Fact, ...]] = {}
+        """The situations in which templates were found."""
         self._lifted: dict[Template, int] = {}
         """The same, for templates with slots of their own."""
         # A demand, and an instant of a policy for each prohibition in it; or two instants that coincide.
         self._own = 1 + max(most_prohibitions(s.index), 1)
         self._copies = 0
+        self.refutation = Refutation(s.formula.clauses, ())
+        """Of the last question whether a situation is left."""
         self._add(Template())
 
     def propose(self, copies: int = MOST_COPIES) -> bool:
@@ -54,24 +60,39 @@ class Refinement:
                 if s.find(*assumed, -s.more, *self._shared.values()):
                     return True
             if not s.several:
-                return False
+                return self._none_left()
             for template in [template for template, literal in self._shared.items() if literal in s.core]:
                 self._lift(template)
         while not s.find_least(-s.more, *self._lifted.values()):
             if -s.more not in s.core:
-                return False
+                return self._none_left()
             if self._copies >= copies:
                 raise Undecided(f"no conflict found with {self._copies} more pending triggers of each response")
             self._copies += 1
             s.add_copies(1)
         return True
 
-    def learn(self, continuations: Continuations) -> None:
-        """Exclude the situations that the last continuation fits. Raises `Undecided` after too many."""
+    def _none_left(self) -> bool:
+        # Later questions add to the formula, and this one is about the clauses of now.
+        self.refutation = Refutation(list(self._situations.formula.clauses), list(self._situations.core))
+        return False
+
+    def templates(self) -> Iterator[tuple[Template, int, tuple[Fact, ...]]]:
+        """The templates in the refutation that ended the search, each with the literal that leaves only the situations
+        that it does not fit, and the facts of a situation in which it was found (none: it is the first one)."""
+        known = self._lifted or self._shared
+        for template, literal in known.items():
+            if literal in self.refutation.literals:
+                yield template, literal, self._origins.get(template, ())
+
+    def learn(self, continuations: Continuations, facts: Collection[Fact]) -> None:
+        """Exclude the situations that the last continuation fits, which is one of a situation with these `facts`.
+        Raises `Undecided` after too many."""
         known = self._lifted or self._shared
         for template in templates_of(continuations):
             if template not in known and len(known) < MOST_TEMPLATES:
                 (self._lift if self._lifted else self._add)(template)
+                self._origins[template] = tuple(facts)
                 return
         raise Undecided(f"no answer after {len(known)} continuations")
 

@@ -263,8 +263,6 @@ class Situations:
                 raise Undecided("the solver reached its limit of conflicts")
             if not answer:
                 self.core = set(self._solver.core())
-                if recorder is not None:
-                    recorder.refuted(self.formula.clauses, list(self.core))
                 return False
             refused = self.times.refused(self.holds, self._used())
             lemma = self.instant.measures.refused(self.holds, recorder is not None)

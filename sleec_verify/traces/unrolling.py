@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 from sleec_runtime.model import Formula as Condition
 from sleec_runtime.model import Value
-from sleec_verify.encoding.solver import MiniSat, Undecided
+from sleec_verify.encoding.solver import MiniSat, Refutation, Undecided
 from sleec_verify.traces.difference import Differences
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.instant import Instant, SharedClauses
@@ -79,6 +79,8 @@ class Unrolling(ABC):
         self._solver = MiniSat(budget=MOST_CONFLICTS_CYCLIC if index.is_cyclic else None)
         self._sent = 0
         self._core: set[int] = set()
+        self.refutation: Refutation | None = None
+        """Of the last question that was answered with no."""
         self._asked: tuple[Sequence[int], Collection[str] | None] = (), None
 
     def node(self) -> int:
@@ -166,9 +168,10 @@ class Unrolling(ABC):
         while True:
             if self._solve(required, counting, closed=True):
                 return True
-            if not any(-need.rest in self._core for need in self._needs):
-                return False
-            if not self._solve(required, counting, closed=False):
+            if not any(-need.rest in self._core for need in self._needs) or not self._solve(
+                required, counting, closed=False
+            ):
+                self.refutation = Refutation(self.formula.clauses, list(self._core))
                 return False
             self._grow()
 
@@ -218,13 +221,17 @@ class Unrolling(ABC):
                 raise Undecided("the solver reached its limit of conflicts")
             if not answer:
                 self._core = set(self._solver.core())
-                if recorder is not None:
-                    recorder.refuted(self.formula.clauses, list(self._core))
                 return False
             if not self._expand() and not self._refine():
                 if recorder is not None:
-                    recorder.satisfied(self.formula.clauses, assumed, self._solver.holds)
+                    recorder.examine(self.formula.clauses, assumed, self._solver.holds)
                 return True
+
+    def conclude(self, what: str) -> None:
+        """Record the last question that was answered with no, as one that decides. `what` is what it shows."""
+        assert self.refutation is not None, "some question was answered with no"
+        if self.index.recorder is not None:
+            self.index.recorder.refuted(*self.refutation, what)
 
     def _send(self) -> None:
         for instant in self.instants.values():

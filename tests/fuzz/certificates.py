@@ -118,7 +118,7 @@ def elaboration(data: bytes, folder: Path) -> None:
     clauses, questions, lemmas = (_rows(part) for part in (data.split(b"\xff", 2) + [b""] * 2)[:3])
     questions = questions or [[]]
     possible = any(satisfiable(clauses, question) for question in questions)
-    formula = Disjunction([RecordedQuestion(clauses, dict.fromkeys(map(tuple, questions)))])
+    formula = Disjunction([RecordedQuestion(clauses, dict.fromkeys(map(tuple, questions), ""))])
     try:
         written = formula.lrat()
     except InvalidLemma:

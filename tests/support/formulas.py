@@ -26,7 +26,7 @@ questions = st.lists(st.lists(literals, max_size=3).map(tuple), min_size=1, max_
 
 def asked() -> st.SearchStrategy[list[RecordedQuestion]]:
     """Formulas with questions, whatever the answers."""
-    one = st.builds(lambda c, q: RecordedQuestion(c, dict.fromkeys(q)), clauses(), questions)
+    one = st.builds(lambda c, q: RecordedQuestion(c, dict.fromkeys(q, "")), clauses(), questions)
     return st.lists(one, max_size=3)
 
 

@@ -42,7 +42,7 @@ def test_refutations_that_need_search(seed: int) -> None:
         literals = [(v,) for v in range(1, 61) if not solver.solve([v])]
         literals += [(-v,) for v in range(1, 61) if not solver.solve([-v])]
     formula = Disjunction(
-        [RecordedQuestion(clauses, dict.fromkeys(literals)), RecordedQuestion(threes(30, 7, seed), {(): None})]
+        [RecordedQuestion(clauses, dict.fromkeys(literals, "")), RecordedQuestion(threes(30, 7, seed), {(): ""})]
     )
     lrat.check(formula.dimacs("a test"), formula.lrat())
     assert any(steps for steps, _ in [refute(clauses, literals), refute(threes(30, 7, seed), [()])])
@@ -56,7 +56,7 @@ def test_no_question_at_all_is_refuted_by_nothing() -> None:
 
 def test_large_ones_become_several(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sleec_verify.certificates.refutation.MOST_LITERALS", 5)
-    parts = list(disjunctions([RecordedQuestion([[1], [-1, 2], [-2]], {(): None}) for _ in range(3)]))
+    parts = list(disjunctions([RecordedQuestion([[1], [-1, 2], [-2]], {(): ""}) for _ in range(3)]))
     assert [part.questions for part in parts] == [1, 1, 1]
 
 
@@ -82,7 +82,7 @@ def test_what_the_solver_forgets_is_taken_back_where_it_is_needed() -> None:
     clauses = threes(190, 5, 2)
     lemmas = refutation.learnt_clauses(clauses, [()])
     assert sum(lemma.forgotten for lemma in lemmas) > 100
-    formula = Disjunction([RecordedQuestion(clauses, {(): None})])
+    formula = Disjunction([RecordedQuestion(clauses, {(): ""})])
     lrat.check(formula.dimacs("a test"), formula.lrat())
 
 

@@ -16,7 +16,8 @@ from sleec_runtime.errors import CertificateRefused
 from sleec_runtime.language import load, parse
 from sleec_verify.certificates.certification import rebuild
 from sleec_verify.certificates.checker import IN_PYTHON
-from sleec_verify.certificates.trace_file import TRACES, CheckTrace, TraceReplay
+from sleec_verify.certificates.trace_evidence import TRACES, CheckTrace
+from sleec_verify.certificates.trace_replay import TraceReplay
 from sleec_verify.certificates.verification import check_certificate
 from tests.fast.certificates.test_refused import copied, reasons, rehash, rewrite
 from tests.thorough.certificates.test_certificates import source, written
@@ -118,7 +119,7 @@ def test_the_message_names_the_trace(made: Path, tmp_path: Path) -> None:
     rehash(folder)
     with pytest.raises(CertificateRefused) as refusal:
         check_certificate(load(folder / "rules.sleec"), str(folder / "c"), IN_PYTHON)
-    assert "traces.json does not show the conflict of `R1`, `R2` (conflict)" in str(refusal.value)
+    assert "traces.json does not show the conflict of `R1` and `R2` (conflict)" in str(refusal.value)
 
 
 @pytest.mark.parametrize("text", ["", "[\n\n]\n", "[]", "\x00", "\u00e9" * 9])

@@ -100,7 +100,7 @@ def test_no_proof_of_what_has_a_model_is_accepted(
     draw = random.Random(seed)
     if has_model(refuted):
         return
-    formula = Disjunction([RecordedQuestion(refuted, {(): None})])
+    formula = Disjunction([RecordedQuestion(refuted, {(): ""})])
     part = list(formula.clauses)
     for _ in range(fewer):
         part.pop(draw.randrange(len(part)))

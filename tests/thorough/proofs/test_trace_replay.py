@@ -14,7 +14,8 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.certificates.certification import rebuild
 from sleec_verify.certificates.theory.oracle import NoAnswer
 from sleec_verify.certificates.theory.trace_oracle import OracleEvaluator
-from sleec_verify.certificates.trace_file import CheckTrace, TraceReplay
+from sleec_verify.certificates.trace_evidence import CheckTrace
+from sleec_verify.certificates.trace_replay import TraceReplay
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.replay.traces import replay_found
 from tests.support.studies import each_study
