@@ -79,7 +79,13 @@ def _examined(one: RulesetExamination) -> Json:
         "unused_suppressions": [{"line": one.line(unused.span), "allowed": [unused.allowed]} for unused in one.unused],
         "coverage": None
         if reached is None or reached.why is not None
-        else {"reached": reached.reached, "clauses": reached.clauses, "missed": list(reached.missed)},
+        else {
+            "reached": reached.reached,
+            "clauses": reached.clauses,
+            "missed": list(reached.missed),
+            "windows_reached": reached.windows_reached,
+            "windows": reached.windows,
+        },
         "certificate": _certificate(one.certificate),
         "errors": [error_json(error) for error in one.errors],
     }

@@ -1,33 +1,35 @@
-"""The clauses that the cases beside a ruleset reach: ``household.cases.toml`` beside ``household.sleec``."""
+"""The clauses and windows that the cases beside a ruleset reach: ``household.cases.toml`` beside ``household.sleec``."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from sleec_runtime.errors import SleecError, UnsupportedTimes
+from sleec_runtime.errors import SleecError
 from sleec_runtime.model import Ruleset
 from sleec_verify.changes.gate.result import Coverage
 from sleec_verify.conformance.cases.coverage import reached_clauses
 from sleec_verify.conformance.cases.goals import clause_name
 from sleec_verify.conformance.cases.reader import SUFFIX, read_cases
+from sleec_verify.conformance.scenarios.windows import reached_windows, windows_of
 
 
 def coverage(ruleset: Ruleset, errors: list[SleecError]) -> Coverage | None:
-    """The coverage of one ruleset. Without cases, no clause is reached. Errors in the cases go to `errors`."""
-    every = {(rule.label, number): rule for rule in ruleset.rules for number, _ in enumerate(rule.clauses())}
+    """The coverage of one ruleset. Without cases, nothing is reached. Errors in the cases go to `errors`."""
+    clauses = {(rule.label, number): rule for rule in ruleset.rules for number, _ in enumerate(rule.clauses())}
+    windows = [window for rule in ruleset.rules for window in windows_of(rule)]
     path = Path(ruleset.source.path)
-    cases = path.with_name(path.name.removesuffix(".sleec") + SUFFIX)
-    if ruleset.is_timed:
-        return Coverage(0, len(every), why="cases do not support rules with time yet")
+    file = path.with_name(path.name.removesuffix(".sleec") + SUFFIX)
     reached: set[tuple[str, int]] = set()
-    if cases.exists():
+    met: set[object] = set()
+    if file.exists():
         try:
-            found = read_cases(cases, ruleset).situations
-        except UnsupportedTimes as error:
-            return Coverage(0, len(every), why=str(error))
+            found = read_cases(file, ruleset)
+            reached.update(reached_clauses(ruleset, found.cases))
+            met.update(reached_windows(ruleset, found.scenarios))
         except SleecError as error:
             errors.append(error)
             return None
-        reached = reached_clauses(ruleset, found)
-    missed = tuple(clause_name(rule, place[1]) for place, rule in every.items() if place not in reached)
-    return Coverage(len(reached), len(every), missed)
+    missed = [clause_name(rule, place[1]) for place, rule in clauses.items() if place not in reached]
+    missed += [str(window) for window in windows if window not in met]
+    counted = len(met), len(windows)
+    return Coverage(len(reached), len(clauses), tuple(missed), None, *counted)

@@ -115,7 +115,7 @@ def _on_ruleset(one: RulesetExamination, policy: Policy) -> Iterator[Block]:
         reached = one.coverage
         if reached.percent < policy.clause_coverage:
             most = [*reached.missed[:5], *(["…"] if len(reached.missed) > 5 else [])]
-            what = f"the cases cover {reached.reached} of {reached.clauses} clauses; "
+            what = f"the cases cover {reached}; "
             what += f"the policy requires {policy.clause_coverage:g} %; not covered: {', '.join(most)}"
             yield _block("clause-coverage", one.path, what)
 

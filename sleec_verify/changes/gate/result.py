@@ -33,16 +33,24 @@ class Block(NamedTuple):
 
 
 class Coverage(NamedTuple):
-    """How many of a ruleset's clauses its cases reach. `why` says why that is unknown."""
+    """How many of a ruleset's clauses its cases reach, and how many of its windows they meet or miss. `missed` are the
+    others. `why` says why that is unknown."""
 
     reached: int
     clauses: int
     missed: tuple[str, ...] = ()
     why: str | None = None
+    windows_reached: int = 0
+    windows: int = 0
 
     @property
     def percent(self) -> float:
-        return 100 * self.reached / self.clauses if self.clauses else 100.0
+        goals = self.clauses + self.windows
+        return 100 * (self.reached + self.windows_reached) / goals if goals else 100.0
+
+    def __str__(self) -> str:
+        clauses = f"{self.reached} of {self.clauses} clauses"
+        return f"{clauses} and {self.windows_reached} of {self.windows} windows" if self.windows else clauses
 
 
 @dataclass

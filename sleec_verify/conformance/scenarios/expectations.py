@@ -40,17 +40,19 @@ def _changed(values: Mapping[str, Value], changes: Mapping[str, Value | None]) -
 def unexpected(ruleset: Ruleset, scenario: Scenario) -> Iterator[str]:
     """The differences between what a scenario states and what the rules of its domain require, in words.
 
-    The windows are those of the solver, and the evaluator of traces finds violations. Raises `Undecided`.
+    The windows are those of the solver, and the evaluator of traces finds violations. Raises WrongType for a measure
+    without a value that gives the length of a window.
     """
     trace = trace_of(scenario)
+    instants = tuple(Instant(one.time, one.events, one.conditions) for one in trace)
+    broken = violations(ruleset, Trace(instants))
     due = due_in(TraceIndex(ruleset), trace)
     yield from _different("obligation", scenario.obligations, [one for one in due if not one.negated])
     if scenario.prohibitions is not None:
         yield from _different("prohibition", scenario.prohibitions, [one for one in due if one.negated])
-    instants = tuple(Instant(one.time, one.events, one.conditions) for one in trace)
-    for broken in violations(ruleset, Trace(instants)):
-        text = ruleset.source.text[broken.statement.span.start : broken.statement.span.end].split("\n")[0]
-        yield f"violated at {broken.time}: {text}"
+    for one in broken:
+        text = ruleset.source.text[one.statement.span.start : one.statement.span.end].split("\n")[0]
+        yield f"violated at {one.time}: {text}"
 
 
 def _different(what: str, stated: Sequence[Due], required: Sequence[Due]) -> Iterator[str]:

@@ -16,7 +16,7 @@ from typing import NamedTuple
 from sleec_runtime.language import print_formula
 from sleec_runtime.model import Clause, Obligation, Rule, Timing, in_text_order
 from sleec_verify.conformance.cases.goals import clause_name
-from sleec_verify.conformance.scenarios.lawful_traces import LawfulTraces
+from sleec_verify.conformance.scenarios.lawful_traces import LawfulTraces, fixed_window
 from sleec_verify.traces.demands import Occurs
 from sleec_verify.traces.index import TraceIndex
 
@@ -37,7 +37,8 @@ class TraceGoal(NamedTuple):
 
 
 def trace_goals(world: LawfulTraces, criterion: str) -> list[TraceGoal]:
-    """The goals of all rules for a criterion of situations. Raises `Undecided`."""
+    """The goals of all rules for a criterion of situations, except those of `LawfulTraces.unbounded`. Raises
+    `Undecided`."""
     found: list[TraceGoal] = []
     for position in range(len(world.index.rules)):
         for number, goal in enumerate(world.situations(criterion, position)):
@@ -46,7 +47,8 @@ def trace_goals(world: LawfulTraces, criterion: str) -> list[TraceGoal]:
                 return [other.situations(criterion, position)[number].literal]
 
             found.append(TraceGoal(goal.name, situation, _nothing))
-        found += _goals_of_windows(world, position)
+        if world.index.rules[position].label not in world.unbounded:
+            found += _goals_of_windows(world, position)
     return list({goal.name: goal for goal in found}.values())
 
 
@@ -78,6 +80,10 @@ def _goals_of_windows(world: LawfulTraces, position: int) -> Iterator[TraceGoal]
 
 def _goals_of_response(traces: TraceIndex, one: _Response) -> Iterator[TraceGoal]:
     obligation, after = one.obligation, one.after
+    lengths = traces.lengths.cases(obligation)
+    if lengths is not None:
+        yield from _shortest_and_longest(traces, one, lengths)
+        return
     start, end = traces.responses.window(obligation)
     window = Occurs(obligation.name, after + start, None if end is None else after + end)
     timing = obligation.timing or Timing()
@@ -89,6 +95,19 @@ def _goals_of_response(traces: TraceIndex, one: _Response) -> Iterator[TraceGoal
         yield from _alternative(traces, one, "missed", unmet, timing.otherwise, closed)
     if timing.instead is not None:
         yield from _alternative(traces, one, "replaced", unmet, timing.instead, after)
+
+
+def _shortest_and_longest(traces: TraceIndex, one: _Response, lengths: Clause) -> Iterator[TraceGoal]:
+    """The goals of a response whose length is a measure, for its least and its greatest value."""
+    members = list(in_text_order(lengths))
+    for number in sorted({0, len(members) - 1}):
+
+        def decides(world: LawfulTraces, number: int = number) -> list[int]:
+            return [*one.given(world), world.chain(lengths)[number]]
+
+        (obligation,) = members[number].obligations
+        said = f"{one.said} ({_words(obligation).removeprefix(f'{obligation} ')})"
+        yield from _goals_of_response(traces, one._replace(said=said, obligation=obligation, given=decides))
 
 
 def _required(one: _Response, window: Occurs) -> Iterator[TraceGoal]:
@@ -124,9 +143,9 @@ def _asking(traces: TraceIndex, event: str) -> Iterator[tuple[Rule, int, int, bo
     for rule in traces.obliging.get(event, ()):
         for number, clause in enumerate(rule.clauses()):
             for obligation in clause.obligations:
-                if obligation.name == event and not obligation.negated:
-                    start, end = traces.responses.window(obligation)
-                    yield rule, number, start, end != start
+                window = fixed_window(traces, obligation)
+                if window is not None and obligation.name == event and not obligation.negated:
+                    yield rule, number, window[0], window[1] != window[0]
 
 
 def _alternative(

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-from sleec_runtime.model import Clause, Formula, Rule
+from sleec_runtime.model import Clause, Formula, Obligation, Rule, Window
 from sleec_verify.conformance.cases.allowed_situations import Goal
 from sleec_verify.conformance.cases.goals import goals_of_rule
+from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.traces.demands import Occurs
-from sleec_verify.traces.index import trace_index_of
+from sleec_verify.traces.index import TraceIndex, trace_index_of
 from sleec_verify.traces.induction import InductiveModel
 from sleec_verify.traces.model import TraceModel
 from sleec_verify.traces.trace import TraceInstant
@@ -31,6 +32,9 @@ class LawfulTraces:
         self._model = InductiveModel(self.traces) if lawful else TraceModel(self.traces, rules={})
         if single:
             self._model.everywhere(self._one_input)
+        self.unbounded: dict[str, str] = {}
+        """The rules with a window whose length has no bounds, and why. Their triggers do not occur."""
+        self._exclude_unbounded()
         self._now = self._model.instant(self._model.formula.true)
         self.encoder = self._model.instants[self._now]
         self._guards: dict[int, list[int]] = {}
@@ -61,6 +65,14 @@ class LawfulTraces:
         if position not in self._situations:
             self._situations[position] = goals_of_rule(self, criterion, position)
         return self._situations[position]
+
+    def _exclude_unbounded(self) -> None:
+        for rule in self.index.rules:
+            try:
+                self.traces.windows(rule)
+            except Undecided as error:
+                self.unbounded[rule.label] = error.message
+                self._model.exclude(self._model.formula.true, rule.trigger)
 
     # Other instants -------------------------------------------------------------------------------------------
 
@@ -139,8 +151,9 @@ class LawfulTraces:
         for one in self._model.decided:
             if self._model.true(one.guard):
                 for obligation in one.clause.obligations:
-                    window = self.traces.responses.window(obligation)
-                    yield one.at, Occurs(obligation.name, *window, negated=obligation.negated), one.guard
+                    window = fixed_window(self.traces, obligation)
+                    if window is not None:
+                        yield one.at, Occurs(obligation.name, *window, negated=obligation.negated), one.guard
 
     def smallest(self, literals: Iterable[int]) -> tuple[TraceInstant, ...]:
         """A trace that makes these true, without unnecessary instants, events and conditions, at the earliest times
@@ -169,3 +182,18 @@ class LawfulTraces:
         for instant in instants:
             yield from instant.events().values()
             yield from (literal for (kind, *_), literal in instant.state().items() if kind == "condition")
+
+
+def fixed_window(traces: TraceIndex, obligation: Obligation) -> tuple[int, int | None] | None:
+    """The first and the last second of the window of a response, or None if a measure gives its length."""
+    timing = obligation.timing
+    if timing is not None and timing.window is not None and any(lengths_of(timing.window)):
+        return None
+    return traces.responses.window(obligation)
+
+
+def lengths_of(window: Window) -> Iterator[str]:
+    """The measures that give the lengths of a window."""
+    for length in (window.start, window.end):
+        if length is not None:
+            yield from length.measures

@@ -92,7 +92,9 @@ class _Search:
     def __init__(self, index: RulesetIndex, criterion: str, single: bool) -> None:
         self._index = index
         self._single = single
-        self._goals = trace_goals(self._world(False), criterion)
+        world = self._world(False)
+        self._goals = trace_goals(world, criterion)
+        self._unbounded = world.unbounded
 
     def _world(self, startable: bool) -> LawfulTraces:
         return LawfulTraces(self._index, self._single, startable)
@@ -105,7 +107,9 @@ class _Search:
         names = {goal.name for goal, _ in rest}
         waiting = [goal for goal in wanted if not goal.is_startable or goal.name in names]
         more, unreached = self._smallest_cover(waiting, startable=False)
-        return [*sets, *more], [UnreachedGoal(goal.name, why or self._reason(goal)) for goal, why in unreached]
+        found = [UnreachedGoal(goal.name, why or self._reason(goal)) for goal, why in unreached]
+        found += [UnreachedGoal(f"{label}: windows", f"unknown: {why}") for label, why in self._unbounded.items()]
+        return [*sets, *more], found
 
     def _smallest_cover(self, wanted: Sequence[TraceGoal], startable: bool) -> _Cover:
         """The best result of several orders, if there are not too many goals."""
@@ -144,6 +148,8 @@ class _Search:
 
     def _reason(self, goal: TraceGoal) -> str:
         """Why no trace reaches a goal: asks again with fewer requirements."""
+        if self._unbounded:
+            return f"unknown: {' and '.join(dict.fromkeys(self._unbounded.values()))}"
         try:
             if self._single and _Set(LawfulTraces(self._index)).add(goal):
                 return "only if other events also occur"

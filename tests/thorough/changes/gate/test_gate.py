@@ -70,7 +70,7 @@ def test_unknown_is_exit_3_unless_it_may_pass(cli: Cli, repository: Repository) 
     config(repository, block="findings = 'never'")
     code, said = gated(cli)
     assert (code, said["status"]) == (3, "unknown")
-    assert "is a measure" in said["unknown"][0]["what"]
+    assert "nothing bounds `n`" in said["unknown"][0]["what"]
     config(repository, block="findings = 'never'\nunknown = false")
     assert gated(cli)[0] == 0
 
@@ -88,12 +88,35 @@ def test_clause_coverage_counts_the_clauses_that_cases_reach(
     assert said["rulesets"][0]["coverage"]["reached"] == percent // 50
 
 
-def test_coverage_of_rules_with_times_is_unknown(cli: Cli, repository: Repository) -> None:
-    repository.write(a_sleec=TIMED)
-    config(repository, block="clause-coverage = 50")
+def test_coverage_of_rules_with_times_counts_windows(cli: Cli, repository: Repository) -> None:
+    rules = "RULE a\nWHEN t THEN o WITHIN 5 minutes OTHERWISE p WITHIN 2 minutes\n"
+    met = """
+    [[case]]
+    name = "met"
+    steps = [{ at = 0, when = ["t"] }]
+    obligations = [{ name = "o", from = 0, to = 300 }]
+    """
+    missed = """
+    [[case]]
+    name = "missed"
+    steps = [{ at = 0, when = ["t"] }]
+    completions = [{ name = "o", since = 0, at = "never" }]
+    obligations = [{ name = "o", from = 0, to = 300 }, { name = "p", from = 300, to = 420 }]
+    """
+    repository.write(a_sleec=rules, a_cases_toml=met)
+    config(repository, block="clause-coverage = 100")
     code, said = gated(cli)
-    assert code == 3
-    assert any("clause coverage" in block["what"] for block in said["unknown"])
+    assert code == 1
+    assert said["rulesets"][0]["coverage"] == {
+        "reached": 1,
+        "clauses": 1,
+        "missed": ["a (default): o within 5 minutes missed", "a (default): p within 2 minutes met"],
+        "windows_reached": 1,
+        "windows": 3,
+    }
+    assert "the cases cover 1 of 1 clauses and 1 of 3 windows" in said["blocks"][0]["what"]
+    repository.write(a_cases_toml=met + missed)
+    assert gated(cli)[0] == 0
 
 
 def test_cases_that_are_none(cli: Cli, repository: Repository) -> None:
