@@ -61,9 +61,9 @@ class WindowLengths:
         first, *others = self._values(name, str(obligation.timing))
         return Clause(
             None,
-            (_with_value(obligation, name, first),),
+            (with_value(obligation, name, first),),
             tuple(
-                Clause(Comparison(MeasureRef(name), ">=", Number(value)), (_with_value(obligation, name, value),))
+                Clause(Comparison(MeasureRef(name), ">=", Number(value)), (with_value(obligation, name, value),))
                 for value in others
             ),
         )
@@ -142,7 +142,8 @@ def lengths_of(obligation: Obligation) -> Iterator[Length]:
                 yield from lengths_of(other)
 
 
-def _with_value(obligation: Obligation, measure: str, value: int) -> Obligation:
+def with_value(obligation: Obligation, measure: str, value: int) -> Obligation:
+    """An obligation with a number in place of a measure in the lengths of its windows and alternatives."""
     timing = obligation.timing
     if timing is None:
         return obligation
@@ -153,7 +154,7 @@ def _with_value(obligation: Obligation, measure: str, value: int) -> Obligation:
     def of_clause(clause: Clause | None) -> Clause | None:
         if clause is None:
             return None
-        obligations = tuple(_with_value(one, measure, value) for one in clause.obligations)
+        obligations = tuple(with_value(one, measure, value) for one in clause.obligations)
         hedges = tuple(hedge for hedge in map(of_clause, clause.hedges) if hedge is not None)
         return replace(clause, obligations=obligations, hedges=hedges)
 

@@ -25,11 +25,13 @@ from sleec_runtime.model import (
     Truth,
 )
 from sleec_verify.changes.compare.alternatives import plain_responses
+from sleec_verify.changes.compare.measured_windows import implied_where
 from sleec_verify.changes.compare.rule_alignment import RulePair, align, depends_on_reading
 from sleec_verify.changes.compare.sides import RulesetSide, common, compares_any, side
-from sleec_verify.changes.compare.timing_order import implies
 from sleec_verify.encoding.equation import Implication, conjunction, disjunction, implications
+from sleec_verify.encoding.measure_ranges import MeasureRanges
 from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.encoding.window_lengths import measures_of_lengths
 from sleec_verify.query.assumption_slicing import AssumptionSlicing
 from sleec_verify.query.inconsistent_sets import InconsistentSet, opposite
 from sleec_verify.query.names import Name, names_in, names_of_rule
@@ -160,7 +162,9 @@ class Comparison:
         """The names in the rules of these triggers, and in the constraints on them."""
         rows = self.rows_of(triggers)
         for row in rows:
-            yield from names_of_rule(self._plain(self.rows[row]))
+            rule = self._plain(self.rows[row])
+            yield from names_of_rule(rule)
+            yield from (("condition", name) for clause in rule.clauses() for name in measures_of_lengths(clause))
         for constraint in self._constraints_on(rows):
             yield from names_in(constraint.formula)
 
@@ -231,11 +235,22 @@ class Comparison:
     def due(self, rows: Iterable[int], which: SideName, literal: Obligation) -> Formula:
         """The situations in which one of these rules obliges the literal, or one that requires at least as much."""
 
-        def enough(one: Obligation) -> bool:
-            return implies(one, literal, self.untimed) is True
+        found: list[Formula] = []
+        for row in rows:
+            for where, one in self.said(row, which):
+                enough = self.implied_where(one, literal)
+                if enough is not None and enough != Truth(False):
+                    found.append(conjunction([where, enough]))
+        return disjunction(list(dict.fromkeys(found)))
 
-        found = (self.obliges(row, which, enough) for row in rows if self.rows[row].on(which) is not None)
-        return disjunction([formula for formula in found if formula != Truth(False)])
+    def implied_where(self, one: Obligation, literal: Obligation) -> Formula | None:
+        """The situations in which meeting `one` meets the other literal; None if that is unknown."""
+        return implied_where(one, literal, self.untimed, self._ranges)
+
+    @cached_property
+    def _ranges(self) -> MeasureRanges:
+        given = [Assume(one.formula) for which in SIDES for one in self.sides[which].given]
+        return MeasureRanges(given, self.measures)
 
     def conflict(self, rows: Sequence[int], which: SideName) -> Formula:
         """The situations in which the immediate obligations of these rules conflict. Raises `Undecided` if

@@ -17,7 +17,7 @@ from sleec_verify.changes.compare.situation_count import (
     names_of_formulas,
     unknown_extent,
 )
-from sleec_verify.changes.compare.timing_order import implies, incomparability
+from sleec_verify.changes.compare.timing_order import incomparability
 from sleec_verify.changes.diagram.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.witness import smallest_situation
@@ -139,6 +139,6 @@ def _incomparable(comparison: Comparison, rows: list[int], which: SideName, lite
     if literal in against:
         return None
     for one in against:
-        if one.negated == literal.negated and implies(one, literal, comparison.untimed) is None:
+        if one.negated == literal.negated and comparison.implied_where(one, literal) is None:
             return f"the windows of `{literal.name}` cannot be compared: {incomparability(one, literal)}"
     return None

@@ -10,6 +10,7 @@ from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import Context, Exclusive, Formula, Never, Obligation
 from sleec_verify.changes.compare.alternatives import responses_in_situation
 from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, triggered_rules
+from sleec_verify.changes.compare.measured_windows import in_context
 from sleec_verify.changes.compare.result import DecidingClause
 from sleec_verify.changes.compare.sides import Assumption
 from sleec_verify.changes.compare.timing_order import implies
@@ -55,9 +56,11 @@ def conflicts(comparison: Comparison, which: SideName, context: Context, said: I
     return has_conflict(literals, forbidding, Situation(context, stated.measures))
 
 
-def is_due(comparison: Comparison, said: Iterable[DecidingClause], literal: Obligation) -> bool:
-    """Whether one of these clauses obliges the literal, or one that requires at least as much."""
-    return any(implies(o, literal, comparison.untimed) is True for one in said for o in one.obligations)
+def is_due(comparison: Comparison, context: Context, said: Iterable[DecidingClause], literal: Obligation) -> bool:
+    """Whether one of these clauses obliges the literal in a situation, or one that requires at least as much."""
+    wanted = in_context(literal, context.conditions)
+    obligations = (in_context(o, context.conditions) for one in said for o in one.obligations)
+    return any(implies(one, wanted, comparison.untimed) is True for one in obligations)
 
 
 def shows_change(
@@ -72,8 +75,12 @@ def shows_change(
         return False
     if any(conflicts(comparison, which, context, said[which]) for which in SIDES):
         return False
-    return all(is_due(comparison, said["new"], o) and not is_due(comparison, said["old"], o) for o in added) and all(
-        is_due(comparison, said["old"], o) and not is_due(comparison, said["new"], o) for o in removed
+
+    def due(which: SideName, literal: Obligation) -> bool:
+        return is_due(comparison, context, said[which], literal)
+
+    return all(due("new", o) and not due("old", o) for o in added) and all(
+        due("old", o) and not due("new", o) for o in removed
     )
 
 

@@ -30,11 +30,11 @@ def implies(one: Obligation, other: Obligation, untimed: Untimed = "at") -> bool
         return True
     if _has_alternatives(one) or _has_alternatives(other):
         return _follows(one, other, untimed)
+    mine, theirs = _span_of_time(one.timing, untimed), _span_of_time(other.timing, untimed)
+    if (not one.negated and _is_empty(mine)) or (other.negated and _is_empty(theirs)):
+        return True
     if one.name != other.name or one.negated != other.negated:
         return False
-    if one.timing is None and other.timing is None:
-        return True
-    mine, theirs = _span_of_time(one.timing, untimed), _span_of_time(other.timing, untimed)
     if mine is None or theirs is None:
         return None
     narrow, wide = (theirs, mine) if one.negated else (mine, theirs)
@@ -52,7 +52,7 @@ def incomparability(one: Obligation, other: Obligation) -> str:
         _demand(one, "at")
         _demand(other, "at")
     except Undecided:
-        return "the length of a window depends on a measure"
+        return "nothing bounds a measure that gives the length of a window"
     return "there are too many ways to meet it"
 
 
@@ -126,6 +126,10 @@ def _has_room(what: Occurs, bans: Sequence[Occurs]) -> bool:
 
 
 # Windows --------------------------------------------------------------------------------------------------
+
+
+def _is_empty(span: tuple[Rational, Rational | None] | None) -> bool:
+    return span is not None and span[1] is not None and span[1] < span[0]
 
 
 def _span_of_time(timing: Timing | None, untimed: Untimed) -> tuple[Rational, Rational | None] | None:
