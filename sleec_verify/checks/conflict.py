@@ -37,10 +37,7 @@ def _conflicts(index: RulesetIndex) -> Iterator[Finding]:
     if traces is None:
         yield from _of_situations(partition_of(index).situations)
         return
-    from sleec_verify.traces.components import components, needs_traces
-
-    # A component of these rules without windows is about situations, too.
-    found = [component for component in components(traces) if needs_traces(component)]
+    found = components_over_time(index)
     rest = without(index, (rule for component in found for rule in component.rules), ())
     named = [(listed(quoted(rule.label) for rule in component.rules), component) for component in found]
 
@@ -50,6 +47,29 @@ def _conflicts(index: RulesetIndex) -> Iterator[Finding]:
         return _of_situations(rest) if component is None else _of_traces(traces, component, incomplete)
 
     yield from ask_each([("the rules without time", None), *named], of)
+    _refer_to_others(incomplete)
+
+
+def components_over_time(index: RulesetIndex) -> list[TraceIndex]:
+    """The components of a ruleset whose conflicts can need more than one instant, a chain or a relation."""
+    from sleec_verify.traces.components import components, needs_traces
+
+    traces = partition_of(index).traces
+    # A component of these rules without windows is about situations, too.
+    return [] if traces is None else [component for component in components(traces) if needs_traces(component)]
+
+
+def conflicts_over_time(index: RulesetIndex, component: TraceIndex) -> Iterator[Finding]:
+    """A finding for each conflict of one of the `components_over_time`. Raises `Undecided` or `Enough` after the last
+    conflict that could be decided."""
+    traces = partition_of(index).traces
+    assert traces is not None, "it has a component"
+    incomplete: list[str] = []
+    yield from _of_traces(traces, component, incomplete)
+    _refer_to_others(incomplete)
+
+
+def _refer_to_others(incomplete: Sequence[str]) -> None:
     if incomplete:
         raise Enough(f"there may be further conflicts of {listed(map(quoted, incomplete))} with more rules")
 

@@ -261,9 +261,9 @@ def _exit_code(report: DifferenceReport, fail_on: FailOn) -> int:
     if any(isinstance(one.answer, tuple) for one in report.asked):
         return exits.FINDINGS
     found = report.differences
-    new_conflict = any(conflict.way == "added" for one in found for conflict in one.conflicts)
+    new_conflict = any("added" in one.conflict_ways for one in found)
     lost = new_conflict or any(one.less for one in found)
-    changed = lost or any(one.more or one.conflicts for one in found)
+    changed = lost or any(one.more or one.conflict_ways for one in found)
     if {"change": changed, "loss": lost, "conflict": new_conflict, "nothing": False}[fail_on]:
         return exits.FINDINGS
     if any(one.undecided for one in found) or any(isinstance(one.answer, str) for one in report.asked):

@@ -33,6 +33,9 @@ def render(report: DifferenceReport, palette: Palette) -> Iterator[str]:
             sign = palette("error", "+ conflict") if conflict.way == "added" else palette("good", "- conflict")
             at_odds = ", ".join(map(str, conflict.literals)) or "constraints"
             yield f"{path}: {sign} {at_odds} {_short_cause(conflict)}"
+        for timed in found.timed_conflicts:
+            sign = palette("error", "+ conflict") if timed.way == "added" else palette("good", "- conflict")
+            yield f"{path}: {sign} {', '.join(timed.finding.obligations)} [{'/'.join(timed.rules)}] over time"
         for situation in found.situations:
             sign = "+" if situation.way == "added" else "-"
             yield f"{path}: {sign} situations: {situation.what}{in_domains(situation.domains)}"

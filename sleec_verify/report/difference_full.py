@@ -18,6 +18,7 @@ from sleec_verify.report.difference_phrases import (
     witness_text,
 )
 from sleec_verify.report.escape import as_text
+from sleec_verify.report.timeline import in_words
 from sleec_verify.results.phrases import counted, given, in_domains, listed, occurring, quoted
 
 if TYPE_CHECKING:
@@ -29,7 +30,9 @@ if TYPE_CHECKING:
         DecidingClause,
         Difference,
         SituationChange,
+        TimedConflictChange,
     )
+    from sleec_verify.changes.compare.result import Way
     from sleec_verify.report.difference_report import DifferenceReport
     from sleec_verify.report.palette import Palette
 
@@ -54,6 +57,8 @@ def on_difference(found: Difference, palette: Palette) -> Iterator[str]:
         yield from _change(found, change, palette)
     for conflict in found.conflicts:
         yield from _conflict(found, conflict, palette)
+    for timed in found.timed_conflicts:
+        yield from _timed_conflict(found, timed, palette)
     for situation in found.situations:
         yield from _situation(situation, palette)
     if found.names or found.renamed or found.rewritten or found.reordered or found.undecided or found.notes:
@@ -91,10 +96,25 @@ def _decisions(deciding: Sequence[DecidingClause], ruleset: Ruleset) -> list[str
     return [deciding_text(one, ruleset) for one in deciding] or ["no rule applies"]
 
 
+def _timed_conflict(found: Difference, conflict: TimedConflictChange, palette: Palette) -> Iterator[str]:
+    finding = conflict.finding
+    source = (found.new if conflict.way == "added" else found.old).source
+    yield ""
+    place = f"{source.path}:{source.place(finding.span).line}"
+    yield f"  {_conflict_head(conflict.way, palette)}: {finding.message} ({place}){in_domains(conflict.domains)}"
+    if finding.timeline is not None:
+        yield from (f"    {line}" for line in in_words(finding.timeline))
+    elif finding.witness is not None:
+        yield f"    {witness_text(finding.witness)}"
+
+
+def _conflict_head(way: Way, palette: Palette) -> str:
+    return palette("error", "new conflict") if way == "added" else palette("good", "resolved conflict")
+
+
 def _conflict(found: Difference, conflict: ConflictChange, palette: Palette) -> Iterator[str]:
-    added = conflict.way == "added"
-    ruleset = found.new if added else found.old
-    head = palette("error", "new conflict") if added else palette("good", "resolved conflict")
+    ruleset = found.new if conflict.way == "added" else found.old
+    head = _conflict_head(conflict.way, palette)
     lines = sorted({ruleset.source.place(span).line for span in conflict.origins})
     several = "s" if len(lines) > 1 else ""
     by = f" (constraint{several} in line{several} {listed(map(str, lines))})" if lines else ""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from sleec_verify import __version__
 from sleec_verify.changes.assertions.assertion import Violation
 from sleec_verify.changes.compare import by_obligation
-from sleec_verify.results.json_values import dump, error_json, span_json, witness_json
+from sleec_verify.results.json_values import dump, error_json, finding_json, span_json, witness_json
 from sleec_verify.results.phrases import in_short
 
 if TYPE_CHECKING:
@@ -54,6 +54,16 @@ def render(report: DifferenceReport, palette: Palette) -> Iterator[str]:
                 for one in found
                 for conflict in one.conflicts
             ],
+            "timed_conflicts": [
+                {
+                    "change": conflict.way,
+                    "finding": finding_json(conflict.finding, (one.new if conflict.way == "added" else one.old).source),
+                    "domains": list(conflict.domains),
+                    "ruleset": one.new.source.path,
+                }
+                for one in found
+                for conflict in one.timed_conflicts
+            ],
             "situations": [_situation_json(one, situation) for one in found for situation in one.situations],
             "names": [
                 {"change": name.way, "kind": name.kind, "name": name.name, "ruleset": one.new.source.path}
@@ -72,7 +82,9 @@ def render(report: DifferenceReport, palette: Palette) -> Iterator[str]:
                 "unchanged": report.unchanged,
                 "added": sum(len(change.added) for one in found for change in one.changes),
                 "removed": sum(len(change.removed) for one in found for change in one.changes),
-                "new_conflicts": sum(conflict.way == "added" for one in found for conflict in one.conflicts),
+                "new_conflicts": sum(
+                    conflict.way == "added" for one in found for conflict in (*one.conflicts, *one.timed_conflicts)
+                ),
             },
         }
     )

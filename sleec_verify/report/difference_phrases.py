@@ -16,6 +16,7 @@ if TYPE_CHECKING:
         Difference,
         Extent,
         Relation,
+        TimedConflictChange,
     )
     from sleec_verify.changes.diagram.variables import Variable
     from sleec_verify.results.finding import Witness
@@ -40,7 +41,7 @@ RELATION_ROLES: Mapping[Relation, str] = {
 
 
 def relation_text(found: Difference) -> str:
-    if found.relation == "incomparable" and found.conflicts and not (found.more and found.less):
+    if found.relation == "incomparable" and found.conflict_ways and not (found.more and found.less):
         return "only one version contradicts itself in some situations"
     if found.relation in ("stricter", "laxer") and not found.changes:
         more = "more" if found.relation == "stricter" else "fewer"
@@ -109,6 +110,11 @@ def conflict_in_words(conflict: ConflictChange) -> str:
     """``new conflict: `a` and `b`: `o` is now both required and forbidden``"""
     head = "new conflict" if conflict.way == "added" else "resolved conflict"
     return f"{head}: {conflict_rules(conflict)}: {contradiction_text(conflict)}"
+
+
+def timed_conflict_in_words(conflict: TimedConflictChange) -> str:
+    """``new conflict: rule `a` and rule `b` contradict each other: `o` is both required and forbidden``"""
+    return f"{'new' if conflict.way == 'added' else 'resolved'} conflict: {conflict.finding.message}"
 
 
 def conflict_rules(conflict: ConflictChange) -> str:

@@ -42,6 +42,6 @@ class DifferenceReport(NamedTuple):
         return relation(
             any(one.more for one in found),
             any(one.less for one in found),
-            any(one.conflicts for one in found),
+            any(one.conflict_ways for one in found),
             unusable or any(one.undecided for one in found),
         )

@@ -6,7 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_runtime.support.messages import escaped
-from sleec_verify.report.difference_phrases import WORDS, change_in_words, conflict_in_words, extent_text, witness_text
+from sleec_verify.report.difference_phrases import (
+    WORDS,
+    change_in_words,
+    conflict_in_words,
+    extent_text,
+    timed_conflict_in_words,
+    witness_text,
+)
 from sleec_verify.report.escape import as_line, as_text
 from sleec_verify.results.deduplication import deduplicate
 from sleec_verify.results.phrases import counted, error_summary, in_domains, in_short, listed
@@ -161,7 +168,7 @@ def _markdown(found: GateResult) -> Iterator[str]:
         yield from _cut([_row(one) for one in found.examined], "ruleset", "| {} | | |")
     told = 0
     for one in found.examined:
-        if one.difference is not None and (one.difference.changes or one.difference.conflicts):
+        if one.difference is not None and (one.difference.changes or one.difference.conflict_ways):
             changes = list(_changes(one.difference))
             if told < MOST:
                 yield from ("", f"### Changes in {_code(one.path)}", "")
@@ -195,6 +202,8 @@ def _changes(difference: Difference) -> Iterator[str]:
         yield _change(f"**{_plain(change_in_words(change))}**", change)
     for conflict in difference.conflicts:
         yield _change(f"**{_plain(conflict_in_words(conflict))}**", conflict)
+    for timed in difference.timed_conflicts:
+        yield f"- **{_plain(timed_conflict_in_words(timed))}**{_plain(in_domains(timed.domains))}"
 
 
 def _change(head: str, one: Change | ConflictChange) -> str:

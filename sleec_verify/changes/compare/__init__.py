@@ -2,7 +2,8 @@
 
 A context counts if the assumptions of both sides allow it and neither side conflicts in it. There, the sets of due
 literals (Definition 1) are compared. If only one side conflicts, or only one side allows the context, this is a
-separate entry. Rules that are equal on both sides cancel out. Only the others need a solver.
+separate entry. So is a conflict over time that only one side has. Rules that are equal on both sides cancel out. Only
+the others need a solver.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from sleec_verify.changes.compare.result import (
     NameChange,
     Relation,
     SituationChange,
+    TimedConflictChange,
     Undecidable,
     by_obligation,
     relation,
@@ -31,6 +33,7 @@ __all__ = [
     "NameChange",
     "Relation",
     "SituationChange",
+    "TimedConflictChange",
     "Undecidable",
     "by_obligation",
     "compare",

@@ -16,10 +16,12 @@ from sleec_verify.changes.compare.result import (
     ConflictChange,
     Difference,
     SituationChange,
+    TimedConflictChange,
     Undecidable,
 )
 from sleec_verify.changes.compare.sides import condition_names
 from sleec_verify.changes.compare.situations import situation_changes
+from sleec_verify.changes.compare.timed_conflicts import timed_conflict_changes
 from sleec_verify.changes.compare.vocabulary import name_changes
 from sleec_verify.changes.relations import relations_over_time
 from sleec_verify.encoding.budget import Undecided, for_file
@@ -27,8 +29,8 @@ from sleec_verify.encoding.calculations import calculations, named
 from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
 from sleec_verify.query.question import is_possible
 
-_Told = TypeVar("_Told", Change, ConflictChange, SituationChange)
-_Any = Union[Change, ConflictChange, SituationChange, Undecidable]
+_Told = TypeVar("_Told", Change, ConflictChange, SituationChange, TimedConflictChange)
+_Any = Union[Change, ConflictChange, SituationChange, TimedConflictChange, Undecidable, str]
 
 
 def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Untimed = "at") -> Difference:
@@ -72,10 +74,12 @@ def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed
     difference = shared._replace(
         changes=_merged([one for one in flat if isinstance(one, Change)]),
         conflicts=_merged([one for one in flat if isinstance(one, ConflictChange)]),
+        timed_conflicts=_merged([one for one in flat if isinstance(one, TimedConflictChange)]),
         situations=_merged([one for one in flat if isinstance(one, SituationChange)]),
         undecided=tuple(dict.fromkeys((*shared.undecided, *(one for one in flat if isinstance(one, Undecidable))))),
     )
-    return difference._replace(rewritten=_rewritten(whole, difference))
+    limits = tuple(dict.fromkeys(one for one in flat if isinstance(one, str)))
+    return difference._replace(notes=(*difference.notes, *limits), rewritten=_rewritten(whole, difference))
 
 
 def _compared(comparison: Comparison, domain: str | None) -> list[_Any]:
@@ -88,6 +92,7 @@ def _compared(comparison: Comparison, domain: str | None) -> list[_Any]:
         if is_possible(comparison.index):
             found += conflict_changes(comparison)
             found += changes(comparison)
+            found += _further_conflicts(comparison, found)
         elif all(is_possible(comparison.situations_of(which)) for which in comparison.sides):
             why = "no situation is allowed by the assumptions of both versions"
             found.append(Undecidable("the obligations", why))
@@ -95,7 +100,15 @@ def _compared(comparison: Comparison, domain: str | None) -> list[_Any]:
         found.append(Undecidable("the rest of the comparison", error.message))
     if domain is None:
         return found
-    return [one if isinstance(one, Undecidable) else one._replace(domains=(domain,)) for one in found]
+    return [one if isinstance(one, (Undecidable, str)) else one._replace(domains=(domain,)) for one in found]
+
+
+def _further_conflicts(comparison: Comparison, found: Sequence[_Any]) -> Iterator[_Any]:
+    """The conflicts over time, without those whose rules also conflict at one instant."""
+    known = {(one.way, frozenset(one.rules)) for one in found if isinstance(one, ConflictChange)}
+    for one in timed_conflict_changes(comparison):
+        if isinstance(one, (Undecidable, str)) or (one.way, frozenset(one.rules)) not in known:
+            yield one
 
 
 def _conditions_that_are_measures(comparison: Comparison) -> Iterator[Undecidable]:
@@ -134,7 +147,7 @@ def _rewritten(comparison: Comparison, difference: Difference) -> tuple[tuple[st
         return ()
     at_work = {change.new_rule for change in difference.changes}
     at_work.update(change.old_rule for change in difference.changes)
-    at_work.update(label for conflict in difference.conflicts for label in conflict.rules)
+    at_work.update(label for conflict in difference.all_conflicts for label in conflict.rules)
     return tuple(
         tuple(dict.fromkeys((pair.old.label, pair.new.label)))
         for pair, _ in comparison.changed
@@ -168,8 +181,7 @@ def _notes(comparison: Comparison) -> Iterator[str]:
         yield f"the DSL has only whole numbers, so only whole values of {names} are compared"
     if speaks_of_traces(old) or speaks_of_traces(new):
         yield (
-            "the comparison covers single moments; `sleec-verify check` finds conflicts between "
-            "several moments, and consequences of responses"
+            "the comparison covers the responses of each rule; it does not cover their consequences through other rules"
         )
     if old.is_timed or new.is_timed:
         from sleec_runtime.model import Claim

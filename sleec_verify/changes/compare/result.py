@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 if TYPE_CHECKING:
     from sleec_runtime.model import Obligation, Ruleset, Span
     from sleec_verify.changes.diagram.variables import Variable
-    from sleec_verify.results.finding import Witness
+    from sleec_verify.results.finding import Finding, Witness
 
 Relation = Literal["equivalent", "stricter", "laxer", "incomparable", "unknown"]
 Way = Literal["added", "removed"]
@@ -79,6 +79,20 @@ class ConflictChange(NamedTuple):
     domains: tuple[str, ...] = ()
 
 
+class TimedConflictChange(NamedTuple):
+    """A conflict over time that only one side has: the new side if `way` is added. `finding` is the finding of `check`
+    on that side."""
+
+    way: Way
+    finding: Finding
+    domains: tuple[str, ...] = ()
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """The rules in conflict, by their labels on that side."""
+        return self.finding.rules
+
+
 class SituationChange(NamedTuple):
     """Situations that only one side allows, by its assumptions or the values of a measure: the new side if `way` is
     added. `what` is the assumption of the other side. `witness` is None if there is no example."""
@@ -116,6 +130,7 @@ class Difference(NamedTuple):
     new: Ruleset
     changes: tuple[Change, ...] = ()
     conflicts: tuple[ConflictChange, ...] = ()
+    timed_conflicts: tuple[TimedConflictChange, ...] = ()
     situations: tuple[SituationChange, ...] = ()
     names: tuple[NameChange, ...] = ()
     undecided: tuple[Undecidable, ...] = ()
@@ -136,9 +151,19 @@ class Difference(NamedTuple):
         return any(c.removed for c in self.changes) or any(s.way == "removed" for s in self.situations)
 
     @property
+    def all_conflicts(self) -> list[ConflictChange | TimedConflictChange]:
+        """The conflicts at one instant, and those over time."""
+        return [*self.conflicts, *self.timed_conflicts]
+
+    @property
+    def conflict_ways(self) -> frozenset[Way]:
+        """Whether the new rules have conflicts that the old ones do not have ("added"), and the reverse."""
+        return frozenset(one.way for one in self.all_conflicts)
+
+    @property
     def relation(self) -> Relation:
         """The relation of the new rules to the old ones. If only one side conflicts, neither obliges more."""
-        return relation(self.more, self.less, bool(self.conflicts), bool(self.undecided))
+        return relation(self.more, self.less, bool(self.conflict_ways), bool(self.undecided))
 
 
 def relation(more: bool, less: bool, conflicts: bool, undecided: bool) -> Relation:

@@ -178,6 +178,11 @@ def _new_conflicts(one: RulesetExamination) -> Iterator[Block]:
             yield _block(
                 "new-conflicts", one.path, what, span, related, clauses, names, conflict.witness, conflict.domains
             )
+    for timed in one.difference.timed_conflicts:
+        if timed.way == "added" and frozenset(timed.rules) not in kept:
+            policy = "new-conflicts"
+            found = replace(timed.finding, check=policy, code=policy, domains=timed.domains)
+            yield Block(policy, one.path, found.message, found)
 
 
 def _lost(one: RulesetExamination, patterns: tuple[str, ...]) -> Iterator[Block]:

@@ -75,6 +75,22 @@ def test_unknown_is_exit_3_unless_it_may_pass(cli: Cli, repository: Repository) 
     assert gated(cli)[0] == 0
 
 
+def test_a_new_conflict_over_time_blocks(cli: Cli, repository: Repository) -> None:
+    calm = "RULE a\nWHEN t THEN o WITHIN 3 minutes\nRULE b\nWHEN u THEN NOT p WITHIN 2 minutes\n"
+    repository.commit(a_sleec=calm)
+    repository.write(a_sleec=calm.replace("NOT p", "NOT o"))
+    config(repository, block="findings = 'never'")
+    code, said = gated(cli)
+    assert (code, policies(said)) == (1, {"new-conflicts"})
+    (block,) = said["blocks"]
+    assert block["where"] == "a.sleec"
+    assert "`o` is both required and forbidden" in cli("gate", "--base", "main").out
+    assert cli("gate", "--base", "main", "--summary", "summary.md").code == 1
+    assert "**new conflict: rule" in (repository.folder / "summary.md").read_text(encoding="utf-8")
+    config(repository, block="findings = 'never'\nnew-conflicts = false")
+    assert gated(cli)[0] == 0
+
+
 @pytest.mark.parametrize(("cases", "percent"), [(CASES, 50), (BOTH, 100)])
 def test_clause_coverage_counts_the_clauses_that_cases_reach(
     cli: Cli, repository: Repository, cases: str, percent: int
