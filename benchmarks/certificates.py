@@ -1,22 +1,28 @@
-"""Measure certificates of 1,000 rules.
+"""Measure certificates of 1,000 rules, and of the studies.
 
 Writing a certificate takes at most twice the time of `check`. Checking one takes at most five times as long as the
 check. There are three rulesets with three hedges for each rule: random rules, with witnesses for their conflicts; rules
 that never conflict, with a refutation for every minimal inconsistent set; and rules that do not depend on the reading,
 with a refutation for every rule. Times are processor times of one process, medians of some rounds. They include the
 checker and the oracle that are proved in Coq, if these are built.
+
+For rules with time, the certificate of each of our studies takes at most three times as long as its check, check
+included. So does that of each published study. These are not part of this project: give their folder with
+``python -m benchmarks.certificates FOLDER``.
 """
 
 from __future__ import annotations
 
-import os
 import random
+import resource
 import statistics
+import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from benchmarks.random_rules import random_rules
+from benchmarks.studies import OWN
 from sleec_runtime.language import load
 from sleec_runtime.model import Ruleset
 from sleec_verify.certificates.certification import certify
@@ -29,8 +35,9 @@ from sleec_verify.results.finding import Proved
 
 RULES = 1_000
 TURNS = 3
-WRITING, CHECKING = 2, 5
-"""How many times the time of `check` writing a certificate, the check included, and checking one may take."""
+WRITING, CHECKING, STUDIES = 2, 5, 3
+"""How many times the time of `check` writing a certificate, the check included, and checking one may take. `STUDIES`:
+writing that of a study."""
 
 
 def harmless_rules(count: int, seed: int = 0) -> str:
@@ -78,10 +85,14 @@ def alike_rules(count: int) -> str:
 
 def seconds(work: Callable[[], object]) -> float:
     """Processor seconds of `work`, including child processes."""
-    before = os.times()
+    before = _spent()
     work()
-    after = os.times()
-    return sum(after[:4]) - sum(before[:4])
+    return _spent() - before
+
+
+def _spent() -> float:
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(one.ru_utime + one.ru_stime for one in used)
 
 
 def measure(ruleset: Ruleset, folder: str, turns: int = TURNS) -> tuple[float, float, float]:
@@ -99,7 +110,27 @@ def measure(ruleset: Ruleset, folder: str, turns: int = TURNS) -> tuple[float, f
     return solving, writing, checking
 
 
-def main() -> None:
+def measure_studies(paths: Iterable[Path]) -> None:
+    """Print how long the certificates of some files take, compared with their checks."""
+    worst = (0.0, "no file")
+    totals = [0.0, 0.0, 0.0]
+    for path in paths:
+        with tempfile.TemporaryDirectory() as place:
+            times = measure(load(path), str(Path(place) / "certificate"))
+        totals = [total + one for total, one in zip(totals, times)]
+        worst = max(worst, (times[1] / times[0], path.name))
+        solving, writing, checking = times
+        print(
+            f"  {solving:5.2f} s  {writing / solving:4.2f}  {checking / solving:5.2f}  {path.parent.name}/{path.name}"
+        )
+    solving, writing, checking = totals
+    print(f"  check               {solving:7.2f} s")
+    print(f"  with a certificate  {writing:7.2f} s   {writing / solving:.2f} times")
+    print(f"    the worst file    {worst[1]}   {worst[0]:.2f} times (at most {STUDIES})")
+    print(f"  checking that       {checking:7.2f} s   {checking / solving:.2f} times")
+
+
+def main(folder: Path = Path("../shared/case-studies")) -> None:
     print(f"proofs are checked by {checker().name}; the oracle is {'' if built() else 'not '}built")
     for name, rules in (("random", random_rules), ("harmless", harmless_rules), ("alike", alike_rules)):
         with tempfile.TemporaryDirectory() as place:
@@ -116,7 +147,14 @@ def main() -> None:
         print(f"  with a certificate  {writing:7.2f} s   {writing / solving:.2f} times (at most {WRITING})")
         print(f"  checking that       {checking:7.2f} s   {checking / solving:.2f} times (at most {CHECKING})")
         print(f"  formulas {sizes['cnf'] / 1e6:.2f} MB, refutations {sizes['lrat'] / 1e6:.2f} MB")
+    print("our studies: check, and how many times as long it takes with a certificate, and checking that")
+    measure_studies(sorted(OWN.glob("*.sleec")))
+    if folder.is_dir():
+        print("the published studies")
+        measure_studies(sorted(folder.glob("*/*.sleec")))
+    else:
+        print(f"the published case studies are not in {folder}")
 
 
 if __name__ == "__main__":
-    main()
+    main(*map(Path, sys.argv[1:]))
