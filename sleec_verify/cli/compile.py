@@ -34,7 +34,8 @@ def command(path: str, form: str, domain: str | None, reading: Reading | None, u
     are for solvers: clauses, with a map from variables to names. The number of clauses grows linearly with the rules.
 
     In these formats, a response with a window is one proposition, such as Call[0,300]: Call occurs within 300 seconds.
-    mtl and mtl-latex are metric temporal logic. They state the full meaning of rules with time.
+    mtl and mtl-latex are metric temporal logic. They state the full meaning of rules with time. fretish is for NASA's
+    requirements tool FRET. Comments name the rules that it cannot express.
     """
     ruleset = one_ruleset(path, reading, domain)
     if domain is None:

@@ -1,7 +1,7 @@
 """The rules in other languages: formulas for people, clauses for solvers.
 
-Equation 1 (paper, Section 3.2) is about one instant: a response with a window is one atom. Metric temporal logic is
-about whole traces.
+Equation 1 (paper, Section 3.2) is about one instant: a response with a window is one atom. Metric temporal logic and
+FRETish are about whole traces.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from sleec_verify.encoding.calculations import refuse_calculations
 from sleec_verify.encoding.trace_scope import Untimed
 
 EQUATION_FORMS = ("sympy", "latex", "cnf", "dimacs", "smtlib", "json")
-FORMS = (*EQUATION_FORMS, "mtl", "mtl-latex")
+FORMS = (*EQUATION_FORMS, "mtl", "mtl-latex", "fretish")
 
 
 def compile_to(ruleset: Ruleset, form: str, domain: str | None = None, untimed: Untimed = "at") -> str:
@@ -30,7 +30,7 @@ def compile_to(ruleset: Ruleset, form: str, domain: str | None = None, untimed: 
 
 
 def _writers() -> Mapping[str, Callable[[Ruleset, Untimed], str]]:
-    from sleec_verify.exchange.compilation import clauses, formulas, mtl, smtlib
+    from sleec_verify.exchange.compilation import clauses, formulas, fretish, mtl, smtlib
 
     return {
         "sympy": formulas.as_sympy,
@@ -41,4 +41,5 @@ def _writers() -> Mapping[str, Callable[[Ruleset, Untimed], str]]:
         "json": clauses.as_json,
         "mtl": mtl.as_mtl,
         "mtl-latex": mtl.as_mtl_latex,
+        "fretish": fretish.as_fretish,
     }
