@@ -18,9 +18,14 @@ MOST = 20
 """Situations; each replaces the rules twice."""
 
 
+CONTRADICTION = "<contradicting rules>"
+"""The path of such rules. They are not the user's."""
+
+
 def contradicting_ruleset(ruleset: Ruleset) -> Ruleset:
     """The same rules, the condition of each hedge negated."""
-    return replace(ruleset, statements=tuple(_contrary(s) if isinstance(s, Rule) else s for s in ruleset.statements))
+    statements = tuple(_contrary(s) if isinstance(s, Rule) else s for s in ruleset.statements)
+    return replace(ruleset, statements=statements, source=replace(ruleset.source, path=CONTRADICTION))
 
 
 def _contrary(rule: Rule) -> Rule:

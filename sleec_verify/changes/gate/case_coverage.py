@@ -1,4 +1,4 @@
-"""The clauses and windows that the cases beside a ruleset reach: ``household.cases.toml`` beside ``household.sleec``."""
+"""The clauses and windows that the cases beside a ruleset reach, such as ``home.cases.toml`` beside ``home.sleec``."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from sleec_verify.changes.gate.result import Coverage
 from sleec_verify.conformance.cases.coverage import reached_clauses
 from sleec_verify.conformance.cases.goals import clause_name
 from sleec_verify.conformance.cases.reader import SUFFIX, read_cases
-from sleec_verify.conformance.scenarios.windows import reached_windows, windows_of
+from sleec_verify.conformance.scenarios.window_coverage import reached_windows
+from sleec_verify.conformance.scenarios.windows import windows_of
 
 
 def coverage(ruleset: Ruleset, errors: list[SleecError]) -> Coverage | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from sleec_runtime.evaluation.trace import Instant, Trace
-from sleec_runtime.evaluation.trace_violations import violations
+from sleec_runtime.evaluation.trace_violations import Violation, violations
 from sleec_runtime.model import Ruleset, Value
 from sleec_verify.conformance.scenarios.construction import due_in
 from sleec_verify.conformance.scenarios.scenario import Scenario
@@ -44,15 +44,23 @@ def unexpected(ruleset: Ruleset, scenario: Scenario) -> Iterator[str]:
     without a value that gives the length of a window.
     """
     trace = trace_of(scenario)
-    instants = tuple(Instant(one.time, one.events, one.conditions) for one in trace)
-    broken = violations(ruleset, Trace(instants))
-    due = due_in(TraceIndex(ruleset), trace)
+    due = required_in(ruleset, trace)
     yield from _different("obligation", scenario.obligations, [one for one in due if not one.negated])
     if scenario.prohibitions is not None:
         yield from _different("prohibition", scenario.prohibitions, [one for one in due if one.negated])
-    for one in broken:
+    for one in _violations(ruleset, trace):
         text = ruleset.source.text[one.statement.span.start : one.statement.span.end].split("\n")[0]
         yield f"violated at {one.time}: {text}"
+
+
+def required_in(ruleset: Ruleset, trace: Sequence[TraceInstant]) -> tuple[Due, ...]:
+    """What the rules of one domain require in a trace. Raises WrongType as `unexpected`."""
+    _violations(ruleset, trace)
+    return due_in(TraceIndex(ruleset), trace)
+
+
+def _violations(ruleset: Ruleset, trace: Sequence[TraceInstant]) -> tuple[Violation, ...]:
+    return violations(ruleset, Trace(tuple(Instant(one.time, one.events, one.conditions) for one in trace)))
 
 
 def _different(what: str, stated: Sequence[Due], required: Sequence[Due]) -> Iterator[str]:

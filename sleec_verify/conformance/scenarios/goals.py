@@ -14,9 +14,10 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from sleec_runtime.language import print_formula
-from sleec_runtime.model import Clause, Obligation, Rule, Timing, in_text_order
+from sleec_runtime.model import Clause, Obligation, Rule, Timing, in_text_order, obligation_text
 from sleec_verify.conformance.cases.goals import clause_name
 from sleec_verify.conformance.scenarios.lawful_traces import LawfulTraces, fixed_window
+from sleec_verify.conformance.scenarios.windows import WindowRef
 from sleec_verify.traces.demands import Occurs
 from sleec_verify.traces.index import TraceIndex
 
@@ -27,13 +28,15 @@ Literals = Callable[[LawfulTraces], Sequence[int]]
 class TraceGoal(NamedTuple):
     """Something that a trace can reach. `situation` is about the instant `now` alone. It is asked first, because
     `windows` may add instants. Of the goals about one `response`, a trace reaches one at most. Unless it
-    `is_startable`, an obligation is forbidden at the instant of its trigger, and only possible later."""
+    `is_startable`, an obligation is forbidden at the instant of its trigger, and only possible later. `window` is the
+    one that it meets or misses."""
 
     name: str
     situation: Literals
     windows: Literals
     response: str = ""
     is_startable: bool = True
+    window: WindowRef | None = None
 
 
 def trace_goals(world: LawfulTraces, criterion: str) -> list[TraceGoal]:
@@ -62,6 +65,7 @@ class _Response(NamedTuple):
     said: str
     obligation: Obligation
     given: Literals
+    window: WindowRef
     unmet: tuple[Occurs, ...] = ()
     after: int = 0
 
@@ -75,7 +79,8 @@ def _goals_of_windows(world: LawfulTraces, position: int) -> Iterator[TraceGoal]
 
         for obligation in clause.obligations:
             said = f"{clause_name(rule, number)}: {_words(obligation)}"
-            yield from _goals_of_response(world.traces, _Response(said, obligation, decides))
+            window = WindowRef(rule.label, number, obligation_text(obligation))
+            yield from _goals_of_response(world.traces, _Response(said, obligation, decides, window))
 
 
 def _goals_of_response(traces: TraceIndex, one: _Response) -> Iterator[TraceGoal]:
@@ -160,9 +165,11 @@ def _alternative(
 
         case = "default" if member.condition is None else print_formula(member.condition)
         said = f"{one.said} {what}" + (f" ({case})" if len(members) > 1 else "")
-        yield _goal(_Response(said, one.obligation, decides, unmet), "")
+        missed = one.window._replace(missed=True)
+        yield _goal(_Response(said, one.obligation, decides, missed, unmet), "")
         for obligation in member.obligations:
-            inner = _Response(f"{said}, {_words(obligation)}", obligation, decides, unmet, after)
+            window = one.window._replace(response=obligation_text(obligation))
+            inner = _Response(f"{said}, {_words(obligation)}", obligation, decides, window, unmet, after)
             yield from _goals_of_response(traces, inner)
 
 
@@ -172,6 +179,7 @@ def _goal(one: _Response, what: str, *occurs: Occurs) -> TraceGoal:
         one.given,
         lambda world: [world.occurs(each) for each in (*one.unmet, *occurs)],
         one.said if occurs else "",
+        window=one.window,
     )
 
 

@@ -1,17 +1,11 @@
-"""The windows of rules, and those that scenarios and tests meet and miss."""
+"""The windows of rules, each to be met, and missed if it has an alternative."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from sleec_runtime.model import Obligation, Rule, Ruleset, in_text_order, obligation_text
-from sleec_verify.conformance.scenarios.construction import due_in
-from sleec_verify.conformance.scenarios.expectations import trace_of
-from sleec_verify.conformance.scenarios.scenario import Scenario
-from sleec_verify.results.timeline import Due
-from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.trace import TraceInstant
+from sleec_runtime.model import Obligation, Rule, in_text_order, obligation_text
 
 
 class WindowRef(NamedTuple):
@@ -47,22 +41,3 @@ def _responses(obligations: Iterable[Obligation]) -> Iterator[Obligation]:
             for alternative in obligation.timing.alternatives():
                 for member in in_text_order(alternative):
                     yield from _responses(member.obligations)
-
-
-def reached_windows(ruleset: Ruleset, scenarios: Iterable[Scenario]) -> frozenset[WindowRef]:
-    """The windows that are met or missed in some scenario. Raises `Undecided`."""
-    every = {ref for rule in ruleset.rules for ref in windows_of(rule)}
-    found: set[WindowRef] = set()
-    for scenario in scenarios:
-        part = ruleset if scenario.domain is None else ruleset.in_domain(scenario.domain)
-        trace = trace_of(scenario)
-        for due in due_in(TraceIndex(part), trace):
-            found.add(WindowRef(due.rule, due.clause, due.words, missed=not _is_met(due, trace)))
-    return frozenset(found & every)
-
-
-def _is_met(due: Due, trace: Sequence[TraceInstant]) -> bool:
-    occurs = any(
-        due.event in one.events and due.start <= one.time and (due.end is None or one.time <= due.end) for one in trace
-    )
-    return occurs != due.negated
