@@ -40,6 +40,8 @@ class Progress:
         Without alternatives, the task can still be done until its window closes. Raises as a dispatch does.
         """
         alternatives = task.instead
+        if alternatives is not None and any(map(self._is_over, alternatives)):
+            alternatives = None
         if alternatives is None and task.at_once:
             alternatives = task.otherwise
         if alternatives is not None:
@@ -50,6 +52,11 @@ class Progress:
                 raise
         self._keep_open(task)
         return []
+
+    def _is_over(self, task: Task) -> bool:
+        """Whether the window of an alternative has closed."""
+        last = task.first if task.at_once else task.last
+        return last is not None and last < self._ledger.clock.now()
 
     @transaction
     def _keep_open(self, task: Task) -> None:

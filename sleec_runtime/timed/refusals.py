@@ -53,16 +53,17 @@ def prohibited(
 
     `since` is the end of prohibitions that hold only at the time of their trigger.
     """
-    ends = [since if task.at_once else task.last for task in prohibitions]
+    ends = [since if task.at_once and task.last is None else task.last for task in prohibitions]
     over = None if any(end is None for end in ends) else max(floor(end) + 1 for end in ends if end is not None)
     return Prohibited(message, name, over, hint)
 
 
 def _refuse_what_stays_forbidden(stages: Sequence[Stage], agenda: Agenda, now: Time) -> None:
     new = [task for stage in stages if not stage.watched for task in stage.tasks]
-    forbidden = [task for task in new if task.literal.negated and not task.at_once]
-    for task in new:
-        if not task.literal.negated and not task.at_once:
+    lasting = [task for task in new if not task.at_once or task.first > now]
+    forbidden = [task for task in lasting if task.literal.negated]
+    for task in lasting:
+        if not task.literal.negated:
             _refuse_if_forbidden(task, [*agenda.all_prohibitions(task.name), *forbidden], now)
     for prohibition in forbidden:
         for task in agenda.to_do(prohibition.name):
@@ -71,10 +72,12 @@ def _refuse_what_stays_forbidden(stages: Sequence[Stage], agenda: Agenda, now: T
 
 def _refuse_if_forbidden(task: Task, prohibitions: Iterable[Task], now: Time) -> None:
     """Raises Prohibited if one of `prohibitions` covers the window of `task`, and the task has no alternatives."""
-    if not task.is_decided:
+    if not task.is_decided or (task.at_once and task.state != "waiting"):
         return
+    # The start of what is due at once counts, also if it takes time.
+    last = task.first if task.at_once else task.last
     for other in prohibitions:
-        if other.name == task.name and other.covers_all(max(task.first, now), task.last):
+        if other.name == task.name and other.covers_all(max(task.first, now), last):
             raise prohibited(
                 f"`{task.name}` is due ({task.origin.rule.label}, {window_in_words(task, now)}), but "
                 f"{prohibitions_in_words([other], now)}",

@@ -34,6 +34,7 @@ class Run:
         self._now = now
         self._stages = deque(stages)
         self._happened: set[str] = set()
+        self._served: set[str] = set()
         self._begun: list[Stage] = []
         self._variants: list[Variant] = []
 
@@ -113,10 +114,12 @@ class Run:
         """The units to run, in order."""
         while self._stages:
             stage = self._stages.popleft()
-            if stage.event is not None and stage.event not in self._happened:
+            # An event happens once at an instant, also if an alternative leads to it again.
+            if stage.event is not None and (stage.event not in self._happened or stage.event in self._served):
                 self._progress.withdraw(stage.tasks)
                 continue
             self._begun.append(stage)
+            self._served.update(stage.triggers)
             for task in stage.tasks:
                 task.conditional = False
             for unit in stage.units:

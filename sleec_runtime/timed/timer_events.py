@@ -114,7 +114,9 @@ class TimerEvents:
         """The window of a prohibition closes. It stays in force to the end of that second, and then ends."""
         assert task.last is not None, "a window without an end does not close"
         self._ledger.schedule(floor(task.last) + 1, ENDS, (task,))
-        alternatives = task.otherwise if task.otherwise is not None else task.instead
+        alternatives = task.otherwise
+        if alternatives is None and task.instead is not None and self._still_possible(task.instead):
+            alternatives = task.instead
         broken = task.broken
         self._ledger.set(task, "broken", False)
         if broken and alternatives:
