@@ -12,7 +12,7 @@ from sleec_runtime import VirtualClock
 from sleec_runtime.dispatch.implementations import watched
 from sleec_runtime.dispatch.recording import recording
 from sleec_runtime.errors import NeedsAwait, SleecError
-from sleec_runtime.model import Context, Reading, Ruleset, Value
+from sleec_runtime.model import Context, Reading, Ruleset, Value, constructs
 from sleec_verify.conformance.oracle import Oracle
 
 
@@ -77,13 +77,34 @@ class Bench:
     def oracle(self) -> Oracle:
         """What must be executed, compiled once for all subjects of this bench."""
         if None not in self._oracles:
-            subject = self.subject()
-            whole = self.ruleset if self.ruleset is not None else whole_ruleset(subject)
-            if self.reading is not None:
-                whole = whole.read_as(self.reading)
-            domain = self.domain if self.domain is not None else getattr(subject, "domain", None)
-            self._oracles[None] = Oracle(whole, domain)
+            self._oracles[None] = Oracle(*self.rules())
         return self._oracles[None]
+
+    def rules(self) -> tuple[Ruleset, str | None]:
+        """The ruleset that the subject must follow, with all its domains, and the domain."""
+        subject = self._looked_at()
+        whole = self.ruleset if self.ruleset is not None else whole_ruleset(subject)
+        if self.reading is not None:
+            whole = whole.read_as(self.reading)
+        return whole, self.domain if self.domain is not None else getattr(subject, "domain", None)
+
+    def chains(self) -> bool:
+        """Whether a response of the subject triggers the rules of its name."""
+        return bool(getattr(self._looked_at(), "chains", True))
+
+    def _looked_at(self) -> Subject:
+        """A new subject, to read its rules."""
+        try:
+            return self.subject()
+        except RuntimeError as error:
+            if not needs_running_loop(error):
+                raise
+            import asyncio
+
+            async def within() -> Subject:
+                return self.subject()
+
+            return asyncio.run(within())
 
     @property
     def asynchronous(self) -> bool:
@@ -204,6 +225,11 @@ class Running:
             asyncio.run(in_turn(names, *arguments))
 
 
+def is_timed(bench: Bench) -> bool:
+    """Whether the rules of a bench have times or relations."""
+    return any(True for _ in constructs(bench.rules()[0]))
+
+
 def takes_clock(make: Factory) -> bool:
     """Whether a factory has a parameter `clock`, or a required positional parameter."""
     try:
@@ -212,6 +238,11 @@ def takes_clock(make: Factory) -> bool:
         return False
     positional = [one for one in parameters if one.kind in (one.POSITIONAL_ONLY, one.POSITIONAL_OR_KEYWORD)]
     return bool(positional) and (positional[0].default is Parameter.empty or positional[0].name == "clock")
+
+
+def needs_running_loop(error: RuntimeError) -> bool:
+    """Whether a factory failed because it runs outside of an event loop."""
+    return "no running event loop" in str(error)
 
 
 def whole_ruleset(subject: Subject) -> Ruleset:

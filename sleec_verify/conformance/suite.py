@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from sleec_runtime.errors import SleecError
 from sleec_runtime.model import Reading, Ruleset
 from sleec_verify.conformance.failure import Nonconformance
-from sleec_verify.conformance.subject import Arguments, Bench, Factory
+from sleec_verify.conformance.subject import Arguments, Bench, Factory, is_timed
 
 if TYPE_CHECKING:
     import hypothesis
@@ -19,6 +19,10 @@ Part = Callable[[Bench, int], object]
 
 
 def _each_rule(bench: Bench, examples: int) -> object:
+    if is_timed(bench):
+        from sleec_verify.conformance.scenarios.trials import each_rule_in_time
+
+        return each_rule_in_time(bench)
     from sleec_verify.conformance.exhaustive import each_rule
 
     return each_rule(bench)
@@ -80,6 +84,24 @@ def _threads(bench: Bench, examples: int) -> None:
         run_machine(bench, _settings(max(1, examples // 10)), threads=True)
 
 
+def _scenarios(bench: Bench, examples: int) -> None:
+    from hypothesis import given
+
+    from sleec_verify.conformance.scenarios.random_scenarios import scenarios
+    from sleec_verify.conformance.scenarios.trials import Trials, selected
+
+    selected(bench)
+    trials = Trials(bench)
+
+    @_settings(examples)
+    @given(scenarios(trials.ruleset))
+    def any_scenario(scenario: Any) -> None:
+        trials.check(scenario)
+
+    with _repeatable():
+        any_scenario()
+
+
 PARTS: dict[str, Part] = {
     "each-rule": _each_rule,
     "whole-changes": _whole_changes,
@@ -88,8 +110,12 @@ PARTS: dict[str, Part] = {
     "together": _together,
     "changes": _changes,
     "threads": _threads,
+    "scenarios": _scenarios,
 }
 """The parts of the conformance test in their order: first the fast ones, which find the smallest failures."""
+
+WITH_TIME = ("each-rule", "scenarios")
+"""The parts for rules with time. The others are for rules without time, except the part `scenarios`."""
 
 
 class NondeterministicSubject(SleecError):
@@ -115,7 +141,8 @@ def check_conformance(
     cannot run. The arguments are those of `conformance_test`."""
     bench = _bench(make, ruleset, domain, reading, watch, arguments)
     for name in _chosen(parts):
-        PARTS[name](bench, examples)
+        if _why_not(name, bench) is None:
+            PARTS[name](bench, examples)
 
 
 def conformance_test(
@@ -146,11 +173,17 @@ def conformance_test(
     @pytest.mark.parametrize("part", chosen)
     def test_conformance(part: str) -> None:
         __tracebackhide__ = True
+        bench = _bench(make, ruleset, domain, reading, watched, arguments)
+        reason = None
         try:
-            PARTS[part](_bench(make, ruleset, domain, reading, watched, arguments), examples)
+            reason = _why_not(part, bench)
+            if reason is None:
+                PARTS[part](bench, examples)
         except (Nonconformance, SleecError) as error:
             message = str(error)
         else:
+            if reason is not None:
+                pytest.skip(reason)
             return
         pytest.fail(message, pytrace=False)
 
@@ -171,6 +204,13 @@ def _repeatable() -> Iterator[None]:
         raise NondeterministicSubject(
             "the robot does not always behave the same in the same situation", str(flaky)
         ) from None
+
+
+def _why_not(part: str, bench: Bench) -> str | None:
+    """Why a part does not apply to the rules of a bench."""
+    if is_timed(bench):
+        return None if part in WITH_TIME else "this part is for rules without time"
+    return "the rules have no time" if part == "scenarios" else None
 
 
 def _chosen(parts: Iterable[str] | None) -> list[str]:

@@ -6,16 +6,17 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
 
 from sleec_runtime.dispatch.recording import recording
-from sleec_runtime.errors import ConflictInContext, NeedsAwait, UndeterminedDecision, VariantsFailed
+from sleec_runtime.errors import ConflictInContext, NeedsAwait, SleecError, UndeterminedDecision, VariantsFailed
 from sleec_runtime.model import Value
 from sleec_runtime.timed.clock import Time
 from sleec_verify.conformance.scenarios.clock import ScenarioClock
 from sleec_verify.conformance.scenarios.course import Course, Happening, Kind, second
 from sleec_verify.conformance.scenarios.event_loop import ScenarioLoop
 from sleec_verify.conformance.scenarios.scenario import Completion, Scenario, Step
-from sleec_verify.conformance.subject import Arguments, Bench, Subject
+from sleec_verify.conformance.subject import Arguments, Bench, Subject, needs_running_loop
 
 _FOR_EVER = float("inf")
+_MOST_ACTS = 10_000
 
 
 class WithheldCompletion(Exception):
@@ -34,7 +35,7 @@ def play(bench: Bench, scenario: Scenario, obligations: Collection[str] | None =
         try:
             return _played(bench, scenario, obligations, ScenarioClock(), None)
         except (NeedsAwait, RuntimeError) as error:
-            if not isinstance(error, NeedsAwait) and "no running event loop" not in str(error):
+            if isinstance(error, RuntimeError) and not needs_running_loop(error):
                 raise
             bench.needs_loop()
     clock = ScenarioClock()
@@ -88,6 +89,10 @@ class Player:
         """The last completion of each name, with the time at which the name was started."""
         self._due: list[tuple[int, str]] = []
         """What was started and takes time: when the scenario completes it."""
+        self._completed: dict[str, int] = {}
+        """The time of the last completion of each obligation."""
+        self._withheld: dict[str, int] = {}
+        """The time of the last exception that the scenario raised in each obligation."""
         self._takes_time: frozenset[str] = frozenset(getattr(subject, "takes_time", ()))
         self._known: dict[str, Value] = {}
         self._act = 0
@@ -145,6 +150,7 @@ class Player:
         while due := [one for one in self._due if one[0] <= self._clock.now()]:
             for one in due:
                 self._due.remove(one)
+                self._completed[one[1]] = one[0]
                 self._note("done", one[1], act=self._act + 1)
                 self._perform(partial(self.subject.completed, one[1]))  # type: ignore[attr-defined]
 
@@ -173,6 +179,11 @@ class Player:
     def _perform(self, call: Callable[[], object], failed: Callable[[Exception], object] | None = None) -> None:
         """Makes a call to the subject or the clock, and records what it executes."""
         self._act += 1
+        if self._act > _MOST_ACTS:
+            raise SleecError(
+                f"the robot never comes to rest: {_MOST_ACTS:,} acts at {self.now()} seconds of the scenario",
+                "end the chain of responses that triggers itself",
+            )
         act = self._act
         report = partial(self._failed, failed)
         with recording(on_execution=partial(self._starts, act), on_end=partial(self._ends, act)):
@@ -194,12 +205,17 @@ class Player:
         self._note("starts", name, act)
         completion = self._completion_of(name)
         if name not in self._takes_time:
-            if completion is not None and completion.at is None:
+            # All executions of one instant have the same result.
+            if completion is not None and completion.at is None and self._completed.get(name) != self.now():
+                self._withheld[name] = self.now()
+            if self._withheld.get(name) == self.now():
                 raise WithheldCompletion(name)
-        elif completion is None:
-            self._due.append((self.now(), name))
-        elif completion.at is not None:
-            self._due.append((max(completion.at, self.now()), name))
+        elif completion is None or completion.at is not None:
+            at = self.now() if completion is None or completion.at is None else max(completion.at, self.now())
+            # Once in a second: what leads back to itself would never come to an end.
+            due = max(at, self._completed.get(name, -1) + 1), name
+            if due not in self._due:
+                self._due.append(due)
 
     def _completion_of(self, name: str) -> Completion | None:
         """The completion of what starts now: the last one that is due since now or before. Several rules may start one
@@ -217,6 +233,7 @@ class Player:
         if error is not None:
             self._note("fails", name, act, error)
         elif name not in self._takes_time:
+            self._completed[name] = self.now()
             self._note("done", name, act)
 
     def _note(self, kind: Kind, name: str, act: int, error: BaseException | None = None) -> None:
@@ -226,5 +243,5 @@ class Player:
 def _is_withheld(error: BaseException) -> bool:
     """Whether an exception is only what the scenario raised."""
     if isinstance(error, VariantsFailed):
-        return all(_is_withheld(each) for _, each in error.errors)
+        return all(_is_withheld(each) or isinstance(each, ConflictInContext) for _, each in error.errors)
     return isinstance(error, WithheldCompletion)

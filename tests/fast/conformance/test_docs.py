@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from sleec_verify.conformance import Nonconformance, check_conformance
+from sleec_verify.conformance import Nonconformance, check_conformance, conformance_test
 from sleec_verify.conformance.cases.reader import read_cases
 from sleec_verify.conformance.oracle import Oracle
 from sleec_verify.conformance.suite import PARTS
@@ -27,6 +27,9 @@ def test_the_program_runs_and_its_robot_passes() -> None:
     make = program["make_sleec"]
     assert callable(make)
     check_conformance(make, examples=10)
+    nurse = program["make_nurse"]
+    assert callable(nurse)
+    check_conformance(nurse, examples=10)
 
 
 def test_the_report_is_what_is_printed() -> None:
@@ -34,6 +37,18 @@ def test_the_report_is_what_is_printed() -> None:
     program: dict[str, object] = {}
     exec(source.replace("self.refuse_request(); self.explain_why()", "self.refuse_request()"), program)
     make = program["make_sleec"]
+    assert callable(make)
+    with pytest.raises(Nonconformance) as caught:
+        check_conformance(make)
+    assert str(caught.value) + "\n" in blocks("text")
+
+
+def test_the_report_about_time_is_what_is_printed() -> None:
+    (source,) = (block for block in blocks("python") if "def make_nurse" in block)
+    early = source.replace('print("calling the nurse")', "self.call_ambulance()").replace('print("', '("')
+    program: dict[str, object] = {"conformance_test": conformance_test}
+    exec(early, program)
+    make = program["make_nurse"]
     assert callable(make)
     with pytest.raises(Nonconformance) as caught:
         check_conformance(make)

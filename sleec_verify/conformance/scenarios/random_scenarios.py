@@ -1,0 +1,145 @@
+"""A Hypothesis strategy: scenarios of a ruleset, at the times that its windows distinguish."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from hypothesis import strategies as st
+
+from sleec_runtime.evaluation.trace import Instant, Trace
+from sleec_runtime.evaluation.trace_violations import violations
+from sleec_runtime.model import RELATIONS, Assume, Clause, Lasting, Length, Obligation, Ruleset, Value, literals
+from sleec_verify.conformance import strategies
+from sleec_verify.conformance.scenarios.scenario import Completion, Scenario, Step
+from sleec_verify.encoding.relations import events_of
+
+_LENGTHS = (1, 2, 3, 5, 10)
+"""The values of measures that give the length of a window."""
+
+_MOST_STEPS = 6
+_MOST_COMPLETIONS = 5
+
+
+def scenarios(ruleset: Ruleset) -> st.SearchStrategy[Scenario]:
+    """Scenarios that the assumptions and the relations of the environment allow. They shrink towards few steps, early
+    times and completions at once."""
+    lengths = sorted(set(_lengths(ruleset)))
+    delays = st.sampled_from(sorted({1, *(near for one in lengths for near in (one - 1, one, one + 1) if near > 0)}))
+    measured = sorted(window_measures(ruleset))
+    horizon = horizon_of(ruleset)
+    environment = _environment(ruleset)
+    triggers = sorted(ruleset.triggers)
+    some = st.lists(st.sampled_from(triggers), min_size=1, max_size=3, unique=True) if triggers else st.just([])
+    nothing: dict[str, Value | None] = {}
+    changes = st.one_of(st.just(nothing), strategies.changes(ruleset))
+    steps = st.lists(st.tuples(delays, some, changes), min_size=1, max_size=_MOST_STEPS)
+    names = sorted(ruleset.obligations)
+    completions = (
+        st.lists(
+            st.tuples(st.sampled_from(names), st.integers(0, _MOST_STEPS - 1), st.one_of(st.none(), delays)),
+            max_size=_MOST_COMPLETIONS,
+        )
+        if names
+        else st.just([])
+    )
+    first = st.fixed_dictionaries({name: st.sampled_from(_LENGTHS) for name in measured})
+
+    def made(
+        drawn: tuple[
+            list[tuple[int, list[str], dict[str, Value | None]]],
+            list[tuple[str, int, int | None]],
+            dict[str, int],
+        ],
+    ) -> Scenario:
+        raw, ends, known = drawn
+        found: list[Step] = []
+        at = 0
+        for number, (delay, when, given) in enumerate(raw):
+            at += delay if number else 0
+            given = {name: value for name, value in given.items() if name not in measured}
+            if number == 0:
+                given = {**known, **given}
+            step = Step(at, tuple(sorted(when)), given)
+            if environment is None or _is_allowed(environment, [*found, step]):
+                found.append(step)
+        times = [step.at for step in found] or [0]
+        completed = tuple(
+            Completion(name, times[place], None if delay is None else times[place] + delay)
+            for name, place, delay in ends
+            if place < len(times)
+        )
+        return Scenario("a random scenario", tuple(found), times[-1] + horizon, completed)
+
+    return st.tuples(steps, completions, first).map(made)
+
+
+def _responses(ruleset: Ruleset) -> Iterator[Obligation]:
+    for rule in ruleset.rules:
+        for clause in rule.clauses():
+            yield from literals(clause)
+
+
+def _window_lengths(ruleset: Ruleset) -> Iterator[Length]:
+    for one in _responses(ruleset):
+        window = None if one.timing is None else one.timing.window
+        if window is not None:
+            yield from (length for length in (window.start, window.end) if length is not None)
+    for statement in ruleset.statements:
+        if isinstance(statement, Lasting) and statement.duration is not None:
+            yield statement.duration
+
+
+def window_measures(ruleset: Ruleset) -> set[str]:
+    """The measures that give the length of a window."""
+    return {name for length in _window_lengths(ruleset) for name in length.measures}
+
+
+def _seconds(length: Length) -> list[int]:
+    values = _LENGTHS if length.measures else (0,)
+    return [int(length.seconds_where(dict.fromkeys(length.measures, value))) for value in values]
+
+
+def _lengths(ruleset: Ruleset) -> Iterator[int]:
+    for length in _window_lengths(ruleset):
+        yield from _seconds(length)
+
+
+def horizon_of(ruleset: Ruleset) -> int:
+    """The time after the last step until every window that a step opens has closed, chains of two responses
+    included."""
+    longest = (_reach(clause) for rule in ruleset.rules for clause in rule.clauses())
+    return 2 * max(longest, default=0) + 2
+
+
+def _reach(clause: Clause) -> int:
+    found = 0
+    for one in clause.obligations:
+        if one.timing is not None:
+            window = one.timing.window
+            end = 0 if window is None or window.end is None else max(_seconds(window.end))
+            found = max(found, end + max((_reach(other) for other in one.timing.alternatives()), default=0))
+    return max([found, *(_reach(hedge) for hedge in clause.hedges)])
+
+
+def _environment(ruleset: Ruleset) -> Ruleset | None:
+    """The assumptions, and the relations that name no obligation."""
+    kept = tuple(
+        s
+        for s in ruleset.statements
+        if isinstance(s, Assume) or (isinstance(s, RELATIONS) and not ruleset.obligations & set(events_of(s)))
+    )
+    return replace(ruleset, statements=kept, inferred=tuple(ruleset.measures.values())) if kept else None
+
+
+def _is_allowed(environment: Ruleset, steps: list[Step]) -> bool:
+    values: dict[str, Value] = {}
+    instants = []
+    for step in steps:
+        for name, value in step.given.items():
+            if value is None:
+                values.pop(name, None)
+            else:
+                values[name] = value
+        instants.append(Instant(step.at, frozenset(step.when), dict(values)))
+    return not violations(environment, Trace(tuple(instants)))

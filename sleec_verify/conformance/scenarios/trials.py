@@ -1,0 +1,104 @@
+"""The parts of the conformance test that run scenarios: those of each rule, selected ones, and random ones."""
+
+from __future__ import annotations
+
+import logging
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import islice, product
+
+from sleec_runtime.errors import NotEnforced, SleecError
+from sleec_runtime.model import Ruleset, Value, formulas_of
+from sleec_verify.conformance.regions import givens
+from sleec_verify.conformance.scenarios.judgement import Judge
+from sleec_verify.conformance.scenarios.nonconformance import ScenarioNonconformance
+from sleec_verify.conformance.scenarios.player import play
+from sleec_verify.conformance.scenarios.random_scenarios import horizon_of, window_measures
+from sleec_verify.conformance.scenarios.scenario import Completion, Scenario, Step
+from sleec_verify.conformance.subject import Bench, takes_clock
+
+_MOST_CONTEXTS = 200
+"""The maximal number of contexts of a rule: further ones are left to random scenarios."""
+
+
+class NeedsClock(SleecError):
+    """A factory without a parameter for the clock of the test, although the rules have time."""
+
+
+class Trials:
+    """Runs scenarios on subjects of `bench`, and judges them."""
+
+    def __init__(self, bench: Bench) -> None:
+        self._bench = bench
+        if not takes_clock(bench.make):
+            raise NeedsClock(
+                "the rules have time, and the factory takes no clock",
+                "let it take the clock of the test, and use it: "
+                "`def make_sleec(clock): sleec = sleec_runtime.load(…, clock=clock)`",
+            )
+        whole, domain = bench.rules()
+        self.ruleset = whole if domain is None else whole.in_domain(domain)
+        self.domain = domain
+        self.whole = whole
+        self._judge = Judge(self.ruleset, bench.chains())
+        self._obligations = whole.obligations
+
+    def check(self, scenario: Scenario) -> None:
+        """Raises `Nonconformance` if the subject does not follow the rules in a scenario."""
+        with warnings.catch_warnings(), _without_log():
+            warnings.simplefilter("ignore", NotEnforced)
+            course = play(self._bench, scenario, self._obligations)
+        fault = self._judge.fault(course)
+        if fault is not None:
+            raise ScenarioNonconformance(scenario, course, fault, self._judge.requirements(course))
+
+
+@contextmanager
+def _without_log() -> Iterator[None]:
+    """Keeps the missed deadlines of scenarios out of the log of the runtime."""
+    log = logging.getLogger("sleec_runtime")
+    nothing = logging.Filter("nothing of it")
+    log.addFilter(nothing)
+    try:
+        yield
+    finally:
+        log.removeFilter(nothing)
+
+
+def each_rule_in_time(bench: Bench) -> int:
+    """Triggers each rule in each context that it distinguishes, and lets its obligations be completed at once or never.
+    Returns the number of scenarios."""
+    trials = Trials(bench)
+    count = 0
+    for scenario in _of_each_rule(trials.ruleset):
+        trials.check(scenario)
+        count += 1
+    return count
+
+
+def _of_each_rule(ruleset: Ruleset) -> Iterator[Scenario]:
+    end = horizon_of(ruleset)
+    lengths = dict.fromkeys(sorted(window_measures(ruleset)), 5)
+    # A completion is that of one execution, and a rule may lead to several of one name.
+    never = tuple(Completion(name, 0, None) for name in sorted(ruleset.obligations)) * 3
+    for rule in ruleset.rules:
+        regions = givens(list(formulas_of(rule)), ruleset.measures)
+        for drawn in islice(product(*(one.values for one in regions)), _MOST_CONTEXTS):
+            values = {one.name: value for one, value in zip(regions, drawn) if not one.event and value is not None}
+            events = {one.name for one, value in zip(regions, drawn) if one.event and value}
+            given: dict[str, Value | None] = {**lengths, **values}
+            step = Step(0, tuple(sorted({rule.trigger, *events})), given)
+            for completions in ((), never):
+                yield Scenario(f"rule {rule.label}", (step,), end, completions)
+
+
+def selected(bench: Bench) -> int:
+    """Runs the scenarios that `cases` selects. Returns their number."""
+    from sleec_verify.conformance.scenarios.selection import choose_scenarios
+
+    trials = Trials(bench)
+    found = choose_scenarios(trials.whole, "mcdc", trials.domain).scenarios
+    for scenario in found:
+        trials.check(scenario)
+    return len(found)
