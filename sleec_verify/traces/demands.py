@@ -61,6 +61,7 @@ class Responses:
         self._lengths = lengths
         self._fixed: dict[tuple[int, bool, int], tuple[Obligation, Demand]] = {}
         """The demands of obligations without chains, as `_obligation` returns them."""
+        self._variants: dict[int, tuple[Obligation, list[tuple[Demand, list[tuple[int, ...]]]]]] = {}
 
     def of(self, obligations: tuple[Obligation, ...], chain: Chain, kept: bool = True, after: int = 0) -> Demand:
         """The demand that all of `obligations`, which are due after this number of seconds, are met (not `kept`: that
@@ -135,21 +136,33 @@ class Responses:
 
     def variants(self, obligation: Obligation) -> list[tuple[Demand, list[tuple[int, ...]]]]:
         """The demands of one obligation, without literals, each with the choices that lead to it: which clause of each
-        chain of hedges inside the response decides."""
+        chain inside the response decides."""
+        known = self._variants.get(id(obligation))
+        if known is None or known[0] is not obligation:
+            known = self._variants[id(obligation)] = obligation, self._variants_of(obligation)
+        return known[1]
+
+    def _variants_of(self, obligation: Obligation) -> list[tuple[Demand, list[tuple[int, ...]]]]:
         found: dict[Demand, list[tuple[int, ...]]] = {}
-        for choice in self._choices(obligation):
-            values = {_DECIDES: True, -_DECIDES: False}
-            demand = simplified(self.of((obligation,), _Chosen(choice, lambda _: ()).flags), values)
-            found.setdefault(demand, []).append(choice)
+        cases = self._of_each_value(obligation)
+        for number, one in enumerate(cases or ()):
+            for demand, choices in self.variants(one):
+                found.setdefault(demand, []).extend((number, *choice) for choice in choices)
+        if cases is None:
+            for choice in self._choices(obligation):
+                values = {_DECIDES: True, -_DECIDES: False}
+                demand = simplified(self.of((obligation,), _Chosen(choice, lambda _: ()).flags), values)
+                found.setdefault(demand, []).append(choice)
         return list(found.items())
+
+    def _of_each_value(self, obligation: Obligation) -> list[Obligation] | None:
+        """The obligation for each value of a measure; None if none gives a length of its windows."""
+        cases = None if self._lengths is None else self._lengths.cases(obligation)
+        return None if cases is None else [one for member in in_text_order(cases) for one in member.obligations]
 
     def _choices(self, obligation: Obligation) -> Iterator[tuple[int, ...]]:
         """Which clause of each chain inside a response decides, in the order in which the chains are read. A clause
         that does not decide is not read."""
-        cases = None if self._lengths is None else self._lengths.cases(obligation)
-        if cases is not None:
-            yield from self._choices_of_chain(cases)
-            return
         alternatives = [] if obligation.timing is None else list(obligation.timing.alternatives())
         for parts in product(*(list(self._choices_of_chain(clause)) for clause in alternatives)):
             yield tuple(chained.from_iterable(parts))
@@ -161,6 +174,11 @@ class Responses:
 
     def deciding(self, obligation: Obligation, choice: tuple[int, ...], chain: Chain) -> list[int]:
         """The literals for which the chains inside a response decide as in `choice`."""
+        cases = None if self._lengths is None else self._lengths.cases(obligation)
+        if cases is not None:
+            number, *others = choice
+            own = (cases, *cases.hedges)[number].obligations[0]
+            return [chain(cases)[number], *self.deciding(own, tuple(others), chain)]
         chosen = _Chosen(choice, chain)
         self.of((obligation,), chosen.flags)
         return chosen.literals

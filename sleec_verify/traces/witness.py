@@ -43,6 +43,7 @@ def needed_values(
     index = situations.index
     deciding = list(deciding)
     clauses = [list(index.ruleset.by_label[label].clauses())[number] for label, number in deciding]
+    lengths = {name for clause in clauses for name in measures_of_lengths(clause)}
     facts = [fact for fact in continuations.facts if fact[0] == "state"]
     formula = SharedClauses()
     instant = Instant(formula, index.ruleset.measures, formula.true)
@@ -63,7 +64,8 @@ def needed_values(
     with MiniSat(formula.clauses) as solver:
 
         def refuted(names: set[str]) -> set[str] | None:
-            """The names that suffice, of these; None if they do not."""
+            """The names that suffice, of these and those of lengths; None if they do not."""
+            names = names | lengths
             left_out = [fact for fact in facts if not named[fact] <= names]
             still = [literal for fact, literal in literals.items() if named[fact] <= names]
             if solver.solve(still) is not False or continuations.complies(rules, [*but, *left_out]):
@@ -73,12 +75,11 @@ def needed_values(
 
         kept = refuted({name for names in named.values() for name in names})
         assert kept is not None, "asked of a conflict"
-        for name in sorted(kept):
+        for name in sorted(kept - lengths):
             with as_far_as_decided():
                 less = refuted(kept - {name}) if name in kept else None
                 kept = kept if less is None else less
-    kept.update(name for clause in clauses for name in measures_of_lengths(clause))
-    closed = _closed(situations, kept, values)
+    closed = _closed(situations, kept | lengths, values)
     return {name: value for name, value in values.items() if name in closed}
 
 
