@@ -4,63 +4,20 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from importlib.metadata import entry_points
 from pathlib import Path
 
 import pytest
 
-import sleec_verify.pytest_plugin
-import sleec_verify.pytest_plugin.items
-import sleec_verify.pytest_plugin.summary  # noqa: F401
 from sleec_runtime.language import parse
 from sleec_verify.checks import checks_for
+from tests.support.plugin_texts import RULES
 
-# Loaded here, because pytester unloads what is loaded within a run, and modules would exist twice in the next one.
-
-RULES = """
-MEASURE Age: number
-RULE curtains
-WHEN Request THEN Open
-UNLESS Undressed IN WHICH CASE (Refuse AND Explain)
-UNLESS Distressed OR Age < 12 IN WHICH CASE (Warn AND Open)
-RULE stop WHEN Stop AND NOT Asleep THEN Halt
-"""
 ITEMS = len(checks_for(parse(RULES))) + 2
 """An item a check, and one a rule."""
 
 CONFLICT = """
 RULE a WHEN T THEN o
 RULE b WHEN T THEN NOT o
-"""
-ROBOT = """
-import sleec_runtime
-
-def make():
-    sleec = sleec_runtime.load("house.sleec")
-    sleec.implement(dict.fromkeys(sleec.ruleset.obligations, lambda: None))
-    return sleec
-
-def careless():
-    import contextpy3 as cop
-    sleec = make()
-    class Robot:
-        def refuse(self): pass
-        def explain(self): pass
-        def warn(self): pass
-        def open(self): pass
-        @sleec.rule("curtains")
-        @cop.base
-        def curtains(self): self.open()
-        @cop.around(sleec.layers["curtains.hc1"])
-        def curtains(self): self.refuse()
-        @cop.around(sleec.layers["curtains.hc2"])
-        def curtains(self): self.warn(); self.open()
-    sleec.bind(Robot())
-    return sleec
-
-nothing = 5
-def none(): return None
-def broken(): raise RuntimeError("no arm")
 """
 CASES = """
 [[case]]
@@ -75,21 +32,6 @@ when = "Request, Stop"
 given = "Undressed, Age=11.5"
 obligations = ["Warn", "Open", "Halt"]
 """
-
-
-@pytest.fixture
-def run(pytester: pytest.Pytester):
-    """Runs pytest on files, in this process, with the plugin."""
-    loaded = any(point.value == "sleec_verify.pytest_plugin" for point in entry_points(group="pytest11"))
-
-    def in_folder(*arguments: str, **files: str) -> pytest.RunResult:
-        for name, text in {"house_sleec": RULES, "robot_py": ROBOT, **files}.items():
-            path = pytester.path / name.replace("__", "/").replace("_cases_toml", ".cases.toml").replace("_", ".")
-            path.write_text(text, encoding="utf-8")
-        plugin = () if loaded else ("-p", "sleec_verify.pytest_plugin")
-        return pytester.runpytest_inprocess(*plugin, "-p", "no:cacheprovider", *arguments)
-
-    return in_folder
 
 
 def test_a_ruleset_is_an_item_a_check_and_a_rule(run) -> None:
@@ -363,87 +305,3 @@ def test_a_project_without_rules_pays_nothing(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, "-c", code, str(tmp_path)], capture_output=True, text=True, env=environment)
     # Of the packages only what an import of their names brings: the modules in them are imported where they are used.
     assert done.stdout.split("\n")[-2] == "sleec_runtime sleec_verify.pytest_plugin", done.stderr
-
-
-def test_a_ruleset_is_listed_once(run, pytester: pytest.Pytester) -> None:
-    """Also if a test replaces its rules, and a file of cases reads them otherwise."""
-    pytester.makepyfile(
-        test_robot="""
-        from robot import make
-        from sleec_verify.conformance import check_conformance
-
-        def test_conformance():
-            check_conformance(make, examples=2)
-        """,
-        robot=ROBOT,
-    )
-    pytester.syspathinsert()
-    cases = 'reading = "priority"\n[[case]]\nwhen = ["Stop"]\nobligations = ["Halt"]\n'
-    result = run("test_robot.py", "house.cases.toml", "--sleec-cov", house_cases_toml=cases)
-    result.assert_outcomes(passed=2)
-    assert str(result.stdout).count("clauses active") == 1
-
-
-TIMED = """
-RULE fall WHEN Fell THEN CallNurse WITHIN 5 minutes OTHERWISE CallAmbulance WITHIN 2 minutes
-RULE rest WHEN Sleeps THEN NOT Vacuum WITHIN 1 hour
-RULE dust WHEN Dust THEN Vacuum WITHIN 1 day
-"""
-TIMED_TESTS = """
-import sleec_runtime
-from sleec_runtime import Sleec, VirtualClock, load, obligation
-
-def fell(clock):
-    sleec = Sleec(load("timed.sleec").ruleset, clock=clock)
-    call = obligation("CallNurse", completes=False)(lambda: None)
-    sleec.implement({"CallNurse": call, "CallAmbulance": lambda: None, "Vacuum": lambda: None})
-    sleec.trigger("Fell")
-    return sleec
-
-def test_met():
-    fell(VirtualClock()).completed("CallNurse")
-
-def test_missed():
-    clock = VirtualClock()
-    sleec = fell(clock)
-    clock.advance(300)
-    sleec.trigger("Sleeps")
-    clock.advance(4000)
-"""
-
-
-def test_coverage_counts_windows(run, pytester: pytest.Pytester) -> None:
-    pytester.makepyfile(test_timed=TIMED_TESTS)
-    result = run("test_timed.py", "-k", "met", "--sleec-cov", timed_sleec=TIMED)
-    result.stdout.fnmatch_lines(
-        [
-            "*timed.sleec: 1 of 3 clauses active (33.3 %)",
-            "  never: rest (default)",
-            "  never: dust (default)",
-            "  windows: 1 of 5 met or missed (20.0 %)",
-            "  never: fall (default): CallNurse within 5 minutes missed",
-            "  never: fall (default): CallAmbulance within 2 minutes met",
-            "  never: rest (default): NOT Vacuum within 1 hour met",
-            "  never: dust (default): Vacuum within 1 day met",
-        ]
-    )
-    result = run("test_timed.py", "--sleec-cov", timed_sleec=TIMED)
-    result.stdout.fnmatch_lines(
-        ["  windows: 4 of 5 met or missed (80.0 %)", "  never: dust (default): Vacuum within 1 day met"]
-    )
-
-
-def test_windows_that_cannot_be_missed_are_no_goals(run, pytester: pytest.Pytester) -> None:
-    pytester.makepyfile(test_timed="def test(sleec):\n    sleec.trigger('A')\n")
-    rules = "RULE a WHEN A THEN X WITHIN 5 seconds OTHERWISE Y\nRULE b WHEN A THEN X\n"
-    result = run("test_timed.py", "--sleec-ruleset", "timed.sleec", "--sleec-cov", timed_sleec=rules)
-    result.stdout.fnmatch_lines(
-        ["  windows: 1 of 1 met or missed (100.0 %)", "  unreachable: a (default): X within 5 seconds missed"]
-    )
-
-
-def test_window_coverage_with_xdist(run, pytester: pytest.Pytester) -> None:
-    pytest.importorskip("xdist")
-    pytester.makepyfile(test_timed=TIMED_TESTS)
-    result = run("-n", "2", "-p", "xdist", "test_timed.py", "--sleec-cov", timed_sleec=TIMED)
-    result.stdout.fnmatch_lines(["  windows: 4 of 5 met or missed (80.0 %)"])
