@@ -99,7 +99,22 @@ def find_decision(index: TraceIndex, rule: Rule, clause: int) -> Answer:
 def find_claim(index: TraceIndex, claim: Claim) -> Answer:
     """A trace in which a concern or purpose occurs. Its `meanwhile` may occur at any instant."""
 
-    def at_instant(model: TraceModel, at: int, part: Claim) -> list[int]:
+    events: set[str] = set()
+    formulas: list[Formula] = []
+    lengths: list[Length] = []
+    add_claim(claim, events, formulas, lengths)
+    names = [name for formula in formulas for name in names_in(formula)]
+    names += [("measure", measure) for length in lengths for measure in length.measures]
+    answer = _ask(
+        cone(index, events, names), _Shown(claim.kind, claim.label), lambda model, at: claim_occurs(model, at, claim)
+    )
+    return answer.conclude(f"the {claim.kind} {quoted(claim.label)} occurs in no trace without a violation")
+
+
+def claim_occurs(model: TraceModel, at: int, claim: Claim) -> list[int]:
+    """Literals that together imply that a concern or purpose occurs at an instant, and its `meanwhile` at any."""
+
+    def at_instant(at: int, part: Claim) -> list[int]:
         return [
             model.instants[at].event(part.event),
             model.condition(at, part.condition),
@@ -109,22 +124,10 @@ def find_claim(index: TraceIndex, claim: Claim) -> Answer:
             ),
         ]
 
-    def what(model: TraceModel, at: int) -> list[int]:
-        required = at_instant(model, at, claim)
-        for part in list(_parts(claim))[1:]:
-            required.append(
-                model.exists(lambda other, part=part: model.formula.every(at_instant(model, other, part)))  # type: ignore[misc]
-            )
-        return required
-
-    events: set[str] = set()
-    formulas: list[Formula] = []
-    lengths: list[Length] = []
-    add_claim(claim, events, formulas, lengths)
-    names = [name for formula in formulas for name in names_in(formula)]
-    names += [("measure", measure) for length in lengths for measure in length.measures]
-    answer = _ask(cone(index, events, names), _Shown(claim.kind, claim.label), what)
-    return answer.conclude(f"the {claim.kind} {quoted(claim.label)} occurs in no trace without a violation")
+    required = at_instant(at, claim)
+    for part in _parts(claim)[1:]:
+        required.append(model.exists(lambda other, part=part: model.formula.every(at_instant(other, part))))  # type: ignore[misc]
+    return required
 
 
 def _parts(claim: Claim) -> list[Claim]:

@@ -88,3 +88,14 @@ def test_equal_windows_are_one_atom() -> None:
     text = "RULE a WHEN A THEN B WITHIN 1 minutes\nRULE b WHEN A THEN B WITHIN 60 seconds AND B WITHIN 0 seconds"
     names = [v["name"] for v in json.loads(compile_to(parse(text), "json"))["variables"]]
     assert names == ["A", "B[0,60]", "B"]
+
+
+def test_dimacs_names_the_windows_and_has_the_clauses_of_json() -> None:
+    ruleset = parse(RULES)
+    document = json.loads(compile_to(ruleset, "json"))
+    rows = compile_to(ruleset, "dimacs").splitlines()
+    for variable in document["variables"]:
+        assert f"c {variable['variable']} {variable['kind']} {variable['name']}" in rows
+    clauses = [list(map(int, row.split()))[:-1] for row in rows if row[0] not in "cp"]
+    assert clauses == document["clauses"]
+    assert "c not in Equation 1: happenBefore in line 11, which relates several instants" in rows

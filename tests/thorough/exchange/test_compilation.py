@@ -10,7 +10,7 @@ import pytest
 import z3
 from hypothesis import given, settings
 
-from sleec_runtime.language import parse
+from sleec_runtime.language import load, parse
 from sleec_verify.exchange.compilation import FORMS, compile_to
 from sleec_verify.exchange.compilation.clauses import encode_ruleset, variable_names
 from sleec_verify.exchange.compilation.equation_one import EquationOne
@@ -18,6 +18,7 @@ from tests.fast.checks.test_semantics import EIGHT
 from tests.support import brute_force as brute
 from tests.support.growth import grows_in_proportion
 from tests.support.small_rulesets import small_rulesets
+from tests.support.studies import each_study
 
 TEXT = """
 MEASURE Age: number
@@ -177,3 +178,10 @@ def test_the_work_grows_with_the_rules(form):
     for ruleset in (few, many):
         compile_to(ruleset, form)
     assert grows_in_proportion(lambda: compile_to(few, form), lambda: compile_to(many, form), 10)
+
+
+@each_study
+def test_no_form_refuses_a_study(path):
+    ruleset = load(path)
+    for form in FORMS:
+        assert compile_to(ruleset, form)

@@ -1,14 +1,16 @@
 """Four ways to say whether a trace keeps rules with time agree: the evaluator of traces, metric temporal logic, the
 engine of the solver, and the runtime.
 
-The first three judge random traces of random rulesets with every construct. The runtime does not judge traces: it makes
-them, with a robot on a virtual clock. If it raises and reports nothing, the others find no violation. If it reports a
-missed deadline, they find one. It does not enforce relations, or conditions that name a response, so the rulesets of
-these traces have none.
+The first three judge random traces of random rulesets with every construct, and say which claims occur there. The
+runtime does not judge traces: it makes them, with a robot on a virtual clock. If it raises and reports nothing, the
+others find no violation. If it reports a missed deadline, they find one. It does not enforce relations, or conditions
+that name a response, so the rulesets of these traces have none.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 from random import Random
 
@@ -16,16 +18,18 @@ import pytest
 
 from sleec_runtime import errors
 from sleec_runtime.evaluation.trace import Trace, Untimed
-from sleec_runtime.evaluation.trace_violations import violations
+from sleec_runtime.evaluation.trace_violations import claim_holds, violations
 from sleec_runtime.language import parse
 from sleec_runtime.model import (
     RELATIONS,
     Assume,
     Atom,
     Calculation,
+    Claim,
     Comparison,
     Exclusive,
     Never,
+    Rule,
     Ruleset,
     formulas_of,
     leaves,
@@ -33,14 +37,18 @@ from sleec_runtime.model import (
     relation_name,
 )
 from sleec_verify.encoding.solver import Undecided
-from sleec_verify.exchange.compilation.temporal_logic import requirements
+from sleec_verify.exchange.compilation.temporal_logic import claims_of, requirements
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.model import TraceModel
+from sleec_verify.traces.questions import claim_occurs
 from tests.support.ruleset_traces import trace_of
 from tests.support.temporal_semantics import Semantics
 from tests.support.timed_english import timed_english
 from tests.support.timed_strategies import timed_ruleset
 from tests.thorough.timed.test_times_random import LONG, STEPS, World
+
+BINDING = (Rule, Exclusive, Never, Assume, *RELATIONS)
+"""The statements that bind traces."""
 
 
 def by_evaluator(ruleset: Ruleset, trace: Trace, untimed: Untimed) -> bool:
@@ -59,8 +67,15 @@ def by_temporal_logic(ruleset: Ruleset, trace: Trace, untimed: Untimed) -> bool:
 def by_solver(index: TraceIndex, trace: Trace) -> bool:
     """Whether the formula of the engine has a model in which everything is as in the trace."""
     model = TraceModel(index)
-    nodes = [model.instant(model.formula.true) for _ in trace.instants]
-    fixed = []
+    return has_model(model, trace, instants_of(model, trace))
+
+
+def instants_of(model: TraceModel, trace: Trace) -> list[int]:
+    return [model.instant(model.formula.true) for _ in trace.instants]
+
+
+def has_model(model: TraceModel, trace: Trace, nodes: Sequence[int], *required: int) -> bool:
+    fixed = list(required)
     for (a, earlier), (b, later) in pairwise(zip(nodes, trace.instants)):
         fixed += model.times.within(a, b, later.time - earlier.time, later.time - earlier.time)
     fixed += [model.instants[node].event(name) for node, i in zip(nodes, trace.instants) for name in sorted(i.events)]
@@ -81,6 +96,30 @@ def by_solver(index: TraceIndex, trace: Trace) -> bool:
         if pinned == before:
             return True
     return False
+
+
+def claims_by_solver(index: TraceIndex, trace: Trace, claim: Claim) -> bool:
+    """Whether a concern or purpose occurs in a trace, which may break rules and relations."""
+    for at in range(len(trace.instants)):
+        model = TraceModel(index, {})
+        nodes = instants_of(model, trace)
+        if has_model(model, trace, nodes, *claim_occurs(model, nodes[at], claim)):
+            return True
+    return False
+
+
+def claims_alike(ruleset: Ruleset, trace: Trace, untimed: Untimed) -> int:
+    """How many claims occur in a trace. Fails if two ways differ."""
+    semantics = Semantics(ruleset, trace.instants)
+    alone = replace(ruleset, statements=tuple(s for s in ruleset.statements if not isinstance(s, BINDING)))
+    index = TraceIndex(alone, untimed)
+    count = 0
+    for claim, formulas in claims_of(ruleset, untimed):
+        occurs = claim_holds(claim, ruleset, trace, untimed)
+        assert occurs == all(any(semantics.holds(f, at) for at in range(len(trace.instants))) for f in formulas)
+        assert occurs == claims_by_solver(index, trace, claim), (claim, trace, ruleset.source.text)
+        count += occurs
+    return count
 
 
 def judged(ruleset: Ruleset, trace: Trace, untimed: Untimed, index: TraceIndex) -> bool:
@@ -108,6 +147,12 @@ def features(ruleset: Ruleset) -> set[str]:
             found.add(relation_name(statement))
         elif isinstance(statement, (Exclusive, Never, Assume)):
             found.add(type(statement).__name__)
+        elif isinstance(statement, Claim):
+            found |= {
+                statement.kind,
+                statement.form,
+                "meanwhile" if statement.meanwhile is not None else statement.kind,
+            }
     for rule in ruleset.rules:
         found |= {"guard"} if rule.guard is not None else set()
         found |= {"hedge"} if rule.hedges else set()
@@ -158,18 +203,22 @@ EVERY_FEATURE = {
     *("witness", "equal", "mutualExclusive", "happenBefore", "causation", "includes", "forbid"),
     *("measure imply", "measure iff", "measure mutualExclusive", "measure opposite", "measure invariant"),
     *("when ... until", "when ... for", "Exclusive", "Never", "Assume"),
+    *("concern", "purpose", "exists", "when", "meanwhile"),
 }
 
 
 @pytest.mark.parametrize("start", range(0, 400, 100))
 def test_three_ways_judge_random_traces_alike(start):
-    kept = broken = undecided = 0
+    kept = broken = undecided = claimed = 0
     for seed in range(start, start + 100):
         random, ruleset = Random(seed), random_ruleset(seed)
         untimed: Untimed = "eventually" if seed % 3 == 0 else "at"
         index = TraceIndex(ruleset, untimed)
         for _ in range(6):
             trace = trace_of(random, ruleset)
+            if seed % 4 != 1:
+                # Without the relations, a measure that gives a length has no range.
+                claimed += claims_alike(ruleset, trace, untimed)
             try:
                 outcome = judged(ruleset, trace, untimed, index)
             except Undecided:
@@ -179,6 +228,7 @@ def test_three_ways_judge_random_traces_alike(start):
                 broken += not outcome
     assert kept > 60
     assert broken > 60
+    assert claimed > 20
     assert undecided < 20
 
 
