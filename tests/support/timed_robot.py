@@ -101,6 +101,7 @@ DOCTOR = '    def fetch_doctor(self, *args):\n        self.motor.go("ward")\n'
 WALK = '    @sleec.rule("walk")\n    @cop.base\n'
 DIAL = 'self.phone.dial("nurse", self.on_answer)'
 COMPLETED = 'sleec.completed("CallNurse")'
+SPEAK = '    def speak(self):\n        self.voice.say("hello")\n'
 VACUUM = "    def vacuum(self, *args):\n        self.motor.clean()\n"
 
 MISTAKES = (
@@ -241,4 +242,26 @@ MISTAKES = (
         "    def hush(self): ...\n\nclass Voice:\n    def on_wake(self):\n        self.speak()\n\n    def speak(self):",
     ),
     Mistake("forbidden act in another package", "undecided", BUTTON, _button("import voice; voice.speak()")),
+    Mistake(
+        "forbidden act under an alias", "undecided", SPEAK, "    def greet(self):\n        speak = print; speak()\n"
+    ),
+    Mistake(
+        "forbidden act by an attribute",
+        "unguarded-act",
+        SPEAK,
+        "    def greet(self):\n        self.speak = print\n        self.speak()\n",
+    ),
+    Mistake(
+        "forbidden act of an imported module",
+        "undecided",
+        SPEAK,
+        "    def greet(self):\n        from hw import speak as say; say()\n",
+    ),
+    Mistake("forbidden act in a destructor", "unguarded-act", BUTTON, "    def __del__(self):\n        self.speak()\n"),
+    Mistake(
+        "forbidden act in a task",
+        "unguarded-act",
+        BUTTON,
+        "    async def on_button(self):\n        asyncio.create_task(self.speak())\n",
+    ),
 )

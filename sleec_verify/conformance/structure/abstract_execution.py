@@ -303,7 +303,7 @@ class _Body(Flow):
                 node, self.file, f"the effect of {value.name.removeprefix('builtins.')} is known only at run time"
             )
             return
-        name = self.run.names.called_outside(value)
+        name = self.run.names.called_outside(value, node.func)
         if name is not None:
             self._by_name(node, name, why)
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from sleec_verify.conformance.structure.abstract_execution import REPLACERS, AbstractExecutor
 from sleec_verify.conformance.structure.methods import Group, Method
 from sleec_verify.conformance.structure.names import Names
-from sleec_verify.conformance.structure.own_conditions import OwnConditions
 from sleec_verify.conformance.structure.program import Class, Function, Scope
 from sleec_verify.conformance.structure.prohibitions import LastingProhibitions
 from sleec_verify.conformance.structure.report import Findings
@@ -58,7 +57,6 @@ class BypassCheck:
     globally: bool
     """Whether the target activates layers by `activate_globally`: then methods are there to be called."""
     prohibitions: LastingProhibitions
-    conditions: OwnConditions
 
     def __post_init__(self) -> None:
         groups = {group for method in self.methods for group in method.groups}
@@ -100,6 +98,8 @@ class BypassCheck:
         elif isinstance(value, Api):
             self._api(use, node, value)
             self._outside(use, node, value)
+            if isinstance(node.func, ast.Attribute):
+                self._unresolved(use, node.func)  # an attribute of the robot may hold it
         elif isinstance(node.func, ast.Attribute) and node.func.attr in self.tables.attributes:
             self._in_table(use, node.func)
         elif isinstance(value, UnknownValue) and isinstance(node.func, ast.Attribute):
@@ -142,7 +142,7 @@ class BypassCheck:
         """A call of code outside the target."""
         name = self.tables.one(value.name)
         if name is None:
-            self._perhaps(use, node.func, self.names.called_outside(value))
+            self._perhaps(use, node.func, self.names.called_outside(value, node.func))
         elif not self._may_execute(use, name):
             self._obligations(use, node, [name])
         if value.name in _CALLERS:
@@ -158,7 +158,7 @@ class BypassCheck:
     def _obligations(self, use: Use, node: ast.AST, names: list[str]) -> None:
         for name in names:
             if name not in self.prohibitions.required and name in self.prohibitions:
-                self._forbidden_act(use, node, name)
+                self.prohibitions.report(name, node, use)
         names = [name for name in names if name in self.prohibitions.required or name not in self.prohibitions]
         if names:
             verb, it = ("is", "it") if len(names) == 1 else ("are", "them")
@@ -170,24 +170,6 @@ class BypassCheck:
                 note=self.prohibitions.note(names),
                 help=f"trigger the rule that requires {it}",
             )
-
-    def _forbidden_act(self, use: Use, node: ast.AST, name: str) -> None:
-        """An act that rules forbid for a time, and that none requires: the code may execute it at other times."""
-        condition = self.conditions.around(use)
-        if condition is None:
-            self.findings.add(
-                "unguarded-act",
-                f"{name} is executed here, also while {listed(self.prohibitions.labels(name))} forbids it",
-                (use.scope.file, node),
-                rules=self.prohibitions.labels(name),
-                obligations=(name,),
-                note=self.prohibitions.note([name]),
-                help="write a rule that requires it, and trigger this rule: then the runtime rejects it at these times",
-            )
-        else:
-            labels = listed(self.prohibitions.labels(name))
-            why = f"{name} is executed here {condition}, perhaps while {labels} forbids it"
-            self.findings.undecided(use.scope.file, node, why)
 
     def _in_table(self, use: Use, func: ast.Attribute) -> None:
         """An attribute of the name of one that a table gives, both of them of objects of which little is known."""
@@ -269,7 +251,7 @@ class BypassCheck:
         if isinstance(value, UnknownValue) and isinstance(node, ast.Attribute):
             self._perhaps(use, node, self.names.called(node.attr))
         elif isinstance(value, Api):
-            self._perhaps(use, node, self.names.called_outside(value))
+            self._perhaps(use, node, self.names.called_outside(value, node))
         if not isinstance(value, Code) or node in self._handed_on:
             return
         for function in value.definitions[:1]:

@@ -68,7 +68,8 @@ class StructureCheck:
             self._definitions(group)
         for method in self.methods:
             self._bound_otherwise(method)
-        prohibitions = LastingProhibitions(in_force.rules, self.findings)
+        conditions = OwnConditions(self.resolver, everything)
+        prohibitions = LastingProhibitions(in_force.rules, self.findings, conditions)
         if self.timed:
             completion = CompletionCheck(self.resolver, self.names, prohibitions, self.findings)
             for use in everything:
@@ -84,7 +85,6 @@ class StructureCheck:
             self.layers,
             self.globally,
             prohibitions,
-            OwnConditions(self.resolver, everything if prohibitions.acts else ()),
         )
         for use in everything:
             around.look(use)

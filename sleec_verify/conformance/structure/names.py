@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Collection
 
 from sleec_runtime.dispatch.implementations import snake_case
@@ -52,6 +53,9 @@ class Names:
         names = self.by_method.get(name)
         return names[0] if names else None
 
-    def called_outside(self, function: Api) -> str | None:
-        """The obligation that a function of another package implements, if its name says so."""
-        return None if function.standard else self.called(function.name.rpartition(".")[2])
+    def called_outside(self, function: Api, written: ast.expr) -> str | None:
+        """The obligation that a function of another package implements, if its name or the name `written` says so."""
+        name = None if function.standard else self.called(function.name.rpartition(".")[2])
+        if name is None and isinstance(written, ast.Name) and function.name != f"builtins.{written.id}":
+            return self.called(written.id)
+        return name

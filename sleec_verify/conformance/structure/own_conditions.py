@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable
 from contextlib import AbstractContextManager, nullcontext
+from functools import cached_property
 
 from sleec_verify.conformance.structure.control import Flow
 from sleec_verify.conformance.structure.methods import read_variant
@@ -19,17 +20,23 @@ class OwnConditions:
 
     def __init__(self, resolver: Resolver, uses: Iterable[Use]) -> None:
         self._resolver = resolver
+        self._uses = uses
         self._callers: dict[Function, list[Use]] = {}
         self._passed_on: set[Function] = set()
-        for use in uses:
-            self._note(use)
-        self._flow = _Conditions()
-        for module in resolver.program.modules:
-            self._flow.statements(module.file.tree.body, None)
 
     def around(self, use: Use) -> str | None:
         """Where a condition of the code may keep `use` from running; None if it runs whenever its entry point does."""
         return self._around(use.node, use.scope, set())
+
+    @cached_property
+    def _why(self) -> dict[ast.AST, str | None]:
+        """For each expression of the target, why it may not run when its function is called."""
+        for use in self._uses:
+            self._note(use)
+        flow = _Conditions()
+        for module in self._resolver.program.modules:
+            flow.statements(module.file.tree.body, None)
+        return flow.why
 
     def _note(self, use: Use) -> None:
         callee = isinstance(use.parent, ast.Call) and use.parent.func is use.node
@@ -42,7 +49,7 @@ class OwnConditions:
             self._passed_on.update(value.definitions if isinstance(value, Code) else ())
 
     def _around(self, node: ast.AST, scope: Scope, seen: set[Function]) -> str | None:
-        why = self._flow.why.get(node)
+        why = self._why.get(node)
         function = scope.function
         if why is not None or function is None:
             return why

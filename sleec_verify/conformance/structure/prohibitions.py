@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterable
 
 from sleec_runtime.model import Rule, literals, obligation_text
+from sleec_verify.conformance.structure.own_conditions import OwnConditions
 from sleec_verify.conformance.structure.report import Findings
+from sleec_verify.conformance.structure.uses import Use
 from sleec_verify.results.phrases import listed
 
 
 class LastingProhibitions:
     """The acts that `rules` forbid for a time. The runtime rejects their dispatch in that time, and nothing else."""
 
-    def __init__(self, rules: Iterable[Rule], findings: Findings) -> None:
+    def __init__(self, rules: Iterable[Rule], findings: Findings, conditions: OwnConditions) -> None:
         self._findings = findings
+        self._conditions = conditions
         self._forbidding: dict[str, dict[str, str]] = {}
         """For each act, the labels of the rules that forbid it, with the text of one prohibition."""
         self.required: set[str] = set()
@@ -40,6 +44,25 @@ class LastingProhibitions:
     def labels(self, act: str) -> tuple[str, ...]:
         """The rules that forbid an act for a time."""
         return tuple(self._forbidding.get(act, ()))
+
+    def report(self, act: str, node: ast.AST, use: Use) -> None:
+        """Reports code that executes an act outside a dispatch, at `node` in the expression `use`. No rule requires the
+        act, so the code may execute it at other times."""
+        labels = listed(self.labels(act))
+        condition = self._conditions.around(use)
+        if condition is not None:
+            why = f"{act} is executed here {condition}, perhaps while {labels} forbids it"
+            self._findings.undecided(use.scope.file, node, why)
+            return
+        self._findings.add(
+            "unguarded-act",
+            f"{act} is executed here, also while {labels} forbids it",
+            (use.scope.file, node),
+            rules=self.labels(act),
+            obligations=(act,),
+            note=self.note([act]),
+            help="write a rule that requires it, and trigger this rule: then the runtime rejects it at these times",
+        )
 
     def note(self, acts: Iterable[str]) -> str | None:
         """The prohibitions of `acts` in words; None if there are none."""
