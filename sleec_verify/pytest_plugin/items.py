@@ -17,33 +17,16 @@ from sleec_verify.checks import checks_for, run_checks
 from sleec_verify.conformance.cases.case import Case
 from sleec_verify.conformance.cases.reader import read_cases
 from sleec_verify.conformance.exhaustive import each_rule, tried
-from sleec_verify.conformance.failure import Nonconformance, situation_text
-from sleec_verify.conformance.scenarios.expectations import unexpected
-from sleec_verify.conformance.scenarios.scenario import Scenario
+from sleec_verify.conformance.failure import situation_text
 from sleec_verify.conformance.subject import Bench, Factory, whole_ruleset
 from sleec_verify.pytest_plugin import settings
 from sleec_verify.pytest_plugin.coverage import not_counted
+from sleec_verify.pytest_plugin.item import CaseFailure, Item, check_names
+from sleec_verify.pytest_plugin.timed_items import timed_case, timed_rules
 from sleec_verify.report.escape import as_line
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.palette import PLAIN
 from sleec_verify.results.finding import SEVERITIES, Finding, Unknown
-
-
-class CaseFailure(AssertionError):
-    """The failure of an item, in words."""
-
-
-class _Item(pytest.Item):
-    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        if isinstance(excinfo.value, (CaseFailure, Nonconformance, SleecError)):
-            return str(excinfo.value)
-        return super().repr_failure(excinfo, style)
-
-    def reportinfo(self) -> tuple[Path, int | None, str]:
-        return self.path, self.line(), self.name
-
-    def line(self) -> int | None:
-        return None
 
 
 class RulesetFile(pytest.File):
@@ -57,11 +40,14 @@ class RulesetFile(pytest.File):
             raise self.CollectError(str(error)) from None
         for name in checks_for(ruleset):
             yield CheckItem.from_parent(self, name=f"check[{name}]", ruleset=ruleset, check=name)
+        if any(constructs(ruleset)):
+            yield from timed_rules(self, ruleset, target)
+            return
         for rule in ruleset.rules:
             yield RuleItem.from_parent(self, name=f"rule[{rule.label}]", ruleset=ruleset, rule=rule, target=target)
 
 
-class CheckItem(_Item):
+class CheckItem(Item):
     """One check. Fails if it has findings of at least the severity ``sleec_fail_level``, or if it is inconclusive."""
 
     def __init__(self, *, ruleset: Ruleset, check: str, **kwargs: Any) -> None:
@@ -86,7 +72,7 @@ class CheckItem(_Item):
         return "\n".join(map(as_line, lines))
 
 
-class RuleItem(_Item):
+class RuleItem(Item):
     """One rule: in every context that it distinguishes, the target executes what the solver says is due. Without a
     target, an instance whose obligations only record their execution is used: the evaluator against the solver."""
 
@@ -100,8 +86,6 @@ class RuleItem(_Item):
         return self.ruleset.source.place(self.rule.span).line - 1
 
     def runtest(self) -> None:
-        if self.target is None and self.ruleset.is_timed and any(constructs(self.ruleset)):
-            pytest.skip("rules with time have no tests for single rules; use the checks")
         with not_counted():
             for bench in self._benches():
                 each_rule(bench, frozenset({self.rule.label}))
@@ -126,13 +110,14 @@ class CasesFile(pytest.File):
         except SleecError as error:
             raise self.CollectError(str(error)) from None
         for case in cases:
-            if isinstance(case, Scenario):
-                yield ScenarioItem.from_parent(self, name=case.name, ruleset=ruleset, scenario=case)
+            if any(constructs(ruleset)):
+                yield timed_case(self, ruleset, case, target)
                 continue
+            assert isinstance(case, Case), "scenarios are of rules with time"
             yield CaseItem.from_parent(self, name=case.name, ruleset=ruleset, case=case, target=target)
 
 
-class CaseItem(_Item):
+class CaseItem(Item):
     """One case: the solver's answer matches the case, and the target, if any, executes it."""
 
     def __init__(self, *, ruleset: Ruleset, case: Case, target: Factory | None, **kwargs: Any) -> None:
@@ -153,17 +138,10 @@ class CaseItem(_Item):
         if expected.conflict != case.conflict:
             found = "the rules contradict each other" if expected.conflict else "the rules do not contradict each other"
             raise CaseFailure(f"{where}: {found}, but the case expects the opposite")
-        self._same(where, "obligations", case.obligations, expected.due)
+        check_names(where, "obligations", case.obligations, expected.due)
         if case.prohibitions is not None:
-            self._same(where, "prohibitions", case.prohibitions, expected.prohibited)
+            check_names(where, "prohibitions", case.prohibitions, expected.prohibited)
         self._executed(bench)
-
-    def _same(self, where: str, what: str, written: tuple[str, ...], found: tuple[str, ...]) -> None:
-        if set(written) != set(found):
-            raise CaseFailure(
-                f"{where}:\n  {what} of the case:  {', '.join(written) or 'none'}\n"
-                f"  {what} by the rules: {', '.join(dict.fromkeys(found)) or 'none'}"
-            )
 
     def _executed(self, bench: Bench) -> None:
         with bench.running() as running:
@@ -173,21 +151,6 @@ class CaseItem(_Item):
             failure = tried(running, self.case.context())
             if failure is not None:
                 raise failure
-
-
-class ScenarioItem(_Item):
-    """One scenario: what it states is what the rules require."""
-
-    def __init__(self, *, ruleset: Ruleset, scenario: Scenario, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.ruleset = ruleset
-        self.scenario = scenario
-
-    def runtest(self) -> None:
-        domain = self.scenario.domain or settings.domain(self.config, self.ruleset)
-        found = list(unexpected(self.ruleset if domain is None else self.ruleset.in_domain(domain), self.scenario))
-        if found:
-            raise CaseFailure("\n".join(found))
 
 
 def stand_in(ruleset: Ruleset, domain: str | None = None) -> Sleec:

@@ -46,6 +46,10 @@ class ScenarioNonconformance(Nonconformance):
         self.before = tuple(before)
         AssertionError.__init__(self, "\n".join(self._lines(broken)))
 
+    def concerns(self, label: str) -> bool:
+        """Whether a rule is broken, or nothing tells which one is."""
+        return self.fault.requirement is None or self.fault.requirement.rule.label == label
+
     def after(self, before: Sequence[str]) -> ScenarioNonconformance:
         """The same, with its history."""
         return ScenarioNonconformance(self.scenario, self.course, self.fault, self.requirements, before)

@@ -50,16 +50,6 @@ def test_findings_fail_by_their_level(run) -> None:
     strict.stdout.fnmatch_lines(["FAILED house.sleec::check[[]reading]*"])
 
 
-def test_rules_with_time_are_checked_and_not_tested_one_by_one(run) -> None:
-    text = "RULE a WHEN T THEN o WITHIN 5 minutes\nRULE b WHEN S THEN NOT o\n"
-    result = run("-rs", "timed.sleec", timed_sleec=text)
-    result.stdout.fnmatch_lines(
-        ["*timed.sleec:*error[[]SLEEC101]*", "*SKIPPED*rules with time have no tests for single rules*"]
-    )
-    assert result.parseoutcomes()["skipped"] == 2
-    assert result.parseoutcomes()["failed"] == 1
-
-
 def test_a_target_is_run_against_its_rules(run) -> None:
     assert run("house.sleec", "--sleec-target", "robot.py:make").ret == pytest.ExitCode.OK
     result = run("house.sleec", "--sleec-target", "robot.py:careless")
