@@ -73,6 +73,7 @@ from sleec_runtime.model.time_constructs import constructs as constructs
 from sleec_runtime.model.time_constructs import require_untimed as require_untimed
 from sleec_runtime.model.value import Value as Value
 from sleec_runtime.model.value import fit as fit
+from sleec_runtime.model.window import LONGEST as LONGEST
 from sleec_runtime.model.window import SECONDS as SECONDS
 from sleec_runtime.model.window import Length as Length
 from sleec_runtime.model.window import Unit as Unit

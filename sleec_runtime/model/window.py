@@ -15,6 +15,9 @@ Unit = Literal["seconds", "minutes", "hours", "days"]
 SECONDS: Mapping[Unit, int] = {"seconds": 1, "minutes": 60, "hours": 3600, "days": 86400}
 """The seconds of each unit."""
 
+LONGEST = 10**12
+"""The longest length of time in a text, in seconds: more than 30,000 years. It is also the latest time of a clock."""
+
 
 @dataclass(frozen=True, slots=True)
 class Length:

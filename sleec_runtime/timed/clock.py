@@ -7,12 +7,12 @@ from fractions import Fraction
 from typing import Protocol, Union
 
 from sleec_runtime.errors import SleecError, WrongType
-from sleec_runtime.model import exact
+from sleec_runtime.model import LONGEST, exact
 
 Time = Union[int, float, Fraction]
 """A time on a clock, in seconds."""
 
-FURTHEST = 10**12
+FURTHEST = LONGEST
 """The latest time of a clock, and the longest window, in seconds: more than 30,000 years. Up to there, a float has a
 resolution of milliseconds."""
 

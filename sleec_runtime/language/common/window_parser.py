@@ -7,7 +7,7 @@ from typing import ClassVar, NoReturn, cast
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.token_cursor import TokenCursor
 from sleec_runtime.language.common.units import UNITS, unit_hint
-from sleec_runtime.model import Span, Unit, Window
+from sleec_runtime.model import LONGEST, Length, Span, Unit, Window
 
 
 class WindowParser(TokenCursor):
@@ -46,8 +46,17 @@ class WindowParser(TokenCursor):
         """What to write instead of `word`, in lowercase, where a unit is expected."""
         return unit_hint(word)
 
+    def check_length(self, length: Length) -> None:
+        """Reports a length of time that no clock can measure."""
+        seconds = length.seconds
+        if seconds is not None and seconds > LONGEST:
+            self.problem(f"this time is too long: {length}", length.span, f"write at most {LONGEST:,} seconds")
+
     def check_window(self, window: Window) -> None:
-        """Reports a window that ends before it begins."""
+        """Reports a window that is too long, or ends before it begins."""
+        for length in (window.start, window.end):
+            if length is not None:
+                self.check_length(length)
         if window.start is None or window.end is None:
             return
         begins, ends = window.start.seconds, window.end.seconds

@@ -61,7 +61,9 @@ class DslTimeParser(DslDefinitionParser, WindowParser):
         if isinstance(amount, Number) and amount.value < 0:
             written = quoted(self.text[side.span.start : side.span.end])
             self.fail(f"a time cannot be negative: {written} is {amount.value}", side.span, "use another value")
-        return Length(amount, unit, span)
+        length = Length(amount, unit, span)
+        self.check_length(length)
+        return length
 
     def unit_hint(self, word: str) -> str:
         if word in ("to", "and", "or"):

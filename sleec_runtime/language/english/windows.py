@@ -56,7 +56,9 @@ class EnglishTimeParser(EnglishDeclarationParser, WindowParser):
         """``5 minutes``; the number may be a constant or a measure."""
 
         bound = self._bound()
-        return Length(bound.amount, bound.unit or self.unit(), bound.span)
+        length = Length(bound.amount, bound.unit or self.unit(), bound.span)
+        self.check_length(length)
+        return length
 
     def _ends(self) -> tuple[Length | None, Length]:
 
