@@ -130,7 +130,7 @@ def measure_studies(paths: Iterable[Path]) -> None:
     print(f"  checking that       {checking:7.2f} s   {checking / solving:.2f} times")
 
 
-def main(folder: Path = Path("../shared/case-studies")) -> None:
+def main(published: Path = Path("../shared/case-studies")) -> None:
     print(f"proofs are checked by {checker().name}; the oracle is {'' if built() else 'not '}built")
     for name, rules in (("random", random_rules), ("harmless", harmless_rules), ("alike", alike_rules)):
         with tempfile.TemporaryDirectory() as place:
@@ -149,11 +149,11 @@ def main(folder: Path = Path("../shared/case-studies")) -> None:
         print(f"  formulas {sizes['cnf'] / 1e6:.2f} MB, refutations {sizes['lrat'] / 1e6:.2f} MB")
     print("our studies: check, and how many times as long it takes with a certificate, and checking that")
     measure_studies(sorted(OWN.glob("*.sleec")))
-    if folder.is_dir():
+    if published.is_dir():
         print("the published studies")
-        measure_studies(sorted(folder.glob("*/*.sleec")))
+        measure_studies(sorted(published.glob("*/*.sleec")))
     else:
-        print(f"the published case studies are not in {folder}")
+        print(f"the published case studies are not in {published}")
 
 
 if __name__ == "__main__":

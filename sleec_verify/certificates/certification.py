@@ -121,7 +121,7 @@ def rebuild(
         if name == "conflict":
             asked = _conflict(checking, recorder, result, asked, timed)
         if isinstance(result.verdict, Unknown):
-            asked = []
+            asked, traces, templates = [], (), ()
         formulas = _named(name, asked, name == "conflict" and isinstance(result.verdict, Proved))
         yield CheckEvidence(result, found, formulas, traces, templates, uncovered, timed)
 

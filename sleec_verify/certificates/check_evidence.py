@@ -65,7 +65,7 @@ def _uncertified(evidence: CheckEvidence, uncovered: str | None) -> Iterator[Unc
             "that no response complies in the situation of a trace",
             "the refuted formula is about the facts that the search takes from the situation",
         )
-        yield Uncertified("that no rule of a conflict over time can be left out", "only --check computes it")
+        yield from _of_rules(evidence)
     if evidence.result.name == "conflict" and isinstance(verdict, Proved) and evidence.timed:
         yield Uncertified(
             "that pending demands, components, free events and induction describe all situations",
@@ -73,6 +73,18 @@ def _uncertified(evidence: CheckEvidence, uncovered: str | None) -> Iterator[Unc
         )
     if evidence.templates:
         yield from _of_templates(evidence)
+
+
+def _of_rules(evidence: CheckEvidence) -> Iterator[Uncertified]:
+    """The rules of conflicts for which no response complies with all others."""
+    found = [trace.found for trace in evidence.traces]
+    rules = sum(len({label for label, _ in one.about}) for one in found if one.shows == "conflict")
+    missing = rules - sum(one.shows == "response" for one in found)
+    if missing:
+        yield Uncertified(
+            f"that {counted(missing, 'rule')} of {rules} in conflicts over time cannot be left out",
+            "the search found no response to the others at once",
+        )
 
 
 def _of_templates(evidence: CheckEvidence) -> Iterator[Uncertified]:

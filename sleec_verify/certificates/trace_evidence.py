@@ -54,8 +54,11 @@ class CheckTrace:
 
     def json(self) -> dict[str, Json]:
         about: list[Json] = [{"name": name, "clause": clause} for name, clause in self.found.about]
-        entry: dict[str, Json] = {"check": self.check, "domain": self.domain, "shows": self.found.shows}
-        return {**entry, "about": about, "instants": _instants(self.found.instants)}
+        entry: dict[str, Json] = {"check": self.check, "domain": self.domain, "shows": self.found.shows, "about": about}
+        if self.found.shows == "response":
+            entry["complies"] = [rule.label for rule in self.found.rules]
+            entry["inputs"] = [*sorted(self.found.inputs)]
+        return {**entry, "now": self.found.now, "instants": _instants(self.found.instants)}
 
     @property
     def traces(self) -> int:

@@ -86,7 +86,18 @@ def _of_traces(whole: TraceIndex, component: TraceIndex, incomplete: list[str]) 
     for conflict in search.find():
         if whole.recorder is not None:
             instants = (*conflict.history, conflict.now)
-            whole.recorder.found(FoundTrace(whole.root.ruleset, "conflict", conflict.pairs, instants))
+            found = FoundTrace(
+                whole.root.ruleset,
+                "conflict",
+                conflict.pairs,
+                instants,
+                now=len(conflict.history),
+                inputs=conflict.now.events,
+            )
+            whole.recorder.found(found)
+            for one in conflict.responses:
+                response = found._replace(shows="response", instants=one.instants, rules=one.rules, now=one.now)
+                whole.recorder.found(response)
         yield _of_trace(whole, conflict)
     if whole.recorder is not None and search.templates is not None:
         labels = tuple(rule.label for rule in component.rules)

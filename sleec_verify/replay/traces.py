@@ -36,9 +36,15 @@ def replay_trace(index: RulesetIndex, finding: Finding) -> bool:
 def replay_found(index: RulesetIndex, found: FoundTrace, evaluator: TraceEvaluator = RUNTIME) -> bool:
     """Whether an evaluator confirms what a trace shows (`FoundTrace.shows`). `index` is that of its ruleset."""
     trace = Trace(tuple(Instant(*instant) for instant in found.instants))
-    if found.shows == "conflict":
+    if found.now is not None:
         clauses = [(label, clause) for label, clause in found.about if clause is not None and clause >= 0]
-        return _is_situation(index, {label for label, _ in found.about}, clauses, trace, evaluator)
+        *before, now = trace.instants[: found.now + 1]
+        if not found.inputs <= now.events:
+            return False
+        history = Trace((*before, replace(now, events=found.inputs)))
+        if not _is_situation(index, {label for label, _ in found.about}, clauses, history, evaluator):
+            return False
+        return found.shows == "conflict" or _complies(index, found.rules, trace, evaluator)
     label, number = found.about[0]
     if found.shows in CLAIM_KINDS:
         return _occurs(index, found.shows, label, trace, evaluator)
@@ -62,8 +68,12 @@ def replay_found(index: RulesetIndex, found: FoundTrace, evaluator: TraceEvaluat
 def replay_example(index: RulesetIndex, example: Example, evaluator: TraceEvaluator = RUNTIME) -> bool:
     """Whether an evaluator confirms that the continuation of a template complies with the rules of an example: the
     whole trace violates neither these rules nor a relation."""
-    trace = Trace(tuple(Instant(*instant) for instant in example.instants))
-    return not evaluator.violations(_with(_about(index, trace), example.rules), trace, index.untimed)
+    return _complies(index, example.rules, Trace(tuple(Instant(*instant) for instant in example.instants)), evaluator)
+
+
+def _complies(index: RulesetIndex, rules: Iterable[Rule], trace: Trace, evaluator: TraceEvaluator) -> bool:
+    """Whether a trace violates neither these rules nor a relation."""
+    return not evaluator.violations(_with(_about(index, trace), rules), trace, index.untimed)
 
 
 def _broken(index: RulesetIndex, ruleset: Ruleset, trace: Trace, evaluator: TraceEvaluator) -> set[str]:

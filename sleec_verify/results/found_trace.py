@@ -17,6 +17,7 @@ Shows = Literal[
     "concern",
     "purpose",
     "conflict",
+    "response",
 ]
 """What a trace shows:
 
@@ -28,16 +29,23 @@ Shows = Literal[
 - ``concern``, ``purpose``: it violates nothing, and this claim occurs.
 - ``conflict``: up to its last instant, which is now, it is a lawful history, and these clauses decide. Clause -1 is
   that of a rule that only a response triggers.
+- ``response``: the same up to the instant `now`, and the whole trace violates no relation and none of `rules`: those of
+  the conflict but one.
 """
 
 
 class FoundTrace(NamedTuple):
     """A trace of `ruleset`, which may be one domain of a text, and what it shows about rules or claims, each with the
     number of a clause or None. An instant has its time in seconds, its events, and the conditions and measures that
-    matter. `changed` is the rule without the hedge, if the question is about one."""
+    matter. `changed` is the rule without the hedge, if the question is about one. `rules` are those that a response
+    complies with, without what can always be met. `now` is the number of an instant,
+    and `inputs` are the events of now that are not part of the response."""
 
     ruleset: Ruleset
     shows: Shows
     about: tuple[tuple[str, int | None], ...]
     instants: tuple[tuple[int, frozenset[str], Mapping[str, Value]], ...]
     changed: Rule | None = None
+    rules: tuple[Rule, ...] = ()
+    now: int | None = None
+    inputs: frozenset[str] = frozenset()

@@ -13,10 +13,11 @@ from functools import cached_property
 from typing import NamedTuple
 
 from sleec_runtime.model import Rule
-from sleec_verify.encoding.budget import OutOfBudget, Undecided, share
+from sleec_verify.encoding.budget import OutOfBudget, Undecided, as_far_as_decided, share
 from sleec_verify.encoding.solver import Refutation
-from sleec_verify.results.conflict_freedom import UsedTemplate
+from sleec_verify.results.conflict_freedom import Example, UsedTemplate
 from sleec_verify.results.phrases import listed, quoted
+from sleec_verify.traces.complying_responses import complying_responses
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import drop_slots, minimal_rules, weakest_facts
 from sleec_verify.traces.event_conditions import event_of, is_of_state, named_atoms
@@ -26,7 +27,7 @@ from sleec_verify.traces.model import TraceModel
 from sleec_verify.traces.refinement import Refinement
 from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.trace import TraceInstant
-from sleec_verify.traces.used_templates import used_templates
+from sleec_verify.traces.used_templates import PART, used_templates
 from sleec_verify.traces.witness import needed_relations, needed_values
 
 MOST_UNDECIDED = 4
@@ -57,8 +58,9 @@ class Pair(NamedTuple):
 
 class Conflict(NamedTuple):
     """The rules, each with the clauses that decide; a lawful history up to now; the inputs of now, with the conditions
-    and measures that matter; the keys of the relations that matter; the rules that every response triggers now; and the
-    refutation of a response that complies with the rules."""
+    and measures that matter; the keys of the relations that matter; the rules that every response triggers now; the
+    refutation of a response that complies with the rules; and, if there is a recorder, responses that comply with all
+    rules but one."""
 
     pairs: tuple[Pair, ...]
     history: tuple[TraceInstant, ...]
@@ -66,6 +68,7 @@ class Conflict(NamedTuple):
     relations: tuple[str, ...]
     forced: frozenset[str]
     refutation: Refutation
+    responses: tuple[Example, ...]
 
     @property
     def rules(self) -> tuple[str, ...]:
@@ -322,7 +325,11 @@ class ConflictSearch:
         now = TraceInstant(time, frozenset(given), values)
         stated = tuple(key for key in relations if not is_of_state(self._index.relation_by_key[key]))
         history = tuple(map(_without_states, moments))
-        return Conflict(pairs, history, _without_states(now), stated, forced, refutation)
+        responses: list[Example] = []
+        if self._index.recorder is not None:
+            with as_far_as_decided(), share(PART):
+                responses += complying_responses(continuations, rules)
+        return Conflict(pairs, history, _without_states(now), stated, forced, refutation, tuple(responses))
 
     def _about_past(self, core: list[Fact], slots: set[int]) -> list[Fact]:
         """The facts of a core about the past, with all facts about some slots."""

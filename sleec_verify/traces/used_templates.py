@@ -83,7 +83,7 @@ def _example(s: Situations, template: Template, defeat: int, origin: tuple[Fact,
             events, later = continuation
             instants = [*moments, TraceInstant(now, events, values)]
             instants += (TraceInstant(now + time, one.events, dict(sorted(one.state))) for time, one in later)
-            return Example(tuple(_contested(s, rule) for rule in rules), tuple(instants), len(moments))
+            return Example(tuple(contested_rule(s, rule) for rule in rules), tuple(instants), len(moments))
     return None
 
 
@@ -140,7 +140,7 @@ def _members(clause: Clause) -> Iterator[Clause]:
         yield from _members(hedge)
 
 
-def _contested(s: Situations, rule: Rule) -> Rule:
+def contested_rule(s: Situations, rule: Rule) -> Rule:
     """A rule without the responses that can always be met."""
 
     def reduced(clause: Clause) -> Clause:

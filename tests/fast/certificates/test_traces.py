@@ -64,6 +64,8 @@ def test_each_question_answered_by_a_trace_has_one() -> None:
         assert {("redundant-rule", "violation", rule), ("vacuous-conflict", "trigger", rule)} <= shown
     assert ("redundant-hedge", "violation-without-hedge", "R2") in shown
     assert {("concern", "concern", "c1"), ("purpose", "purpose", "p1"), ("conflict", "conflict", "R1")} <= shown
+    # Without R1, a response complies with R2, and the reverse.
+    assert {("conflict", "response", "R2"), ("conflict", "response", "R1")} <= shown
 
 
 def changed(trace: CheckTrace) -> Iterator[CheckTrace]:
@@ -155,3 +157,11 @@ def test_changed_bytes(made: Path, tmp_path: Path, name: str) -> None:
             found = reasons(folder)
             assert found or name.endswith(".lrat")
             rewrite(folder, lambda m: m["files"].update({name: hashlib.sha256(data).hexdigest()}))
+
+
+def test_an_unknown_verdict_has_no_traces(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A witness that the replay rejects makes the verdict unknown, and is no evidence."""
+    monkeypatch.setattr("sleec_verify.checks.replay_finding", lambda index, finding: False)
+    (conflict,) = (one for one in rebuild(parse(RULES), None, "at") if one.result.name == "conflict")
+    assert (conflict.shown().evidence, conflict.traces, conflict.templates) == ("none", (), ())
+    assert [one.what for one in conflict.shown().uncertified] == ["the verdict"]
