@@ -90,9 +90,13 @@ def little_budget(data: bytes) -> Iterator[None]:
 
 
 def check(data: bytes, folder: Path) -> None:
-    """Rules without times are checked, compiled and asked, and every format shows what came of it."""
+    """Rules are compiled. Those without times are checked and asked, and every format shows what came of it."""
     ruleset = read(data)
-    if ruleset is None or speaks_of_traces(ruleset):
+    if ruleset is None:
+        return
+    for form in FORMS:
+        unless_refused(compile_to, ruleset, form)
+    if speaks_of_traces(ruleset):
         return
     outcome = CheckedRuleset(ruleset, run_checks(ruleset))
     with little_budget(data):
@@ -101,8 +105,6 @@ def check(data: bytes, folder: Path) -> None:
             assert isinstance(little.verdict, (Unknown, type(result.verdict)))
     for form in FORMATS:
         assert "".join(renderer(form)([outcome], PLAIN))
-    for form in FORMS:
-        unless_refused(compile_to, ruleset, form)
     context = Context(ruleset.triggers, dict.fromkeys(ruleset.conditions, True))
     answer = unless_refused(entail, ruleset, context)
     if answer is not None and answer.consistent:

@@ -93,7 +93,7 @@ class _Writer:
                 yield self._named(self.formula(constraint.formula), f"ASSUME {position}")
         for position, (relation, disjunctions) in enumerate(self._equation.relations()):
             formula = conjunction(list(map(disjunction, disjunctions)))
-            yield self._named(self.formula(formula), f"{relation_name(relation)} {position}")
+            yield self._named(self.formula(formula), f"relation {position}: {relation_name(relation)}")
 
     def _named(self, formula: str, name: str) -> str:
         return f"(assert (! {formula} :named {_quoted(name)}))"

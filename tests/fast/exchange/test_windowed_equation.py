@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import pytest
 
@@ -99,3 +100,9 @@ def test_dimacs_names_the_windows_and_has_the_clauses_of_json() -> None:
     clauses = [list(map(int, row.split()))[:-1] for row in rows if row[0] not in "cp"]
     assert clauses == document["clauses"]
     assert "c not in Equation 1: happenBefore in line 11, which relates several instants" in rows
+
+
+def test_assertions_of_smtlib_have_different_names() -> None:
+    text = RULES.replace("R1 when", "mutualExclusive when")
+    names = re.findall(r":named \|(.*?)\|", compile_to(parse(text), "smtlib"))
+    assert names == ["mutualExclusive 0", "R2 0", "R2 1", "relation 0: mutualExclusive"]
