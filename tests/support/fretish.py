@@ -38,8 +38,8 @@ def satisfied(sentence: str, points: Sequence[Signals]) -> bool:
     """Whether a trace satisfies a sentence. Nothing that matters follows after the last of `points`."""
     match = SENTENCE.fullmatch(sentence)
     assert match is not None, sentence
-    condition = _Reader(match["condition"] or "true", points).read()
-    holds = _timing(match["timing"], _Reader(match["response"], points).read(), points)
+    condition = Reader(match["condition"] or "true", points).read()
+    holds = _timing(match["timing"], Reader(match["response"], points).read(), points)
     return all(holds(at) for at in range(len(points)) if condition(at))
 
 
@@ -54,19 +54,21 @@ def _timing(text: str, response: Evaluation, points: Sequence[Signals]) -> Evalu
         return lambda at: all(response(n) for n in range(at, end))
     if word == "until":
         # Weak, and without the point of the stop condition.
-        stop = _Reader(rest, points).read()
+        stop = Reader(rest, points).read()
         return lambda at: all(response(n) or any(stop(m) for m in range(at, n + 1)) for n in range(at, end))
     duration = int(rest.split()[0])
     every = all if word == "for" else any
     return lambda at: every(response(n) for n in range(at, min(at + duration + 1, end)))
 
 
-class _Reader:
+class Reader:
     """Recursive descent over one Boolean expression."""
+
+    token = TOKEN
 
     def __init__(self, text: str, points: Sequence[Signals]) -> None:
         self.points = points
-        self.tokens: list[str] = [*TOKEN.findall(text), ""]
+        self.tokens: list[str] = [*self.token.findall(text), ""]
         assert "".join(self.tokens) == text.replace(" ", ""), text
         self.at = 0
 

@@ -6,10 +6,15 @@ from random import Random
 
 import pytest
 
+from sleec_runtime.evaluation.trace import Untimed
 from sleec_runtime.evaluation.trace_violations import claim_holds, violations
+from sleec_runtime.language import parse
+from sleec_verify.exchange.compilation import compile_to
 from sleec_verify.exchange.compilation.temporal_logic import claims_of, requirements
 from tests.support.ruleset_traces import trace_of
 from tests.support.temporal_semantics import Semantics
+from tests.support.temporal_text import TemporalReader
+from tests.support.timed_english import timed_english
 from tests.support.timed_strategies import timed_ruleset
 
 
@@ -38,3 +43,47 @@ def test_a_trace_violates_a_statement_where_its_formula_is_false(start, untimed)
                 assert occurs == claim_holds(claim, ruleset, trace, untimed), ruleset.source.text
     assert satisfied > 50
     assert violated > 50
+
+
+def reader(ruleset, trace):
+    """Reads formulas over the instants of a trace."""
+    scales = [measure for measure in ruleset.measures.values() if measure.kind == "scale"]
+    ranks = {value: rank for measure in scales for rank, value in enumerate(measure.values)}
+    points = []
+    for instant in trace.instants:
+        values = {name: ranks.get(value, value) for name, value in instant.conditions.items()}
+        events = {name: name in instant.events for name in ruleset.triggers | ruleset.obligations}
+        points.append({**ranks, **values, **events})
+    times = [instant.time for instant in trace.instants]
+    return lambda text: TemporalReader(text, points, times).read()
+
+
+@pytest.mark.parametrize("start", range(0, 400, 100))
+def test_a_trace_satisfies_the_rules_if_it_satisfies_the_text(start):
+    satisfied = violated = occurring = 0
+    for seed in range(start, start + 100):
+        random = Random(seed)
+        ruleset = parse(timed_english(seed)) if seed % 4 == 3 else timed_ruleset(seed, named=seed % 2 == 0)
+        if seed % 4 == 1:
+            ruleset = timed_ruleset(seed, lengths=True, calculations=True)
+        untimed: Untimed = "eventually" if seed % 3 == 0 else "at"
+        rows = compile_to(ruleset, "mtl", untimed=untimed).splitlines()
+        claims = {claim.label: claim for claim, _ in claims_of(ruleset, untimed)}
+        for _ in range(6):
+            trace = trace_of(random, ruleset)
+            read = reader(ruleset, trace)
+            kept = True
+            for title, text in zip(rows[::2], rows[1::2], strict=True):
+                holds = read(text)(0)
+                if title.endswith(": it occurs in a trace if"):
+                    claim = claims[title.split()[2].rstrip(":")]
+                    assert holds == claim_holds(claim, ruleset, trace, untimed), (text, ruleset.source.text)
+                    occurring += holds
+                else:
+                    kept = kept and holds
+            assert kept == (not violations(ruleset, trace, untimed)), (rows, ruleset.source.text)
+            satisfied += kept
+            violated += not kept
+    assert satisfied > 50
+    assert violated > 50
+    assert occurring > 10
