@@ -11,6 +11,7 @@ from sleec_verify.checks import run_checks
 from sleec_verify.encoding.measure_ranges import MeasureRanges
 from sleec_verify.results.finding import Proved, Unknown
 from sleec_verify.traces.index import TraceIndex
+from tests.support.timed_strategies import timed_ruleset
 
 ENGLISH = "EVENT Smoke, Fall, Call\nMEASURE patience: integer\n"
 DSL = "def_start event Smoke event Fall event Call measure patience: numeric def_end "
@@ -157,3 +158,18 @@ def test_the_environment_chooses_the_worst_value(least, wins):
 def test_a_window_that_ends_before_it_begins_is_named():
     (finding,) = conflict(WAIT, "ASSUME patience >= -1 AND patience <= 2\n").findings
     assert "`Call` is required in a window that ends before it begins" in finding.message
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_unit_of_all_times_does_not_matter(seed):
+    text = timed_ruleset(seed, rules=3, events=3, booleans=1, scale=False, longest=2, relations=0, lengths=True)
+    scaled = parse(text.source.text.replace("seconds", "minutes"))
+    (one,), (other,) = run_checks(text, ["conflict"]), run_checks(scaled, ["conflict"])
+    assert {f.rules for f in one.findings} == {f.rules for f in other.findings}
+    assert type(one.verdict) is type(other.verdict)
+
+
+def test_thirty_values_in_three_rules_are_within_the_budget():
+    rules = WAIT + "RULE R2 WHEN Fall THEN NOT Call WITHIN patience minutes\n"
+    rules += "RULE R3 WHEN Night THEN Fall WITHIN patience minutes\n"
+    assert in_conflict("EVENT Night\n" + rules) == {frozenset({"R1", "R2"})}

@@ -3,7 +3,18 @@
 from __future__ import annotations
 
 from sleec_runtime.language import parse, print_ruleset
-from sleec_runtime.model import RELATIONS, Claim, Effect, EventRelation, Lasting, MeasureRelation, literals
+from sleec_runtime.model import (
+    RELATIONS,
+    Calculation,
+    Claim,
+    Effect,
+    EventRelation,
+    Lasting,
+    MeasureRelation,
+    formulas_of,
+    literals,
+    names_of,
+)
 from tests.support.timed_strategies import timed_ruleset
 
 MANY = [timed_ruleset(seed) for seed in range(300)]
@@ -56,3 +67,17 @@ def test_every_construct_is_among_them():
     assert any(ruleset.measures for ruleset in MANY)
     # Chains: what one rule obliges triggers another.
     assert any({o.name for o in obligations(ruleset)} & {rule.trigger for rule in ruleset.rules} for ruleset in MANY)
+
+
+def test_measures_give_lengths_in_every_place() -> None:
+    measured = [timed_ruleset(seed, lengths=True) for seed in range(100)]
+    timings = [o.timing for ruleset in measured for o in obligations(ruleset) if o.timing is not None]
+    windows = [timing.window for timing in timings if timing.window is not None]
+    assert any(window.start is not None and window.start.measures and window.end.measures for window in windows)
+    assert any(isinstance(window.end.amount, Calculation) for window in windows if window.end is not None)
+    assert any(timing.otherwise is not None and timing.window.end.measures for timing in timings if timing.window)
+    durations = [s.duration for ruleset in measured for s in ruleset.statements if isinstance(s, Lasting)]
+    assert any(duration is not None and duration.measures for duration in durations)
+    conditions = [f for ruleset in measured for rule in ruleset.rules for f in formulas_of(rule)]
+    assert any({"w", "v"} & set(names_of(formula)) for formula in conditions)
+    assert all(parse(print_ruleset(ruleset)) == ruleset for ruleset in measured)
