@@ -207,14 +207,6 @@ class Encoder:
                 by_literal.setdefault(obligation, []).append(guard)
         return {obligation: self.any_of(guards) for obligation, guards in by_literal.items()}
 
-    def equation(self, rule: Rule, reading: Reading) -> list[int]:
-        """Add Equation 1 of the rule: each guard implies the response of its clause. Returns the guards."""
-        guards = self.guards(rule, reading)
-        for clause, guard in zip(rule.clauses(), guards):
-            for obligation in clause.obligations:
-                self.clauses.append([-guard, self.obligation(obligation)])
-        return guards
-
     def close(self) -> None:
         """Add the order of the measures' regions. The formula is complete after this."""
         self.measures.close()

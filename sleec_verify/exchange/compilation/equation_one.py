@@ -47,8 +47,8 @@ from sleec_verify.exchange.compilation.temporal_logic import (
 
 
 class WindowAtom(NamedTuple):
-    """What an atom with a window means: the event, and the first and the last second, as text. `last` is
-    None without an upper bound."""
+    """What an atom with a window means: the event, and the first and the last second, as text. `last` is None
+    without an upper bound."""
 
     event: str
     first: str

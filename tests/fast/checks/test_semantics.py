@@ -8,7 +8,6 @@ import pytest
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context, Not, Or
 from sleec_verify.checks import run_checks
-from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.equation import implications
 from sleec_verify.entailment.entailment import entail
 from sleec_verify.exchange.compilation.clauses import encode_ruleset
@@ -189,9 +188,7 @@ def test_5_it_happened_and_it_is_to_be_done_are_two_things():
     assert answer.consistent
     assert answer.obligations == ("SoundAlarm",)
     assert due(text, "SoundAlarm").obligations == ("CallOperator",)
-    encoder = Encoder({})
-    for rule in parse(text).rules:
-        encoder.equation(rule, "cascade")
+    encoder = encode_ruleset(EquationOne(parse(text)))
     assert {("trigger", "SoundAlarm"), ("obligation", "SoundAlarm")} <= set(encoder.variables)
 
 
