@@ -21,7 +21,7 @@ from sleec_verify.changes.compare.result import (
 )
 from sleec_verify.changes.compare.sides import condition_names
 from sleec_verify.changes.compare.situations import situation_changes
-from sleec_verify.changes.compare.timed_conflicts import timed_conflict_changes
+from sleec_verify.changes.compare.timed_conflicts import TimedConflicts
 from sleec_verify.changes.compare.vocabulary import name_changes
 from sleec_verify.changes.relations import relations_over_time
 from sleec_verify.encoding.budget import Undecided, for_file
@@ -92,7 +92,7 @@ def _compared(comparison: Comparison, domain: str | None) -> list[_Any]:
         if is_possible(comparison.index):
             found += conflict_changes(comparison)
             found += changes(comparison)
-            found += _further_conflicts(comparison, found)
+            found = _with_conflicts_over_time(found, TimedConflicts(comparison))
         elif all(is_possible(comparison.situations_of(which)) for which in comparison.sides):
             why = "no situation is allowed by the assumptions of both versions"
             found.append(Undecidable("the obligations", why))
@@ -103,12 +103,20 @@ def _compared(comparison: Comparison, domain: str | None) -> list[_Any]:
     return [one if isinstance(one, (Undecidable, str)) else one._replace(domains=(domain,)) for one in found]
 
 
-def _further_conflicts(comparison: Comparison, found: Sequence[_Any]) -> Iterator[_Any]:
-    """The conflicts over time, without those whose rules also conflict at one instant."""
-    known = {(one.way, frozenset(one.rules)) for one in found if isinstance(one, ConflictChange)}
-    for one in timed_conflict_changes(comparison):
-        if isinstance(one, (Undecidable, str)) or (one.way, frozenset(one.rules)) not in known:
-            yield one
+def _with_conflicts_over_time(found: Sequence[_Any], timed: TimedConflicts) -> list[_Any]:
+    """`found` with the conflicts over time, without those whose rules also conflict at one instant.
+
+    A contradiction at one instant that is no conflict is left out, if the changes of its rules are reported.
+    """
+    changed = {label for one in found if isinstance(one, Change) for label in one.rules}
+    kept = [
+        one
+        for one in found
+        if not isinstance(one, ConflictChange) or changed.isdisjoint(one.rules) or not timed.denies(one)
+    ]
+    known = {(one.way, frozenset(one.rules)) for one in kept if isinstance(one, ConflictChange)}
+    further = [one for one in timed.changes() if (one.way, frozenset(one.rules)) not in known]
+    return [*kept, *further, *timed.undecided, *timed.limits]
 
 
 def _conditions_that_are_measures(comparison: Comparison) -> Iterator[Undecidable]:

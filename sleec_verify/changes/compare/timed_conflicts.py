@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
 from dataclasses import replace
-from typing import Union
 
 from sleec_runtime.model import Rule
 from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, other
-from sleec_verify.changes.compare.result import TimedConflictChange, Undecidable
+from sleec_verify.changes.compare.result import ConflictChange, TimedConflictChange, Undecidable
 from sleec_verify.checks.conflict import components_over_time, conflicts_over_time
 from sleec_verify.checks.untimed_conflicts import Enough
 from sleec_verify.encoding.budget import Undecided
@@ -28,41 +27,63 @@ _Pairs = frozenset[tuple[str, Hashable]]
 """The rules of a conflict by their new labels, each with a clause."""
 
 
-def timed_conflict_changes(comparison: Comparison) -> Iterator[Union[TimedConflictChange, Undecidable, str]]:
-    """The conflicts over time that one side has and the other side does not have. Also yields the limits of the list
-    of conflicts, in words.
+class TimedConflicts:
+    """The conflicts over time of both sides, among the rules that the change can affect.
 
-    Complete: rules in conflict are in one component, and equal components have the same conflicts.
+    Complete: rules in conflict are in one component, and equal components have the same conflicts. `limits` are
+    limits of the list of conflicts, in words.
     """
-    stated = {which: comparison.sides[which].stated for which in SIDES}
-    if not any(speaks_of_traces(ruleset) for ruleset in stated.values()):
-        return
-    found: dict[SideName, dict[_Pairs, Finding]] = {}
-    open_rules: dict[SideName, set[str]] = {}
-    indices = {which: RulesetIndex(ruleset, untimed=comparison.untimed) for which, ruleset in stated.items()}
-    parts = {which: {_content(one): one for one in components_over_time(index)} for which, index in indices.items()}
-    names = _new_names(comparison)
-    for which, index in indices.items():
-        found[which], open_rules[which] = {}, set()
-        for content, component in parts[which].items():
-            if content in parts[other(which)]:
-                continue
-            labels = [rule.label for rule in component.rules]
-            try:
-                for finding in conflicts_over_time(index, component):
-                    if not replay_finding(index, finding):
-                        raise Undecided("the replay rejected a conflict; this is a bug in sleec-verify")
-                    found[which][_pairs(comparison, which, finding, names)] = finding
-            except Enough as error:
-                yield str(error)
-            except Undecided as error:
-                open_rules[which].update(names.get(label, label) if which == "old" else label for label in labels)
-                yield Undecidable(f"conflicts of {listed(map(quoted, labels))}", str(error))
-    for which in SIDES:
-        for pairs, finding in found[which].items():
-            known = pairs in found[other(which)]
-            if not known and open_rules[other(which)].isdisjoint(label for label, _ in pairs):
-                yield TimedConflictChange("added" if which == "new" else "removed", finding)
+
+    def __init__(self, comparison: Comparison) -> None:
+        self.limits: list[str] = []
+        self.undecided: list[Undecidable] = []
+        self._comparison = comparison
+        self._names = _new_names(comparison)
+        self._found: dict[SideName, dict[_Pairs, Finding]] = {which: {} for which in SIDES}
+        self._open: dict[SideName, set[str]] = {which: set() for which in SIDES}
+        """The rules whose conflicts are undecided on a side, by their new labels."""
+        self._decided: dict[SideName, set[str]] = {which: set() for which in SIDES}
+        """The rules whose conflicts are known on a side."""
+        stated = {which: comparison.sides[which].stated for which in SIDES}
+        if any(speaks_of_traces(ruleset) for ruleset in stated.values()):
+            indices = {which: RulesetIndex(stated[which], untimed=comparison.untimed) for which in SIDES}
+            parts = {which: {_content(one): one for one in components_over_time(indices[which])} for which in SIDES}
+            for which in SIDES:
+                for content, component in parts[which].items():
+                    if content not in parts[other(which)]:
+                        self._ask(which, indices[which], component)
+
+    def _ask(self, which: SideName, index: RulesetIndex, component: TraceIndex) -> None:
+        labels = [rule.label for rule in component.rules]
+        try:
+            for finding in conflicts_over_time(index, component):
+                if not replay_finding(index, finding):
+                    raise Undecided("the replay rejected a conflict; this is a bug in sleec-verify")
+                self._found[which][_pairs(self._comparison, which, finding, self._names)] = finding
+        except Enough as error:
+            self.limits.append(str(error))
+        except Undecided as error:
+            self._open[which].update(self._names.get(label, label) if which == "old" else label for label in labels)
+            self.undecided.append(Undecidable(f"conflicts of {listed(map(quoted, labels))}", str(error)))
+        else:
+            self._decided[which].update(labels)
+
+    def changes(self) -> Iterator[TimedConflictChange]:
+        """The conflicts that one side has and the other side does not have."""
+        for which in SIDES:
+            for pairs, finding in self._found[which].items():
+                known = pairs in self._found[other(which)]
+                if not known and self._open[other(which)].isdisjoint(label for label, _ in pairs):
+                    yield TimedConflictChange("added" if which == "new" else "removed", finding)
+
+    def denies(self, conflict: ConflictChange) -> bool:
+        """Whether rules that contradict each other at one instant are not in conflict: a rule may forbid an input that
+        another rule requires, too."""
+        which: SideName = "new" if conflict.way == "added" else "old"
+        rules = set(conflict.rules)
+        if not rules or not rules <= self._decided[which]:
+            return False
+        return not any(rules.issuperset(finding.rules) for finding in self._found[which].values())
 
 
 def _content(component: TraceIndex) -> Hashable:

@@ -98,6 +98,9 @@ def test_random_edits_against_the_list_of_all_states(seed: int) -> None:
     told = {(one.way, frozenset(one.rules)) for one in found.all_conflicts}
     assert {("added", rules) for rules in after - before} <= told
     assert {("removed", rules) for rules in before - after} <= told
+    for one in found.all_conflicts:
+        every = Explicit(parse(new if one.way == "added" else old)).conflicts()
+        assert any(frozenset(one.rules) >= rules for rules in every)
     back = compare(parse(new), parse(old))
     mirrored = {"added": "removed", "removed": "added"}
     assert {(mirrored[one.way], frozenset(one.rules)) for one in back.all_conflicts} == told
