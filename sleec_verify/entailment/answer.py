@@ -71,7 +71,8 @@ class ConsequenceStep:
 @dataclass(frozen=True)
 class ScheduledResponse:
     """One response with its window, in seconds from the situation, or from the event `after`. Without `end`, the window
-    has no end. `unknown` names a measure that gives the length and has no value; then there are no times.
+    has no end. `unknown` names a measure that gives the length and has no value; then there are no times, and `lengths`
+    are the shortest and the longest length in its range, if that has bounds.
 
     `instead_of` is the response that this one replaces (an event, or ``NOT`` and an event): after it was missed if
     `overdue`, otherwise at any time.
@@ -88,6 +89,7 @@ class ScheduledResponse:
     instead_of: str | None = None
     overdue: bool = False
     unknown: str | None = None
+    lengths: tuple[int, int] | None = None
 
 
 @dataclass(frozen=True)

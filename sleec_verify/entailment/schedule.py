@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 
-from sleec_runtime.model import Context, Ruleset
+from sleec_runtime.model import RELATIONS, SECONDS, Assume, Context, Exclusive, MeasureRef, Never, Obligation, Ruleset
+from sleec_verify.encoding.measure_ranges import MeasureRanges
 from sleec_verify.encoding.response_windows import ResponseWindows
 from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
 from sleec_verify.entailment.answer import ActiveClause, ConsequenceStep, Entailment, ScheduledResponse
@@ -52,4 +54,19 @@ class _Writer:
                 None if one.instead is None else str(one.instead.obligation),
                 one.overdue,
                 one.unknown,
+                None if one.unknown is None else self._lengths(one.obligation),
             )
+
+    def _lengths(self, obligation: Obligation) -> tuple[int, int] | None:
+        """The shortest and the longest length of a window that ends after so many units as a measure says."""
+        window = None if obligation.timing is None else obligation.timing.window
+        if window is None or window.end is None or not isinstance(window.end.amount, MeasureRef):
+            return None
+        least, greatest = self._ranges.bounds(window.end.amount.name)
+        unit = SECONDS[window.end.unit]
+        return None if least is None or greatest is None else (least * unit, greatest * unit)
+
+    @cached_property
+    def _ranges(self) -> MeasureRanges:
+        relations = [s for s in self._ruleset.statements if isinstance(s, (*RELATIONS, Exclusive, Never, Assume))]
+        return MeasureRanges(relations, self._ruleset.measures)

@@ -36,7 +36,10 @@ def _what(entry: ScheduledResponse) -> str:
 
 def _when(entry: ScheduledResponse) -> str:
     if entry.unknown is not None:
-        return f"within {entry.unknown}, whose value is not given"
+        if entry.lengths is None:
+            return f"within {entry.unknown}, whose value is not given"
+        shortest, longest = map(duration, entry.lengths)
+        return f"within {entry.unknown}, whose value is not given ({shortest} to {longest})"
     assert entry.start is not None, "a known window has a start"
     if entry.end is None:
         start = f" from {duration(entry.start)} on" if entry.start else ""
@@ -63,7 +66,13 @@ def chart(entries: Sequence[ScheduledResponse], context: Context) -> list[str]:
     """The windows that start with the situation, with a column for each time at which one opens or closes."""
     from sleec_verify.results.timeline import Due, Moment, Timeline
 
-    now = [entry for entry in entries if entry.after is None and entry.start is not None]
+    now = [
+        entry
+        for entry in entries
+        if entry.after is None and entry.start is not None and (entry.end is None or entry.end >= entry.start)
+    ]
+    if not now:
+        return []
     dues = tuple(
         Due(entry.rule, entry.clause, "", entry.event, entry.negated, entry.start or 0, entry.end) for entry in now
     )
@@ -79,7 +88,7 @@ def chart(entries: Sequence[ScheduledResponse], context: Context) -> list[str]:
 
 def as_json(entries: Sequence[ScheduledResponse]) -> Json:
     """The schedule for programs. Times are seconds from the situation, or from the event `after`. If `until` is null,
-    the window has no end."""
+    the window has no end. `lengths` are the bounds of an unknown length."""
     return [
         {
             "obligation": entry.event,
@@ -92,6 +101,7 @@ def as_json(entries: Sequence[ScheduledResponse]) -> Json:
             "instead_of": entry.instead_of,
             "overdue": entry.overdue,
             "unknown": entry.unknown,
+            "lengths": None if entry.lengths is None else list(entry.lengths),
         }
         for entry in entries
     ]

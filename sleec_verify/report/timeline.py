@@ -24,6 +24,8 @@ _UNITS = ((86400, "day"), (3600, "hour"), (60, "minute"), (1, "second"))
 
 def duration(seconds: int) -> str:
     """``0 seconds``, ``5 minutes``, ``1 hour 30 minutes``."""
+    if seconds < 0:
+        return f"-{duration(-seconds)}"
     parts = []
     for size, unit in _UNITS:
         count, seconds = divmod(seconds, size)

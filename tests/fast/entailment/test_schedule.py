@@ -100,6 +100,21 @@ def test_a_length_that_a_measure_says_is_taken_from_the_situation() -> None:
     assert "whose value is not given" in next(iter(in_words(entries)))
 
 
+def test_a_length_without_a_value_shows_its_range() -> None:
+    text = "MEASURE delay: integer\nASSUME delay >= 1 AND delay <= 30\nWHEN A THEN B WITHIN delay minutes OTHERWISE C\n"
+    first, second = _entries(text, "A")
+    assert (first.lengths, second.lengths) == ((60, 1800), None)
+    (line, _) = in_words([first, second])
+    assert "within delay minutes, whose value is not given (1 minute to 30 minutes)" in line
+
+
+def test_a_window_of_negative_length_has_no_place_in_the_chart() -> None:
+    entries = _entries("MEASURE delay: integer\nWHEN A THEN B WITHIN delay minutes\n", "A", delay=-1)
+    (line,) = in_words(entries)
+    assert line == "B  within -1 minute  by rule_1"
+    assert chart(entries, Context(frozenset({"A"}), {})) == []
+
+
 def test_the_chart_has_a_column_for_each_time() -> None:
     entries = _entries(SMOKE, "SmokeDetected")
     lines = chart(entries, Context(frozenset({"SmokeDetected"}), {}))
