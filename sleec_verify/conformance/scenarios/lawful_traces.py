@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from sleec_runtime.model import Clause, Formula, Obligation, Rule, Window
 from sleec_verify.conformance.cases.allowed_situations import Goal
@@ -110,19 +110,32 @@ class LawfulTraces:
     def prompt(self, literals: Iterable[int]) -> list[int]:
         """These literals, which some trace makes true, and literals with which each obligation is met as soon as its
         window opens, as far as possible. Raises `Undecided`."""
-        model = self._model
         required = list(literals)
         seen: set[tuple[int, Occurs]] = set()
         while self.reaches(required):
-            left = [one for one in self._responses() if not one[1].negated and one[:2] not in seen]
+            left = [one[:2] for one in self._responses() if not one[1].negated and one[:2] not in seen]
             if not left:
                 break
-            for at, window, _ in left:
-                seen.add((at, window))
-                met = model.occurs(at, window._replace(end=window.start))
-                if self.reaches([*required, met]):
-                    required.append(met)
+            seen.update(left)
+            wanted = [self._model.occurs(at, window._replace(end=window.start)) for at, window in left]
+            self._add_many(self._model.ask, required, wanted)
         return required
+
+    def _add_many(self, ask: Callable[..., bool], required: list[int], wanted: Sequence[int]) -> None:
+        """Adds as many of the literals `wanted` to `required` as a trace can make true: by halves, because most of them
+        can be added together. `ask` has found a trace for `required`."""
+        required += [literal for literal in wanted if self._model.true(literal)]
+        left = [literal for literal in wanted if not self._model.true(literal)]
+        if not left:
+            return
+        if self._ask(ask, [*required, *left]):
+            required += left
+            return
+        self._ask(ask, required)
+        half = len(left) // 2
+        if half:
+            self._add_many(ask, required, left[:half])
+            self._add_many(ask, required, left[half:])
 
     def _ask(self, ask: Callable[..., bool], literals: Iterable[int]) -> bool:
         required = list(literals)
@@ -162,15 +175,11 @@ class LawfulTraces:
         required = list(literals)
         found = self.reaches(required)
         assert found, "asked for what was found to be reachable"
-        needed: set[int] = set()
-        while left := [literal for literal in self._parts() if literal not in needed and -literal not in required]:
-            for literal in left:
-                # What is false already stays false.
-                if not model.true(literal) or self._ask(model.ask_here, [*required, -literal]):
-                    required.append(-literal)
-                else:
-                    needed.add(literal)
-            self._ask(model.ask_here, required)
+        tried: set[int] = set()
+        # A trace without some parts may have new ones.
+        while left := [literal for literal in self._parts() if literal not in tried]:
+            tried.update(left)
+            self._add_many(model.ask_here, required, [-literal for literal in left])
         times, _ = model.schedule()
         nodes = sorted((node for node in model.used() if node in model.instants), key=times.__getitem__)
         return tuple(model.at(node, times[node] - times[nodes[0]]) for node in nodes)

@@ -161,7 +161,7 @@ class _Search:
 
     def scenario(self, one: _Set, name: str) -> Scenario | None:
         """A scenario that reaches the goals of a set. As far as these leave it open, windows are met at once."""
-        smallest = one.world.smallest(one.literals)
+        literals = one.literals
         with suppress(Undecided):
-            smallest = one.world.smallest(one.world.prompt(one.literals))
-        return scenario_of(one.world.traces, name, smallest)
+            literals = one.world.prompt(literals)
+        return scenario_of(one.world.traces, name, one.world.smallest(literals))
