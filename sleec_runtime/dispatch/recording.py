@@ -8,8 +8,8 @@ from __future__ import annotations
 import functools
 import inspect
 import types
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from contextvars import ContextVar
 from typing import Any
 
@@ -37,18 +37,22 @@ class Recording:
         self._under_way: set[str] = set()
 
     @contextmanager
-    def executing(self, name: str) -> Iterator[None]:
-        """Records that the block executes `name`."""
+    def executing(self, name: str) -> Iterator[list[Awaitable[object]]]:
+        """Records that the block executes `name`. Yields the awaitables that `on_execution` has returned."""
         if name in self._under_way:
-            yield
+            yield []
             return
         self._under_way.add(name)
         self.executed.append(name)
         try:
-            with nullcontext() if self.outer is None else self.outer.executing(name):
+            outer: AbstractContextManager[list[Awaitable[object]]]
+            outer = nullcontext([]) if self.outer is None else self.outer.executing(name)
+            with outer as returned:
                 if self.on_execution is not None:
-                    self.on_execution(name)
-                yield
+                    result = self.on_execution(name)
+                    if inspect.isawaitable(result):
+                        returned.append(result)
+                yield returned
         except BaseException as error:
             self.failed.append(name)
             if self.on_end is not None:
@@ -74,8 +78,9 @@ def recording(
 
     Recordings nest: an outer recording sees what an inner one sees. Recordings with `apart` do not report to each
     other, so that the monitor sees each dispatch separately. `on_execution` is called with each name when its execution
-    begins; the implementation raises what it raises. `on_end` is called with each name when its implementation has
-    returned, raised or been awaited, and with the exception.
+    begins; the implementation raises what it raises, and a coroutine function awaits what it returns, if that is
+    awaitable. `on_end` is called with each name when its implementation has returned, raised or been awaited, and with
+    the exception.
     """
     outer = _recording.get()
     while apart and outer is not None and outer.apart:
@@ -104,7 +109,9 @@ def recorded(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
             on = _recording.get()
             if on is None:
                 return await function(*args, **kwargs)
-            with on.executing(name):
+            with on.executing(name) as returned:
+                for awaitable in returned:
+                    await awaitable
                 return await function(*args, **kwargs)
 
         return awaited

@@ -62,7 +62,7 @@ def state_machine(bench: Bench, *, threads: bool = False) -> type[RuleBasedState
             failures: list[Nonconformance] = []
             inside = False
 
-            def meanwhile(name: str) -> None:
+            def meanwhile(name: str) -> object:
                 nonlocal inside
                 if not inside:
                     inside = True
@@ -70,7 +70,11 @@ def state_machine(bench: Bench, *, threads: bool = False) -> type[RuleBasedState
                         f"trigger {', '.join(outer)}; while {name} is executed: {_changes_text(changes)}"
                     )
                     self._running.change(changes)
-                    failures.extend(self._compared(inner, self._running.here(inner), None))
+                    context = self._running.here(inner)
+                    return self._running.observe_within(
+                        inner, lambda observed: failures.extend(self._compared(inner, context, observed))
+                    )
+                return None
 
             here = self._running.here(outer)
             observed = self._running.observe(outer, meanwhile)

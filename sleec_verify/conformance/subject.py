@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import contextvars
+import sys
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from inspect import Parameter, signature
-from typing import Any, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from sleec_runtime import VirtualClock
 from sleec_runtime.dispatch.implementations import watched
 from sleec_runtime.dispatch.recording import recording
-from sleec_runtime.errors import NeedsAwait, SleecError
+from sleec_runtime.errors import NeedsAwait, NotEnforced, SleecError
 from sleec_runtime.model import Context, Reading, Ruleset, Value, constructs
 from sleec_verify.conformance.oracle import Oracle
+
+if TYPE_CHECKING:
+    import asyncio
 
 
 @runtime_checkable
@@ -118,7 +124,10 @@ class Bench:
     def subject(self, clock: VirtualClock | None = None) -> Subject:
         """A new subject, on `clock` if its factory takes one. Raises `NotASubject`, and the exceptions of the
         factory."""
-        made = self.make(VirtualClock() if clock is None else clock) if takes_clock(self.make) else self.make()
+        with warnings.catch_warnings():
+            # What the runtime does not enforce is part of the test.
+            warnings.simplefilter("ignore", NotEnforced)
+            made = self.make(VirtualClock() if clock is None else clock) if takes_clock(self.make) else self.make()
         if not isinstance(made, Subject):
             raise NotASubject(
                 f"the factory returned {_described(made)}, which is not a Sleec",
@@ -151,6 +160,7 @@ class Running:
         self.oracle = oracle
         self._arguments = arguments
         self.known: dict[str, Value] = {}
+        self._within: list[asyncio.Task[None]] = []
 
     def change(self, changes: Mapping[str, Value | None]) -> None:
         """One change, which is also reported to the subject."""
@@ -187,17 +197,17 @@ class Running:
         """What the subject does if these triggers occur now. `on_execution` is called at the start of each
         obligation."""
         names = tuple(sorted(triggers))
-        arguments = self._arguments(names) if callable(self._arguments) else self._arguments
+        arguments = self._arguments_of(names)
         error: BaseException | None = None
         meanwhile = False
 
-        def between(name: str) -> None:
+        def between(name: str) -> object:
             nonlocal meanwhile
             if on_execution is None or meanwhile:
-                return
+                return None
             meanwhile, before = True, len(seen.executed)
             try:
-                on_execution(name)
+                return on_execution(name)
             finally:
                 # Executions of a nested dispatch do not belong to this one.
                 del seen.executed[before:]
@@ -210,6 +220,34 @@ class Running:
                 error = raised
         return Observation(tuple(seen.executed), tuple(seen.failed), error)
 
+    def observe_within(
+        self, triggers: Iterable[str], then: Callable[[Observation], object]
+    ) -> asyncio.Task[None] | None:
+        """These triggers occur while an obligation is executed. `then` gets what the subject does: now, or in an event
+        loop when the returned task has run, which a coroutine of the robot awaits."""
+        loop = running_loop()
+        if loop is None:
+            then(self.observe(triggers))
+            return None
+        names = tuple(sorted(triggers))
+
+        async def observed() -> None:
+            error: BaseException | None = None
+            with recording() as seen:
+                try:
+                    await self._dispatch_in_loop(names, self._arguments_of(names))
+                except Exception as raised:  # noqa: BLE001 - part of what was observed
+                    error = raised
+            then(Observation(tuple(seen.executed), tuple(seen.failed), error))
+
+        # In an empty context, the outer recording does not see what is executed.
+        task = contextvars.Context().run(loop.create_task, observed())
+        self._within.append(task)
+        return task
+
+    def _arguments_of(self, names: tuple[str, ...]) -> Sequence[object]:
+        return self._arguments(names) if callable(self._arguments) else self._arguments
+
     def _dispatch(self, names: tuple[str, ...], arguments: Sequence[object]) -> None:
         try:
             if len(names) == 1:
@@ -217,12 +255,34 @@ class Running:
             else:
                 self.subject.trigger_all(names, *arguments)
         except NeedsAwait:
-            in_turn = getattr(self.subject, "trigger_all_async", None)
-            if in_turn is None:
+            if getattr(self.subject, "trigger_all_async", None) is None:
                 raise
             import asyncio
 
-            asyncio.run(in_turn(names, *arguments))
+            asyncio.run(self._dispatch_in_loop(names, arguments))
+
+    async def _dispatch_in_loop(self, names: tuple[str, ...], arguments: Sequence[object]) -> None:
+        subject: Any = self.subject
+        within, self._within = self._within, []
+        try:
+            await subject.trigger_all_async(names, *arguments)
+        finally:
+            # Triggers within code that is not asynchronous wait for the loop.
+            for task in self._within:
+                await task
+            self._within = within
+
+
+def running_loop() -> asyncio.AbstractEventLoop | None:
+    """The running event loop of this thread, if there is one. It does not import asyncio."""
+    module = sys.modules.get("asyncio")
+    if module is None:
+        return None
+    try:
+        loop: asyncio.AbstractEventLoop = module.get_running_loop()
+    except RuntimeError:
+        return None
+    return loop
 
 
 def is_timed(bench: Bench) -> bool:

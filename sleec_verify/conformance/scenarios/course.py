@@ -30,11 +30,12 @@ class Happening:
 @dataclass(frozen=True)
 class Course:
     """What happened, in order, up to the time `end`; and the values of conditions and measures from each time on at
-    which they changed."""
+    which they changed. `takes_time` are the obligations that the scenario completes."""
 
     happenings: tuple[Happening, ...]
     values: Mapping[int, Mapping[str, Value]]
     end: int
+    takes_time: frozenset[str] = frozenset()
 
     def values_at(self, time: int) -> Mapping[str, Value]:
         """The values of conditions and measures at a time."""

@@ -52,7 +52,7 @@ class Fulfilment:
             for one in self.requirements
             if one.place < place
             and (act in (None, one.act) or not one.of_its_trigger)
-            and self.applies(one, place, time)
+            and (self.applies(one, place, time) or self._may_apply(one, place, time))
         ]
         return self.impossibility.contradicts(
             names,
@@ -84,7 +84,7 @@ class Fulfilment:
                 return True
         if one.otherwise:
             return all(map(self.is_met, one.otherwise))
-        return self._is_excused(one)
+        return self.is_excused(one)
 
     def is_fulfilled(self, one: Requirement) -> bool:
         events = self.events.get(one.name, ())
@@ -93,7 +93,7 @@ class Fulfilment:
             return not any(one.covers(at) and place > one.place for place, at, _ in events)
         return any(one.covers(at) for _, at, _ in events)
 
-    def _is_excused(self, one: Requirement) -> bool:
+    def is_excused(self, one: Requirement) -> bool:
         """Whether the robot did what it could: the scenario withheld the completion, or something else forbade it."""
         if one.negated:
             return not any(self.breaks(execution, one) for execution in self.of_name(one.name))
@@ -111,8 +111,11 @@ class Fulfilment:
     def _is_attempt(self, execution: Execution, one: Requirement) -> bool:
         """Whether an execution would have fulfilled a requirement if the scenario had let it complete."""
         end = execution.end
-        if end is not None and end.kind == "fails" and not isinstance(end.error, WithheldCompletion):
-            return False
+        if end is not None and end.kind == "fails":
+            if not isinstance(end.error, WithheldCompletion):
+                return False
+        elif one.name not in self.course.takes_time:
+            return False  # A coroutine that takes too long.
         in_window = one.covers(execution.start.at) and execution.place > one.place
         under_way = execution.runs_at(one.place) and (one.last is None or execution.start.at <= one.last)
         ends_later = end is None or end.kind == "fails" or (one.last is not None and end.at > one.last)
@@ -136,7 +139,11 @@ class Fulfilment:
                 return False
             demand = _span(one)
             undecided = one.otherwise or one.choices
-            bans = [other for other in self.requirements if other.negated and other.replaces is None]
+            bans = [
+                other
+                for other in self.requirements
+                if other.negated and other.replaces is None and (one.last is None or other.since <= one.last)
+            ]
             if not undecided and any(
                 not other.at_once and _span(other).covers_all(demand, max(one.since, other.since)) for other in bans
             ):
@@ -184,6 +191,14 @@ class Fulfilment:
             if replaced.place < execution.place < place
         )
         return (failed and not one.overdue) or not self.is_done(replaced, place)
+
+    def _may_apply(self, one: Requirement, place: int, time: int) -> bool:
+        """Whether a requirement is due if its predecessor was completed in its last second, but after the clock."""
+        replaced = one.replaces
+        if replaced is None or replaced.last is None or not one.overdue or replaced.negated or time < replaced.last:
+            return False
+        events = self.events.get(replaced.name, ())
+        return not any(replaced.first <= at < replaced.last and replaced.place < other for other, at, _ in events)
 
     def is_done(self, one: Requirement, place: int, act: int | None = None, after: int = -1) -> bool:
         """Whether the event of a requirement occurred in its window after its trigger and before a place. Events of the

@@ -130,8 +130,8 @@ class _CourseJudgement:
         )
 
     def _unmet(self, one: Requirement) -> Requirement:
-        """The requirement to blame: the last alternative that was due."""
-        for other in one.otherwise:
+        """The requirement to blame: the first one that the robot did not try, and could have met."""
+        for other in one.otherwise if self.fulfilment.is_excused(one) else ():
             if not self.fulfilment.is_met(other):
                 return self._unmet(other)
         return one
@@ -161,7 +161,7 @@ class _CourseJudgement:
             ]
             if candidates:
                 if execution.end is None or execution.end.kind != "fails":
-                    used.add(min(candidates, key=lambda one: (one.last is None, one.last)))
+                    used.add(min(candidates, key=lambda one: (one.replaces is not None, one.last is None, one.last)))
             elif not self._relation_requires(execution):
                 yield Fault("not required", start.at, (execution.name,), None, start)
 

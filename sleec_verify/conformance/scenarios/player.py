@@ -129,7 +129,7 @@ class Player:
             for error in raised:
                 if isinstance(error, NeedsAwait):
                     raise error
-        return Course(tuple(self.happenings), self.values, end)
+        return Course(tuple(self.happenings), self.values, end, self._takes_time)
 
     # Time ---------------------------------------------------------------------------------------------------------
 

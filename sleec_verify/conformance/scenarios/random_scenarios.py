@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from hypothesis import strategies as st
 
 from sleec_runtime.evaluation.trace import Instant, Trace
 from sleec_runtime.evaluation.trace_violations import violations
-from sleec_runtime.model import RELATIONS, Assume, Clause, Lasting, Length, Obligation, Ruleset, Value, literals
+from sleec_runtime.model import (
+    RELATIONS,
+    Assume,
+    Clause,
+    Lasting,
+    Length,
+    Obligation,
+    Rule,
+    Ruleset,
+    Value,
+    formulas_of,
+    literals,
+    names_of,
+)
 from sleec_verify.conformance import strategies
 from sleec_verify.conformance.scenarios.scenario import Completion, Scenario, Step
 from sleec_verify.encoding.relations import events_of
@@ -21,46 +34,28 @@ _MOST_STEPS = 6
 _MOST_COMPLETIONS = 5
 
 
+_Drawn = tuple[
+    list[tuple[int, list[str], dict[str, Value | None]]], list[tuple[str, int, "int | None"]], dict[str, int]
+]
+
+
 def scenarios(ruleset: Ruleset) -> st.SearchStrategy[Scenario]:
     """Scenarios that the assumptions and the relations of the environment allow. They shrink towards few steps, early
-    times and completions at once."""
-    lengths = sorted(set(_lengths(ruleset)))
-    delays = st.sampled_from(sorted({1, *(near for one in lengths for near in (one - 1, one, one + 1) if near > 0)}))
-    measured = sorted(window_measures(ruleset))
-    horizon = horizon_of(ruleset)
-    environment = _environment(ruleset)
-    triggers = sorted(ruleset.triggers)
-    some = st.lists(st.sampled_from(triggers), min_size=1, max_size=3, unique=True) if triggers else st.just([])
-    nothing: dict[str, Value | None] = {}
-    changes = st.one_of(st.just(nothing), strategies.changes(ruleset))
-    steps = st.lists(st.tuples(delays, some, changes), min_size=1, max_size=_MOST_STEPS)
-    names = sorted(ruleset.obligations)
-    completions = (
-        st.lists(
-            st.tuples(st.sampled_from(names), st.integers(0, _MOST_STEPS - 1), st.one_of(st.none(), delays)),
-            max_size=_MOST_COMPLETIONS,
-        )
-        if names
-        else st.just([])
-    )
-    first = st.fixed_dictionaries({name: st.sampled_from(_LENGTHS) for name in measured})
+    times and completions at once.
 
-    def made(
-        drawn: tuple[
-            list[tuple[int, list[str], dict[str, Value | None]]],
-            list[tuple[str, int, int | None]],
-            dict[str, int],
-        ],
-    ) -> Scenario:
+    Most are about a few rules that share names, because what goes wrong in time goes wrong among these.
+    """
+    horizon, environment = horizon_of(ruleset), _environment(ruleset)
+    measured = {name: st.sampled_from(_LENGTHS) for name in sorted(window_measures(ruleset))}
+    groups = [rules for rules in components(ruleset) if len(rules) < len(ruleset.rules)]
+
+    def made(drawn: _Drawn) -> Scenario:
         raw, ends, known = drawn
         found: list[Step] = []
         at = 0
         for number, (delay, when, given) in enumerate(raw):
             at += delay if number else 0
-            given = {name: value for name, value in given.items() if name not in measured}
-            if number == 0:
-                given = {**known, **given}
-            step = Step(at, tuple(sorted(when)), given)
+            step = Step(at, tuple(sorted(when)), {**known, **given} if number == 0 else given)
             if environment is None or _is_allowed(environment, [*found, step]):
                 found.append(step)
         times = [step.at for step in found] or [0]
@@ -71,7 +66,50 @@ def scenarios(ruleset: Ruleset) -> st.SearchStrategy[Scenario]:
         )
         return Scenario("a random scenario", tuple(found), times[-1] + horizon, completed)
 
-    return st.tuples(steps, completions, first).map(made)
+    drawn = [_drawn(ruleset, rules, measured) for rules in (*groups, ruleset.rules)]
+    return st.one_of(*drawn).map(made)
+
+
+def _drawn(
+    ruleset: Ruleset, rules: Sequence[Rule], measured: Mapping[str, st.SearchStrategy[int]]
+) -> st.SearchStrategy[_Drawn]:
+    """Steps, completions, and the measures that give lengths: about some rules."""
+    about = replace(ruleset, statements=tuple(rules), inferred=tuple(ruleset.measures.values()))
+    lengths = {near for one in _lengths(about) for near in (one - 1, one, one + 1) if near > 0}
+    delays = st.sampled_from(sorted({1, *lengths}))
+    triggers, obligations = sorted(about.triggers), sorted(about.obligations)
+    some = st.lists(st.sampled_from(triggers), max_size=3, unique=True) if triggers else st.just([])
+    one = st.sampled_from(triggers).map(lambda name: [name]) if triggers else st.just([])
+    read = sorted(set().union(*(names_of(formula) for rule in rules for formula in formulas_of(rule))))
+    new = {
+        name: st.one_of(strategies.values(ruleset, name), st.none())
+        for name in read
+        if name in ruleset.conditions or name in ruleset.measures
+    }
+    lasting = {name: values for name, values in new.items() if name not in measured} | {
+        name: values for name, values in measured.items() if name in window_measures(about)
+    }
+    nothing: dict[str, Value | None] = {}
+    changes = st.one_of(st.just(nothing), st.fixed_dictionaries({}, optional=lasting))
+    steps = st.lists(st.tuples(delays, st.one_of(one, some), changes), min_size=1, max_size=_MOST_STEPS)
+    ends = st.tuples(
+        st.sampled_from(obligations or [""]), st.integers(0, _MOST_STEPS - 1), st.one_of(st.none(), delays)
+    )
+    completions = st.lists(ends, max_size=_MOST_COMPLETIONS)
+    return st.tuples(steps, completions, st.fixed_dictionaries(dict(measured)))
+
+
+def components(ruleset: Ruleset) -> list[tuple[Rule, ...]]:
+    """The rules in groups that share no event and no condition."""
+    groups: list[tuple[set[str], list[Rule]]] = []
+    for rule in ruleset.rules:
+        names = {rule.trigger, *(name for formula in formulas_of(rule) for name in names_of(formula))}
+        names |= {one.name for clause in rule.clauses() for one in literals(clause)}
+        joined = [group for group in groups if not names.isdisjoint(group[0])]
+        groups = [group for group in groups if names.isdisjoint(group[0])]
+        together = sorted([rule, *(one for _, rules in joined for one in rules)], key=ruleset.rules.index)
+        groups.append((names.union(*(group[0] for group in joined)), together))
+    return [tuple(rules) for _, rules in groups]
 
 
 def _responses(ruleset: Ruleset) -> Iterator[Obligation]:
@@ -132,7 +170,13 @@ def _environment(ruleset: Ruleset) -> Ruleset | None:
     return replace(ruleset, statements=kept, inferred=tuple(ruleset.measures.values())) if kept else None
 
 
-def _is_allowed(environment: Ruleset, steps: list[Step]) -> bool:
+def allows(ruleset: Ruleset, steps: Sequence[Step]) -> bool:
+    """Whether the assumptions and the relations of the environment allow these steps."""
+    environment = _environment(ruleset)
+    return environment is None or _is_allowed(environment, steps)
+
+
+def _is_allowed(environment: Ruleset, steps: Sequence[Step]) -> bool:
     values: dict[str, Value] = {}
     instants = []
     for step in steps:

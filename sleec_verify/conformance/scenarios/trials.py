@@ -3,23 +3,16 @@
 from __future__ import annotations
 
 import logging
-import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from itertools import islice, product
 
-from sleec_runtime.errors import NotEnforced, SleecError
-from sleec_runtime.model import Ruleset, Value, formulas_of
-from sleec_verify.conformance.regions import givens
+from sleec_runtime.errors import SleecError
+from sleec_verify.conformance.scenarios.border_scenarios import scenarios_of_each_rule
 from sleec_verify.conformance.scenarios.judgement import Judge
 from sleec_verify.conformance.scenarios.nonconformance import ScenarioNonconformance
 from sleec_verify.conformance.scenarios.player import play
-from sleec_verify.conformance.scenarios.random_scenarios import horizon_of, window_measures
-from sleec_verify.conformance.scenarios.scenario import Completion, Scenario, Step
+from sleec_verify.conformance.scenarios.scenario import Scenario
 from sleec_verify.conformance.subject import Bench, takes_clock
-
-_MOST_CONTEXTS = 200
-"""The maximal number of contexts of a rule: further ones are left to random scenarios."""
 
 
 class NeedsClock(SleecError):
@@ -56,8 +49,7 @@ class Trials:
         return self._failure(scenario, relations=False)
 
     def _failure(self, scenario: Scenario, relations: bool = True) -> ScenarioNonconformance | None:
-        with warnings.catch_warnings(), _without_log():
-            warnings.simplefilter("ignore", NotEnforced)
+        with _without_log():
             course = play(self._bench, scenario, self._obligations)
         faults = (one for one in self._judge.faults(course) if relations or one.kind != "relation")
         fault = min(faults, key=lambda one: one.at, default=None)
@@ -79,30 +71,14 @@ def _without_log() -> Iterator[None]:
 
 
 def each_rule_in_time(bench: Bench) -> int:
-    """Triggers each rule in each context that it distinguishes, and lets its obligations be completed at once or never.
+    """Triggers each rule in each context that it distinguishes, with further events at the borders of its windows.
     Returns the number of scenarios."""
     trials = Trials(bench)
     count = 0
-    for scenario in _of_each_rule(trials.ruleset):
+    for scenario in scenarios_of_each_rule(trials.ruleset):
         trials.check(scenario)
         count += 1
     return count
-
-
-def _of_each_rule(ruleset: Ruleset) -> Iterator[Scenario]:
-    end = horizon_of(ruleset)
-    lengths = dict.fromkeys(sorted(window_measures(ruleset)), 5)
-    # A completion is that of one execution, and a rule may lead to several of one name.
-    never = tuple(Completion(name, 0, None) for name in sorted(ruleset.obligations)) * 3
-    for rule in ruleset.rules:
-        regions = givens(list(formulas_of(rule)), ruleset.measures)
-        for drawn in islice(product(*(one.values for one in regions)), _MOST_CONTEXTS):
-            values = {one.name: value for one, value in zip(regions, drawn) if not one.event and value is not None}
-            events = {one.name for one, value in zip(regions, drawn) if one.event and value}
-            given: dict[str, Value | None] = {**lengths, **values}
-            step = Step(0, tuple(sorted({rule.trigger, *events})), given)
-            for completions in ((), never):
-                yield Scenario(f"rule {rule.label}", (step,), end, completions)
 
 
 def selected(bench: Bench) -> int:
