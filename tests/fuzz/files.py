@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from sleec_runtime.evaluation.due import due
-from sleec_runtime.language import parse_source
+from sleec_runtime.language import parse, parse_source
 from sleec_runtime.language.common.source import decode_source
 from sleec_verify.changes.gate.baseline import baseline_text, key, read_baseline
 from sleec_verify.changes.gate.config import OWN, SHARED, read_config
@@ -16,9 +16,15 @@ from sleec_verify.cli.cache.entry import encode, head
 from sleec_verify.cli.cache.store import Cache
 from sleec_verify.cli.scope import Scope
 from sleec_verify.conformance.cases.reader import read_cases
+from sleec_verify.conformance.scenarios.expectations import unexpected
 from sleec_verify.results.finding import CheckResult
 from tests.fuzz.property import unless_refused
 
+TIMED = parse("""
+MEASURE n: integer
+RULE fall WHEN Fall THEN Call WITHIN n minutes OTHERWISE Alarm
+RULE rest WHEN Rest THEN NOT Speak WITHIN 55 minutes
+""")
 RULESET = parse_source(
     decode_source(
         "fuzz.sleec",
@@ -51,13 +57,16 @@ def configuration(data: bytes, folder: Path) -> None:
 
 
 def cases(data: bytes, folder: Path) -> None:
-    """Each case that is read is a situation of the rules."""
+    """Each case that is read is a situation of the rules. Each scenario is compared with what the rules require."""
     path = folder / "fuzz.cases.toml"
     path.write_bytes(data)
-    found = unless_refused(read_cases, path, RULESET)
+    rules = TIMED if b"steps" in data else RULESET
+    found = unless_refused(read_cases, path, rules)
     for case in () if found is None else found.situations:
-        assert set(case.obligations) <= RULESET.obligations
-        due(RULESET, case.context())
+        assert set(case.obligations) <= rules.obligations
+        due(rules, case.context())
+    for scenario in () if found is None else found.scenarios:
+        unless_refused(lambda one: list(unexpected(rules, one)), scenario)
 
 
 def cases_seeds() -> Iterator[bytes]:
@@ -75,6 +84,18 @@ reaches = ["rule_1.hc1"]
 when = "Ring"
 given = "Asleep, Age=LegalAge"
 conflict = true
+"""
+    yield b"""\
+[[case]]
+name = "nobody comes"
+steps = [{ at = 0, when = ["Fall"], given = { n = 2 } }, { at = "5 minutes", when = ["Rest"] }]
+end = "1 hour"
+completions = [{ name = "Call", since = 0, at = "never" }]
+obligations = [
+  { name = "Call", from = 0, to = 120, rule = "fall" },
+  { name = "Alarm", from = 120, to = 120, instead_of = "Call", overdue = true },
+]
+prohibitions = [{ name = "Speak", from = 300, to = "1 hour" }]
 """
 
 
