@@ -1,14 +1,15 @@
 """Windows whose length depends on measures, as one window with a fixed length for each value.
 
 ``X within {m} minutes`` is the chain "X within 1 minute, unless m >= 2 then X within 2 minutes, unless m >= 3 …" over
-the range of the measure (finite instantiation; D. Kroening and O. Strichman, "Decision Procedures", 2016, section
-1.4). The conditions are monotone, so the chain has one meaning under both readings of chains.
+the range of the measure (instantiation of a small domain; A. Pnueli and others, "The small model property: how small
+can it be?", 2002). The conditions are monotone, so the chain has one meaning under both readings of chains.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from math import prod
 
 from sleec_runtime.model import (
     And,
@@ -57,8 +58,13 @@ class WindowLengths:
         measures = list(dict.fromkeys(name for length in lengths_of(obligation) for name in length.measures))
         if not measures:
             return None
-        name = measures[0]
-        first, *others = self._values(name, str(obligation.timing))
+        name, text = measures[0], str(obligation.timing)
+        count = prod(len(self._values(measure, text)) for measure in measures)
+        if count > MOST_VALUES:
+            raise Undecided(
+                f"the lengths of `{text}` have {count:,} combinations of values, more than the limit of {MOST_VALUES:,}"
+            )
+        first, *others = self._values(name, text)
         return Clause(
             None,
             (with_value(obligation, name, first),),

@@ -116,6 +116,19 @@ def test_an_unbounded_range_is_unknown_with_an_example(ranged):
     assert result.verdict.why.endswith("for example: ASSUME patience >= 0 AND patience <= 60")
 
 
+@pytest.mark.parametrize(
+    ("most", "window", "why"),
+    [
+        (1_000, "patience minutes", "has 1,001 values, more than the limit of 1,000; use a larger unit"),
+        (99, "patience TO most minutes", "have 10,000 combinations of values, more than the limit of 1,000"),
+    ],
+)
+def test_a_range_with_too_many_values_is_unknown(most, window, why):
+    ranged = f"MEASURE most: integer\nASSUME patience >= 0 AND patience <= {most} AND most >= 0 AND most <= {most}\n"
+    rules = f"RULE R1 WHEN Smoke THEN Call WITHIN {window}\nRULE R2 WHEN Fall THEN NOT Call\n"
+    assert conflict(rules, ranged).verdict.why.endswith(why)
+
+
 def test_the_dsl_declares_ranges_by_relations():
     rules = "rule_start R1 when Smoke then Call within {patience} minutes R2 when Fall then not Call rule_end "
     result = verdict("conflict", DSL + rules)
