@@ -63,6 +63,15 @@ class Observation:
     error: BaseException | None = None
 
 
+@dataclass
+class _Memory:
+    """What a bench has found out about its factory."""
+
+    takes_clock: bool | None = None
+    kind: type | None = None
+    asynchronous: bool = False
+
+
 @dataclass(frozen=True)
 class Bench:
     """What to test, and against which rules.
@@ -78,7 +87,7 @@ class Bench:
     watch: tuple[object, ...] = ()
     arguments: Arguments = ()
     _oracles: dict[str | None, Oracle] = field(default_factory=dict, init=False, repr=False, compare=False)
-    _modes: set[str] = field(default_factory=set, init=False, repr=False, compare=False)
+    _memory: _Memory = field(default_factory=_Memory, init=False, repr=False, compare=False)
 
     def oracle(self) -> Oracle:
         """What must be executed, compiled once for all subjects of this bench."""
@@ -115,11 +124,11 @@ class Bench:
     @property
     def asynchronous(self) -> bool:
         """Whether code of the subject was found to need an event loop."""
-        return "asynchronous" in self._modes
+        return self._memory.asynchronous
 
     def needs_loop(self) -> None:
         """Records that code of the subject needs an event loop."""
-        self._modes.add("asynchronous")
+        self._memory.asynchronous = True
 
     def subject(self, clock: VirtualClock | None = None) -> Subject:
         """A new subject, on `clock` if its factory takes one. Raises `NotASubject`, and the exceptions of the
@@ -127,12 +136,17 @@ class Bench:
         with warnings.catch_warnings():
             # What the runtime does not enforce is part of the test.
             warnings.simplefilter("ignore", NotEnforced)
-            made = self.make(VirtualClock() if clock is None else clock) if takes_clock(self.make) else self.make()
-        if not isinstance(made, Subject):
+            if self._memory.takes_clock is None:
+                self._memory.takes_clock = takes_clock(self.make)
+            wanted = (VirtualClock() if clock is None else clock,) if self._memory.takes_clock else ()
+            made = self.make(*wanted)
+        # The look at a protocol is slow, and a factory makes one type.
+        if type(made) is not self._memory.kind and not isinstance(made, Subject):
             raise NotASubject(
                 f"the factory returned {_described(made)}, which is not a Sleec",
                 "return the Sleec of the robot, as made by sleec_runtime.load",
             )
+        self._memory.kind = type(made)
         return made
 
     @contextmanager

@@ -142,8 +142,10 @@ class Player:
     def _happen_at(self, at: Time) -> None:
         self._clock.arrive(at)
         self._complete()
-        self._perform(partial(self._clock.advance, 0))
-        self._complete()
+        alarm = self._clock.next_alarm()
+        if alarm is not None and alarm <= self._clock.now():
+            self._perform(partial(self._clock.advance, 0))
+            self._complete()
 
     def _complete(self) -> None:
         """Completes what the scenario completes by now."""
