@@ -6,12 +6,12 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from sleec_runtime.evaluation.trace import Instant, Trace
 from sleec_runtime.evaluation.trace_violations import violations
-from sleec_runtime.model import Value, formulas_of, literals, names_of
+from sleec_runtime.model import Value
 from sleec_verify.conformance.scenarios.scenario import Completion, Scenario, Step
 from sleec_verify.replay.timeline import timeline_of
 from sleec_verify.results.timeline import Due
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.relations import names_of_relation
+from sleec_verify.traces.relations import names_of_relation, names_of_rule
 from sleec_verify.traces.trace import TraceInstant
 
 
@@ -66,10 +66,7 @@ def _with_lasting_values(
 def _read_at(index: TraceIndex, instant: TraceInstant) -> set[str]:
     """The conditions and measures that the rules which are triggered at an instant read."""
     rules = [rule for event in instant.events for rule in index.by_trigger.get(event, ())]
-    windows = (o.timing.window for rule in rules for c in rule.clauses() for o in literals(c) if o.timing is not None)
-    lengths = (length for window in windows if window for length in (window.start, window.end) if length)
-    named = {name for rule in rules for formula in formulas_of(rule) for name in names_of(formula)}
-    return named.union(*(length.measures for length in lengths))
+    return {name for rule in rules for _, name in names_of_rule(rule)}
 
 
 def _completions(required: Sequence[Due], moments: Sequence[TraceInstant]) -> Iterator[Completion]:

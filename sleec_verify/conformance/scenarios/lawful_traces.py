@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from sleec_runtime.model import Clause, Formula, Obligation, Rule, Window
+from sleec_runtime.model import Clause, Formula, Obligation, Rule
 from sleec_verify.conformance.cases.allowed_situations import Goal
 from sleec_verify.conformance.cases.goals import goals_of_rule
 from sleec_verify.encoding.solver import Undecided
+from sleec_verify.encoding.window_lengths import lengths_of
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.traces.demands import Occurs
 from sleec_verify.traces.index import TraceIndex, trace_index_of
@@ -195,14 +196,6 @@ class LawfulTraces:
 
 def fixed_window(traces: TraceIndex, obligation: Obligation) -> tuple[int, int | None] | None:
     """The first and the last second of the window of a response, or None if a measure gives its length."""
-    timing = obligation.timing
-    if timing is not None and timing.window is not None and any(lengths_of(timing.window)):
+    if any(length.measures for length in lengths_of(obligation)):
         return None
     return traces.responses.window(obligation)
-
-
-def lengths_of(window: Window) -> Iterator[str]:
-    """The measures that give the lengths of a window."""
-    for length in (window.start, window.end):
-        if length is not None:
-            yield from length.measures
