@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from inspect import Parameter, signature
-from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, Protocol, cast, runtime_checkable
 
 from sleec_runtime import VirtualClock
 from sleec_runtime.dispatch.implementations import watched
@@ -141,7 +141,9 @@ class Bench:
             wanted = (VirtualClock() if clock is None else clock,) if self._memory.takes_clock else ()
             made = self.make(*wanted)
         # The look at a protocol is slow, and a factory makes one type.
-        if type(made) is not self._memory.kind and not isinstance(made, Subject):
+        if type(made) is self._memory.kind:
+            return cast(Subject, made)
+        if not isinstance(made, Subject):
             raise NotASubject(
                 f"the factory returned {_described(made)}, which is not a Sleec",
                 "return the Sleec of the robot, as made by sleec_runtime.load",
