@@ -321,7 +321,8 @@ class ConflictSearch:
             if self._index.ruleset.by_label[pair.rule].trigger in given or pair not in pending
             if pair.clause != LATER and s.holds(s.guards[pair.rule][pair.clause])
         ]
-        values = needed_values(s, continuations, rules, left_out, deciding, s.instant.values(s.holds))
+        past = {event for moment in moments for event in moment.events}
+        values = needed_values(s, continuations, rules, left_out, deciding, s.instant.values(s.holds), past)
         now = TraceInstant(time, frozenset(given), values)
         stated = tuple(key for key in relations if not is_of_state(self._index.relation_by_key[key]))
         history = tuple(map(_without_states, moments))
@@ -332,7 +333,8 @@ class ConflictSearch:
         return Conflict(pairs, history, _without_states(now), stated, forced, refutation, tuple(responses))
 
     def _about_past(self, core: list[Fact], slots: set[int]) -> list[Fact]:
-        """The facts of a core about the past, with all facts about some slots."""
+        """The facts of a core about the past, with all facts about some slots. A relation that is not in force may be
+        false now, so that also is a fact about the past."""
         s = self._situations
         nodes = {s.slots[number].node for number in slots}
         nodes |= {s.lasting[str(f[1])][2] for f in core if f[0] == "lasts" and f[-1]}
@@ -340,7 +342,10 @@ class ConflictSearch:
         return [
             f
             for f in s.facts()
-            if f in known or (f[0] in ("slot", "came") and f[1] in slots) or (f[0] == "gap" and nodes & {*f[1:3]})
+            if f in known
+            or (f[0] in ("slot", "came") and f[1] in slots)
+            or (f[0] == "gap" and nodes & {*f[1:3]})
+            or (f[0] == "lasts" and not f[-1])
         ]
 
     def _pairs(

@@ -11,9 +11,10 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from sleec_runtime.model import Lasting, Obligation, Rule
 from sleec_verify.encoding.budget import as_far_as_decided
 from sleec_verify.traces.cone import surroundings
-from sleec_verify.traces.demands import Demand, Every, Occurs
+from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
 from sleec_verify.traces.model import TraceModel
 from sleec_verify.traces.pending_demands import Slot, from_last_end, is_open, last_end
+from sleec_verify.traces.relation_encoding import stopped
 from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.trace import TraceInstant
 from sleec_verify.traces.trivial_responses import contested_obligations
@@ -78,7 +79,7 @@ class Histories(TraceModel):
             self.exclude(never, event)
             return never
         law, _, node = self._situations.lasting[str(name)]
-        return self._lasts(law, nodes[node]) if value else None
+        return self._lasts(law, nodes[node]) if value else self._is_over(law)
 
     def _triggers(self, slot: Slot, node: int) -> int:
         """A literal that implies that a slot's demand is triggered and, as far as flags do not say it, is neither met
@@ -148,6 +149,20 @@ class Histories(TraceModel):
 
         self.everywhere(not_over)
         return self.formula.every([began, goes_on])
+
+    def _is_over(self, law: Lasting) -> int:
+        """A literal that implies that a relation requires nothing now: it has not begun, or it is over."""
+        over = self.formula.fresh()
+        last = None if law.duration is None else last_second(law.duration)
+
+        def has_ended(at: int) -> None:
+            bounds = self.times.within(at, self.now, 0, last)
+            begins = [self.instants[at].event(law.event), self.condition(at, law.condition), *bounds]
+            if -self.formula.true not in begins:
+                self.add([-over, *(-literal for literal in begins), *stopped(self, law, at, self.now)])
+
+        self.everywhere(has_ended)
+        return over
 
     # Nothing else is pending ----------------------------------------------------------------------------------
 

@@ -52,7 +52,7 @@ def relation_at(model: Unrolling, past: Past, relation: Relation) -> Callable[[i
         if law_key in past.began:
             require = model.condition(at, law.formula)
             away = [-literal for literal in past.began[law_key](at)]
-            model.add([-in_force, -model.instants[at].used, *away, *_stopped(model, law, None, at), require])
+            model.add([-in_force, -model.instants[at].used, *away, *stopped(model, law, None, at), require])
 
     law_key = relation_key(relation)
 
@@ -77,10 +77,10 @@ def _binds(model: Unrolling, law: Lasting, at: int, other: int, in_force: int) -
     away = [-literal for literal in (*begins, model.instants[other].used, *bounds)]
     if model.formula.true not in away:
         holds = model.condition(other, law.formula)
-        model.add([-in_force, *away, *_stopped(model, law, at, other), holds])
+        model.add([-in_force, *away, *stopped(model, law, at, other), holds])
 
 
-def _stopped(model: Unrolling, law: Lasting, since: int | None, until: int) -> list[int]:
+def stopped(model: Unrolling, law: Lasting, since: int | None, until: int) -> list[int]:
     """A literal that implies that an event ended the relation between two instants, if an event can end it."""
     if law.end is None:
         return []

@@ -37,9 +37,12 @@ def needed_values(
     but: Collection[Fact],
     deciding: Iterable[tuple[str, int]],
     values: Mapping[str, Value],
+    past: Collection[str],
 ) -> Mapping[str, Value]:
     """The `values` of a minimal set of conditions and measures with which no response complies with `rules`, and
-    the clauses `deciding` decide, and those of the lengths of their windows. All other conditions may be false."""
+    the clauses `deciding` decide, and those of the lengths of their windows. All other conditions may be false.
+
+    `past` are the events of the history, which can begin relations that are in force now."""
     index = situations.index
     deciding = list(deciding)
     clauses = [list(index.ruleset.by_label[label].clauses())[number] for label, number in deciding]
@@ -79,7 +82,7 @@ def needed_values(
             with as_far_as_decided():
                 less = refuted(kept - {name}) if name in kept else None
                 kept = kept if less is None else less
-    closed = _closed(situations, kept | lengths, values)
+    closed = _closed(situations, kept | lengths, values, past)
     return {name: value for name, value in values.items() if name in closed}
 
 
@@ -92,15 +95,18 @@ def names_of_key(instant: Instant, key: Key) -> frozenset[str]:
     return frozenset(found)
 
 
-def _closed(situations: Situations, names: set[str], values: Mapping[str, Value]) -> set[str]:
-    """These names, with those that relations connect to them."""
+def _closed(situations: Situations, names: set[str], values: Mapping[str, Value], past: Collection[str]) -> set[str]:
+    """These names, with those that relations connect to them, or that a relation of the history requires."""
     found = set(names)
     formulas = list(_required(situations))
+    lasting = [law for law, active, _ in situations.lasting.values() if situations.holds(active)]
+    formulas += [law.formula for law in lasting]
+    begun = [law.formula for law in lasting if law.event in past]
     measures = situations.index.ruleset.measures
     grew = True
     while grew:
         context = Context(frozenset(), {name: value for name, value in values.items() if name in found})
-        related = [formula for formula in formulas if not found.isdisjoint(names_of(formula))]
+        related = [f for f in formulas if f in begun or not found.isdisjoint(names_of(f))]
         truths = truth_in(context, related, measures)
         tied = {name for formula, truth in zip(related, truths) if not truth for name in names_of(formula)}
         grew = not tied <= found
@@ -115,6 +121,3 @@ def _required(situations: Situations) -> Iterator[model.Formula]:
             yield formula_at_one_instant(relation)
         elif isinstance(relation, Assume) and not any(events_of(relation)):
             yield relation.formula
-    for law, active, _ in situations.lasting.values():
-        if situations.holds(active):
-            yield law.formula
