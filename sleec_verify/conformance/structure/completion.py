@@ -77,8 +77,8 @@ class CompletionCheck:
                 )
         for name, (file, node) in {**self._awaiting(), **self._started}.items():
             if name in self._prohibitions and name in self._prohibitions.required:
-                labels = listed(self._prohibitions.labels(name))
-                self._findings.undecided(file, node, f"{name} takes time, so it may complete while {labels} forbids it")
+                why = f"{name} takes time, so it may complete while {self._prohibitions.forbid_it(name)}"
+                self._findings.undecided(file, node, why)
 
     def _awaiting(self) -> dict[str, Place]:
         """The obligations whose code is a coroutine function that awaits."""

@@ -45,18 +45,22 @@ class LastingProhibitions:
         """The rules that forbid an act for a time."""
         return tuple(self._forbidding.get(act, ()))
 
+    def forbid_it(self, act: str) -> str:
+        """``rest forbids it``, ``rest and night forbid it``"""
+        labels = self.labels(act)
+        return f"{listed(labels)} {'forbids' if len(labels) == 1 else 'forbid'} it"
+
     def report(self, act: str, node: ast.AST, use: Use) -> None:
         """Reports code that executes an act outside a dispatch, at `node` in the expression `use`. No rule requires the
         act, so the code may execute it at other times."""
-        labels = listed(self.labels(act))
         condition = self._conditions.around(use)
         if condition is not None:
-            why = f"{act} is executed here {condition}, perhaps while {labels} forbids it"
+            why = f"{act} is executed here {condition}, perhaps while {self.forbid_it(act)}"
             self._findings.undecided(use.scope.file, node, why)
             return
         self._findings.add(
             "unguarded-act",
-            f"{act} is executed here, also while {labels} forbids it",
+            f"{act} is executed here, also while {self.forbid_it(act)}",
             (use.scope.file, node),
             rules=self.labels(act),
             obligations=(act,),

@@ -51,6 +51,15 @@ def test_the_guide_of_the_runtime() -> None:
     assert kinds(rules.group(1), robot=rule + curtains) == []
 
 
+def test_the_guide_of_deadlines() -> None:
+    guide = (ROOT / "docs" / "deadlines.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"^```python\n(.*?)^```$", guide, re.MULTILINE | re.DOTALL)
+    rules = re.search(r'parse\("""(.*?)"""', blocks[0], re.DOTALL)
+    assert rules
+    head = "from sleec_runtime import Sleec\nfrom sleec_runtime.language import parse\n"
+    assert kinds(rules.group(1), robot=head + "".join(blocks)) == []
+
+
 def test_the_example() -> None:
     code = python_files(str(ROOT / "examples" / "household_robot.py"))
     rules = load(ROOT / "rulesets" / "household.sleec")
