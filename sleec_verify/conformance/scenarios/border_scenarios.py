@@ -8,7 +8,13 @@ from itertools import islice, product
 
 from sleec_runtime.model import Rule, Ruleset, Value, formulas_of
 from sleec_verify.conformance.regions import givens
-from sleec_verify.conformance.scenarios.random_scenarios import allows, components, horizon_of, window_measures
+from sleec_verify.conformance.scenarios.random_scenarios import (
+    allows,
+    components,
+    formulas_of_environment,
+    horizon_of,
+    window_measures,
+)
 from sleec_verify.conformance.scenarios.requirement import Requirements
 from sleec_verify.conformance.scenarios.scenario import Completion, Scenario, Step
 
@@ -47,7 +53,7 @@ def scenarios_of_each_rule(ruleset: Ruleset) -> Iterator[Scenario]:
 def _contexts(rule: Rule, ruleset: Ruleset) -> Iterator[Step]:
     """The triggers of a rule in each context that it distinguishes."""
     lengths = dict.fromkeys(sorted(window_measures(ruleset)), _LENGTH)
-    regions = givens(list(formulas_of(rule)), ruleset.measures)
+    regions = givens([*formulas_of(rule), *formulas_of_environment(ruleset)], ruleset.measures)
     for drawn in product(*(one.values for one in regions)):
         values = {one.name: value for one, value in zip(regions, drawn) if not one.event and value is not None}
         events = {one.name for one, value in zip(regions, drawn) if one.event and value}

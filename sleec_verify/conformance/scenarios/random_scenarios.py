@@ -7,12 +7,15 @@ from dataclasses import replace
 
 from hypothesis import strategies as st
 
+from sleec_runtime.evaluation.instant_formulas import instant_formula
 from sleec_runtime.evaluation.trace import Instant, Trace
 from sleec_runtime.evaluation.trace_violations import violations
 from sleec_runtime.model import (
     RELATIONS,
     Assume,
     Clause,
+    EventRelation,
+    Formula,
     Lasting,
     Length,
     Obligation,
@@ -80,7 +83,8 @@ def _drawn(
     triggers, obligations = sorted(about.triggers), sorted(about.obligations)
     some = st.lists(st.sampled_from(triggers), max_size=3, unique=True) if triggers else st.just([])
     one = st.sampled_from(triggers).map(lambda name: [name]) if triggers else st.just([])
-    read = sorted(set().union(*(names_of(formula) for rule in rules for formula in formulas_of(rule))))
+    formulas = [*(formula for rule in rules for formula in formulas_of(rule)), *formulas_of_environment(ruleset)]
+    read = sorted(set().union(*map(names_of, formulas)))
     new = {
         name: st.one_of(strategies.values(ruleset, name), st.none())
         for name in read
@@ -168,6 +172,21 @@ def _environment(ruleset: Ruleset) -> Ruleset | None:
         if isinstance(s, Assume) or (isinstance(s, RELATIONS) and not ruleset.obligations & set(events_of(s)))
     )
     return replace(ruleset, statements=kept, inferred=tuple(ruleset.measures.values())) if kept else None
+
+
+def formulas_of_environment(ruleset: Ruleset) -> list[Formula]:
+    """The formulas of the assumptions and of the relations of the environment about one instant."""
+    environment = _environment(ruleset)
+    statements = () if environment is None else environment.statements
+    found: list[Formula] = []
+    for one in statements:
+        if isinstance(one, Lasting):
+            found.append(one.formula)
+        elif isinstance(one, (Assume, *RELATIONS)) and not (
+            isinstance(one, EventRelation) and one.relation == "happenBefore"
+        ):
+            found.append(instant_formula(one))
+    return found
 
 
 def allows(ruleset: Ruleset, steps: Sequence[Step]) -> bool:
