@@ -191,7 +191,7 @@ def _row(one: RulesetExamination) -> str:
     counts += [f"{len(one.allowed)} allowed"] if one.allowed else []
     counts += [f"{len(one.known)} in the baseline"] if one.known else []
     counts += [f"{counted(len(one.unused), 'unused suppression')}"] if one.unused else []
-    if one.coverage is not None and one.coverage.why is None:
+    if one.coverage is not None:
         counts.append(f"{one.coverage} covered")
     moved = "" if one.was is None else f", was {_code(one.was)}"
     return f"| {_code(one.path)}{moved} | {_plain(change)} | {', '.join(counts)} |"

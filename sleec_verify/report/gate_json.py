@@ -78,7 +78,7 @@ def _examined(one: RulesetExamination) -> Json:
         "baseline": len(one.known),
         "unused_suppressions": [{"line": one.line(unused.span), "allowed": [unused.allowed]} for unused in one.unused],
         "coverage": None
-        if reached is None or reached.why is not None
+        if reached is None
         else {
             "reached": reached.reached,
             "clauses": reached.clauses,

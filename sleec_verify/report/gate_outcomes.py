@@ -34,7 +34,7 @@ def outcomes(found: GateResult) -> list[Outcome]:
         ruleset = one.ruleset or _gone(one)
         if ruleset is not None:
             results = [replace(result, verdict=_counted(result.verdict, one.findings)) for result in one.results]
-            made.append(CheckedRuleset(ruleset, (*results, *_of_policies(one), *blocks.pop(one.path, ()))))
+            made.append(CheckedRuleset(ruleset, (*results, *_of_comparison(one), *blocks.pop(one.path, ()))))
     for _, ruleset, _ in found.asked:
         asked = blocks.pop(found.paths[ruleset.source.path], ())
         if asked:
@@ -83,12 +83,10 @@ def _counted(verdict: Verdict, counting: Iterable[Finding]) -> Verdict:
     return Refuted(findings) if findings else Proved()
 
 
-def _of_policies(one: RulesetExamination) -> Iterator[CheckResult]:
-    """The undecided parts of the comparison and of the coverage."""
+def _of_comparison(one: RulesetExamination) -> Iterator[CheckResult]:
+    """The undecided parts of the comparison."""
     for what, why in () if one.difference is None else one.difference.undecided:
         yield CheckResult("comparison", Unknown(f"{what}: {why}"), 0.0)
-    if one.coverage is not None and one.coverage.why is not None:
-        yield CheckResult("clause-coverage", Unknown(one.coverage.why), 0.0)
 
 
 def _of_path(error: SleecError, one: RulesetExamination) -> SleecError:

@@ -32,5 +32,4 @@ def coverage(ruleset: Ruleset, errors: list[SleecError]) -> Coverage | None:
             return None
     missed = [clause_name(rule, place[1]) for place, rule in clauses.items() if place not in reached]
     missed += [str(window) for window in windows if window not in met]
-    counted = len(met), len(windows)
-    return Coverage(len(reached), len(clauses), tuple(missed), None, *counted)
+    return Coverage(len(reached), len(clauses), tuple(missed), len(met), len(windows))

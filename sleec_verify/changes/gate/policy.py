@@ -111,7 +111,7 @@ def _on_ruleset(one: RulesetExamination, policy: Policy) -> Iterator[Block]:
                 yield _block("ruled-out-situations", one.path, what, witness=change.witness, domains=change.domains)
     if isinstance(one.certificate, str):
         yield _block("certificates", one.path, one.certificate)
-    if policy.clause_coverage is not None and one.coverage is not None and one.coverage.why is None:
+    if policy.clause_coverage is not None and one.coverage is not None:
         reached = one.coverage
         if reached.percent < policy.clause_coverage:
             most = [*reached.missed[:5], *(["…"] if len(reached.missed) > 5 else [])]
@@ -217,8 +217,6 @@ def _unknown(one: RulesetExamination) -> Iterator[Block]:
     if one.difference is not None:
         for what, why in one.difference.undecided:
             yield Block("unknown", one.path, f"{what}: {why}")
-    if one.coverage is not None and one.coverage.why is not None:
-        yield Block("unknown", one.path, f"clause coverage: {one.coverage.why}")
 
 
 def _unknown_code(one: TargetConformance) -> Iterator[Block]:

@@ -34,12 +34,11 @@ class Block(NamedTuple):
 
 class Coverage(NamedTuple):
     """How many of a ruleset's clauses its cases reach, and how many of its windows they meet or miss. `missed` are the
-    others. `why` says why that is unknown."""
+    others."""
 
     reached: int
     clauses: int
     missed: tuple[str, ...] = ()
-    why: str | None = None
     windows_reached: int = 0
     windows: int = 0
 

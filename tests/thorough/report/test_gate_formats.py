@@ -291,13 +291,15 @@ def test_who_is_killed_leaves_no_half_report(command: str, repository: Repositor
 
 def test_a_schema_of_sarif_knows_no_policy_twice(cli: Cli, repository: Repository) -> None:
     """A policy can block a ruleset and be undecided for another; it is described once."""
-    repository.write(a_sleec=LOST, b_sleec=TIMED)
-    config(repository, block="clause-coverage = 50\nfindings = 'never'")
-    log: dict[str, Any] = json.loads(cli("gate", "--base", "main", "--format", "sarif").out)
+    repository.write(a_sleec=OLD + "UNLESS d IN WHICH CASE o\n", b_sleec="RULE b\nWHEN c THEN p\n")
+    config(repository, block="findings = 'never'")
+    log: dict[str, Any] = json.loads(
+        cli("gate", "--base", "main", "--assert", "never p when c", "--format", "sarif").out
+    )
     VALIDATOR.validate(log)
     identifiers = [rule["id"] for rule in log["runs"][0]["tool"]["driver"]["rules"]]
-    assert identifiers.count("clause-coverage") == 1
-    assert {result["kind"] for result in log["runs"][0]["results"] if result["ruleId"] == "clause-coverage"} == {
+    assert identifiers.count("assertions") == 1
+    assert {result["kind"] for result in log["runs"][0]["results"] if result["ruleId"] == "assertions"} == {
         "fail",
         "open",
     }
