@@ -106,7 +106,17 @@ class Fulfilment:
             # `otherwise` after `eventually` is never due.
             choices = [choice for choice in one.choices if one.last is not None or not choice.response.overdue]
             return missed is None or not any(_is_possible_at(choice, missed) for choice in choices)
-        return self._is_impossible(one)
+        return self._is_stopped_with_another(one) or self._is_impossible(one)
+
+    def _is_stopped_with_another(self, one: Requirement) -> bool:
+        """Whether the exception that the scenario raised in the code of a clause stopped it before this obligation of
+        the clause."""
+        clause = {other.name for other in self.requirements if other.rule is one.rule and other.place == one.place}
+        return any(
+            isinstance(execution.end.error, WithheldCompletion)
+            for execution in self.executions
+            if execution.name in clause and execution.start.act == one.act and execution.end is not None
+        )
 
     def _is_attempt(self, execution: Execution, one: Requirement) -> bool:
         """Whether an execution would have fulfilled a requirement if the scenario had let it complete."""
