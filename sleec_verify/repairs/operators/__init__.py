@@ -1,0 +1,25 @@
+"""The operators that propose repairs, by the code of the finding."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+
+from sleec_runtime.model import Ruleset
+from sleec_verify.repairs.operators.giving_way import exceptions, guards, responses
+from sleec_verify.repairs.operators.removal import declarations, hedges, rules
+from sleec_verify.repairs.repair import Candidate
+from sleec_verify.results.finding import Finding
+
+Operation = Callable[[Ruleset, Finding], Iterator[Candidate]]
+"""Proposes candidates for a finding. They need not be repairs. Raises `Unsayable` if the language has no words for
+one."""
+
+OPERATORS: Mapping[str, tuple[Operation, ...]] = {
+    "SLEEC101": (guards, exceptions, responses, rules),
+    "SLEEC102": (guards, exceptions, responses, rules),
+    "SLEEC202": (hedges,),
+    "SLEEC301": (rules,),
+    "SLEEC302": (hedges,),
+    "SLEEC501": (declarations,),
+    "SLEEC509": (rules,),
+}

@@ -1,0 +1,125 @@
+"""Repairs of a conflict in which one of its rules gives way to the others.
+
+The rule that gives way keeps its response wherever the clauses of the others do not decide. Their guard, as in
+Equation 1 (paper, Section 3.2), is the condition of the repair; what both rules need anyway is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from sleec_runtime.model import And, Clause, Formula, Not, Obligation, Rule, Ruleset, Truth
+from sleec_verify.encoding.equation import conjunction, guard
+from sleec_verify.repairs.repair import Candidate
+from sleec_verify.repairs.statement_edits import exception_text, formula_text, strengthened, with_exception, without_obligations
+from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import clause_name, listed, quoted
+
+
+class Yielding(NamedTuple):
+    """A clause that gives way, and the conditions under which it does, the most exact one first.
+
+    `others` are the clauses to which it gives way.
+    """
+
+    rule: Rule
+    number: int
+    conditions: tuple[Formula, ...]
+    others: tuple[tuple[Rule, int], ...]
+
+    @property
+    def clause(self) -> Clause:
+        return list(self.rule.clauses())[self.number]
+
+
+def yieldings(ruleset: Ruleset, finding: Finding) -> Iterator[Yielding]:
+    """Each clause of a conflict as the one that gives way."""
+    clauses = [(ruleset.by_label[label], number) for label, number in finding.clauses]
+    for rule, number in clauses:
+        others = tuple(other for other in clauses if other[0] is not rule)
+        if others:
+            yield Yielding(rule, number, tuple(_conditions(ruleset, rule, number, others)), others)
+
+
+def _conditions(
+    ruleset: Ruleset, rule: Rule, number: int, others: Iterable[tuple[Rule, int]]
+) -> Iterator[Formula]:
+    own = set(_conjuncts(guard(rule, ruleset.reading, number)))
+    needed = [
+        part
+        for other, clause in others
+        for part in _conjuncts(guard(other, ruleset.reading, clause))
+        if part not in own
+    ]
+    exact = list(dict.fromkeys(needed))
+    positive = [part for part in exact if not isinstance(part, Not)]
+    for parts in (exact, positive):
+        if parts:
+            yield conjunction(parts)
+
+
+def _conjuncts(formula: Formula) -> tuple[Formula, ...]:
+    if isinstance(formula, Truth):
+        return ()
+    return formula.operands if isinstance(formula, And) else (formula,)
+
+
+def guards(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """Trigger strengthening: the rule does not apply where the others decide."""
+    for one in yieldings(ruleset, finding):
+        for condition in one.conditions:
+            exact = condition
+            if one.rule.hedges:
+                # Other clauses of the rule keep their situations.
+                own = _conjuncts(guard(one.rule, ruleset.reading, one.number))
+                outer = 1 + len(_conjuncts(one.rule.guard) if one.rule.guard is not None else ())
+                exact = conjunction([*own[outer:], condition])
+            negated = exact.operand if isinstance(exact, Not) else Not(exact)
+            title = f"add to the trigger of rule {quoted(one.rule.label)}: {quoted(_and(ruleset, negated))}"
+            edits = strengthened(ruleset, one.rule, negated)
+            yield Candidate("trigger-strengthening", title, edits, one.rule.label)
+
+
+def _and(ruleset: Ruleset, formula: Formula) -> str:
+    return f"{'and' if ruleset.syntax == 'dsl' else 'AND'} {formula_text(ruleset, formula)}"
+
+
+def exceptions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """Defeater introduction: an exception for the situations in which the others decide. It requires what is left of
+    the response, or what the others require."""
+    for one in yieldings(ruleset, finding):
+        kept = tuple(o for o in one.clause.obligations if o.name not in finding.obligations)
+        theirs = tuple(
+            dict.fromkeys(
+                o
+                for other, number in one.others
+                for o in list(other.clauses())[number].obligations
+                if o.name in finding.obligations
+            )
+        )
+        for response in dict.fromkeys((kept, (*kept, *theirs))):
+            for condition in one.conditions:
+                if response:
+                    yield _exception(ruleset, one, condition, response)
+
+
+def _exception(
+    ruleset: Ruleset, one: Yielding, condition: Formula, response: tuple[Obligation, ...]
+) -> Candidate:
+    text = exception_text(ruleset, condition, response)
+    title = f"add to {clause_name(one.rule, one.number)}: {quoted(text)}"
+    edits = with_exception(ruleset, one.rule, one.clause, condition, response)
+    return Candidate("defeater-introduction", title, edits, one.rule.label)
+
+
+def responses(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """Response refinement: a clause no longer requires what contradicts the others."""
+    for label, number in finding.clauses:
+        rule = ruleset.by_label[label]
+        clause = list(rule.clauses())[number]
+        removed = [o for o in clause.obligations if o.name in finding.obligations]
+        edits = without_obligations(ruleset, clause, removed)
+        if removed and edits is not None:
+            names = listed(quoted(str(one)) for one in removed)
+            yield Candidate("response-refinement", f"remove {names} from {clause_name(rule, number)}", edits, label)
