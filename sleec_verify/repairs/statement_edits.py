@@ -153,9 +153,7 @@ def _end_of_word(text: str, offset: int) -> int:
     return len(text[:offset].rstrip())
 
 
-def without_obligations(
-    ruleset: Ruleset, clause: Clause, removed: Iterable[Obligation]
-) -> tuple[TextEdit, ...] | None:
+def without_obligations(ruleset: Ruleset, clause: Clause, removed: Iterable[Obligation]) -> tuple[TextEdit, ...] | None:
     """The clause without some obligations of its response; None if none would be left."""
     gone = list(removed)
     kept = [one for one in clause.obligations if one not in gone]

@@ -12,7 +12,13 @@ from typing import NamedTuple
 from sleec_runtime.model import And, Clause, Formula, Not, Obligation, Rule, Ruleset, Truth
 from sleec_verify.encoding.equation import conjunction, guard
 from sleec_verify.repairs.repair import Candidate
-from sleec_verify.repairs.statement_edits import exception_text, formula_text, strengthened, with_exception, without_obligations
+from sleec_verify.repairs.statement_edits import (
+    exception_text,
+    formula_text,
+    strengthened,
+    with_exception,
+    without_obligations,
+)
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.phrases import clause_name, listed, quoted
 
@@ -42,9 +48,7 @@ def yieldings(ruleset: Ruleset, finding: Finding) -> Iterator[Yielding]:
             yield Yielding(rule, number, tuple(_conditions(ruleset, rule, number, others)), others)
 
 
-def _conditions(
-    ruleset: Ruleset, rule: Rule, number: int, others: Iterable[tuple[Rule, int]]
-) -> Iterator[Formula]:
+def _conditions(ruleset: Ruleset, rule: Rule, number: int, others: Iterable[tuple[Rule, int]]) -> Iterator[Formula]:
     own = set(_conjuncts(guard(rule, ruleset.reading, number)))
     needed = [
         part
@@ -104,9 +108,7 @@ def exceptions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
                     yield _exception(ruleset, one, condition, response)
 
 
-def _exception(
-    ruleset: Ruleset, one: Yielding, condition: Formula, response: tuple[Obligation, ...]
-) -> Candidate:
+def _exception(ruleset: Ruleset, one: Yielding, condition: Formula, response: tuple[Obligation, ...]) -> Candidate:
     text = exception_text(ruleset, condition, response)
     title = f"add to {clause_name(one.rule, one.number)}: {quoted(text)}"
     edits = with_exception(ruleset, one.rule, one.clause, condition, response)

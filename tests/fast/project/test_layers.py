@@ -43,6 +43,7 @@ VERIFIER_LAYERS = (
     "certificates",
     "conformance",
     "changes",
+    "repairs",
     "report",
     "pytest_plugin",
     "cli",
