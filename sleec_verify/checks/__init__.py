@@ -103,6 +103,9 @@ def checks_for(ruleset: Ruleset) -> list[str]:
     else:
         # Structured English has no defects: the parser rejects them.
         left_out.add(DEFECTS.name)
+    if ruleset.syntax == "english" and ruleset.reading_stated:
+        # The author has decided which reading applies.
+        left_out.add(READING.name)
     if ruleset.dialect != "sleec-tk":
         left_out.add(BARE_PROHIBITION.name)
     if not speaks_of_traces(ruleset):

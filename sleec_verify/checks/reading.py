@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from sleec_runtime.model import Clause, Formula, Not, Obligation, Reading, Rule
+from sleec_runtime.model import Clause, Formula, Not, Obligation, Reading, Rule, Ruleset
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.questions import ask_each
 from sleec_verify.encoding.equation import conjunction, disjunction, guard, implications
@@ -153,17 +153,21 @@ def _finding(index: RulesetIndex, position: int, parted: _Parted) -> Finding:
         obligations=tuple(sorted({o.name for n in deciding.values() for o in clauses[n].obligations})),
         witness=witness,
         note=f"if nothing else holds: {'; '.join(said)}",
-        help=_help(index),
+        help=_help(index.ruleset),
     )
 
 
-def _help(index: RulesetIndex) -> str:
-    ruleset = index.ruleset
+def _help(ruleset: Ruleset) -> str:
+    """What to write so that the check has nothing to report. A DSL text cannot state its reading."""
     if ruleset.syntax == "dsl":
-        return f"this ruleset is read as {ruleset.reading}; the DSL means priority, structured English means cascade"
-    if ruleset.reading_stated:
-        return f"the text says READING {ruleset.reading}; other tools may use the other reading"
-    return f"this ruleset is read as {ruleset.reading}; if you mean that, write READING {ruleset.reading} in the text"
+        return (
+            "if you mean priority, add the conditions of all later exceptions to each exception with `or`; "
+            "if you mean cascade, add those of all earlier exceptions with `and`"
+        )
+    return (
+        f"write READING {ruleset.reading} at the top if you mean that; "
+        f"write READING {OTHER[ruleset.reading]} if you mean the other one"
+    )
 
 
 def _due(rule: Rule, reading: Reading) -> dict[Obligation, Formula]:
@@ -196,9 +200,12 @@ READING = Check(
             "There are two ways to read several exceptions. `cascade` applies the last exception before the first "
             "false condition. `priority` applies the last exception whose condition is true. If a later "
             "condition can be true while an earlier one is false, the two readings can require different things, and "
-            "another tool may read this rule differently.",
-            "Write the rule so that both readings agree. For example, repeat the condition of each exception in the "
-            "next one. `sleec-verify convert --to english --reading …` does this for you.",
+            "another tool may read this rule differently. `check` does not ask this of a text that states its reading "
+            "with `READING cascade` or `READING priority`.",
+            "At the top of the text, write the reading that you mean: `READING cascade` or `READING priority`. If "
+            "other tools read the rule, write it so that both readings agree: repeat the condition of each exception "
+            "in the next one, as below. If no exception depends on another one, write a rule for each: docs/language.md "
+            "describes exceptions that do not depend on each other.",
             "WHEN HumanOnFloor THEN CallEmergencyServices\n"
             "UNLESS UserResponsive IN WHICH CASE AskForUserStatus\n"
             "UNLESS UserWithCompanion IN WHICH CASE AskCompanionToCheck\n",

@@ -10,7 +10,7 @@ from sleec_runtime.evaluation.due import broken_assumptions
 from sleec_runtime.evaluation.formula_truth import holds
 from sleec_runtime.language import parse
 from sleec_runtime.model import Context, Obligation
-from sleec_verify.checks import run_checks
+from sleec_verify.checks import checks_for, run_checks
 from sleec_verify.entailment.definition1 import Definition1
 from sleec_verify.entailment.entailment import entail
 from sleec_verify.query.question import Question
@@ -188,12 +188,29 @@ def test_a_hedge_without_a_response_that_can_be_removed_is_not_asked_about_it():
     assert finding.help == "check whether its response is the one that you meant, or remove it and check again"
 
 
-def test_the_reading_that_the_text_states_is_named():
+@pytest.mark.parametrize("reading", ["cascade", "priority"])
+def test_a_text_that_states_its_reading_is_not_asked_about_it(reading):
     text = "WHEN t THEN o UNLESS a IN WHICH CASE p UNLESS b IN WHICH CASE q"
     (silent,) = found(text, "reading")
-    assert "READING cascade" in silent.help
-    (stated,) = found(f"READING priority\n{text}", "reading")
-    assert "the text says READING priority" in stated.help
+    assert f"READING {reading}" in silent.help
+    stated = f"READING {reading}\n{text}"
+    assert "reading" not in checks_for(parse(stated))
+    assert not [f for result in run_checks(parse(stated)) for f in result.findings if f.severity == "warning"]
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [("({a} or {b})", "{b}"), ("{a}", "({a} and {b})")],
+    ids=["priority", "cascade"],
+)
+def test_a_dsl_text_that_means_the_same_in_both_readings(first, second):
+    rule = "R1 when E then O unless {} then P unless {} then Q"
+    definitions = "event E event O event P event Q measure a:boolean measure b:boolean"
+    text = "def_start {} def_end rule_start {} rule_end"
+    (finding,) = found(text.format(definitions, rule.format("{a}", "{b}")), "reading")
+    assert "with `or`" in finding.help
+    assert "with `and`" in finding.help
+    assert not found(text.format(definitions, rule.format(first, second)), "reading")
 
 
 def test_what_decides_is_told_in_both_readings_and_in_nested_chains():

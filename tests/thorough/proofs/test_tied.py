@@ -118,11 +118,17 @@ def checked(folder: Path, rules: Path | str, oracle: Path | None) -> CheckedCert
 
 @pytest.mark.parametrize(
     ("name", "checks"),
-    [("household", ["conflict"]), ("care-robot", ["conflict"]), ("hospital-ward", ["conflict", "reading"])],
+    [("household", ["conflict"]), ("care-robot", ["conflict"]), ("hospital-ward", ["conflict"])],
 )
 def test_shipped_rulesets_are_tied(oracle: Path, tmp_path: Path, name: str, checks: list[str]) -> None:
     tied = checked(tmp_path / "c", RULESETS / f"{name}.sleec", oracle).tied
     assert tied == tuple(VerdictBinding(check, True) for check in checks)
+
+
+def test_a_text_without_a_reading_is_tied_in_both(oracle: Path, tmp_path: Path) -> None:
+    text = (RULESETS / "hospital-ward.sleec").read_text(encoding="utf-8").replace("READING cascade\n", "")
+    tied = checked(tmp_path / "c", text, oracle).tied
+    assert tied == (VerdictBinding("conflict", True), VerdictBinding("reading", True))
 
 
 def test_where_rules_conflict_a_situation_shows_it(oracle: Path, tmp_path: Path) -> None:
