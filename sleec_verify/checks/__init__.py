@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Generator, Mapping, Sequence
+from contextlib import closing, suppress
 from dataclasses import replace
 from functools import partial
 from time import perf_counter
@@ -154,9 +154,11 @@ class Checking:
         recorder: Recorder | None = None,
         realizable: int = 1,
         chains: bool = True,
+        seen: Callable[[Finding], None] | None = None,
     ) -> None:
         """`realizable` is the number of acts of the environment in that check. Without `chains`, responses trigger
-        no rules."""
+        no rules. `seen` is called for each confirmed finding as soon as it is found; what it raises ends the checks."""
+        self._seen = seen
         self._checks: Mapping[str, Check] = {**CHECKS, REALIZABILITY.name: realizability(realizable)}
         known: Callable[[Ruleset], RulesetIndex] = partial(
             RulesetIndex, recorder=recorder, untimed=untimed, chains=chains
@@ -209,29 +211,41 @@ class Checking:
         """The verdict of one check. Raises KeyError for an unknown one."""
         check = self._checks[name]
         started = perf_counter()
-        verdict, reason = _verdict(check, {"": self.whole} if check.scope == "text" else self.by_domain)
+        verdict, reason = _verdict(check, {"": self.whole} if check.scope == "text" else self.by_domain, self._seen)
         return CheckResult(check.name, verdict, perf_counter() - started, reason)
 
 
-def _verdict(check: Check, by_domain: Mapping[str, RulesetIndex]) -> tuple[Verdict, str | None]:
+def _findings(check: Check, index: RulesetIndex) -> Generator[Finding, None, None]:
+    yield from check.run(index)
+
+
+def _verdict(
+    check: Check, by_domain: Mapping[str, RulesetIndex], tell: Callable[[Finding], None] | None
+) -> tuple[Verdict, str | None]:
     found: dict[tuple[object, ...], Finding] = {}
     unknown: list[str] = []
     cut: str | None = None
     for domain, index in by_domain.items():
         try:
-            for finding in check.run(index):
-                if not replay_finding(index, finding):
-                    unknown.append(f"the replay rejected a witness; this is a bug in sleec-verify: {finding.message}")
-                    continue
-                # A redundant rule may have another reason in each domain, and is still one finding.
-                rules = finding.rules[:1] if check.scope == "every domain" else finding.rules
-                key: tuple[object, ...] = (finding.code, rules, finding.clauses, finding.obligations, finding.span)
-                if key in found and not replay_finding(index, found[key]):
-                    # The assumptions of this domain exclude the situation of the other one.
-                    key = (*key, domain)
-                seen = found.setdefault(key, finding)
-                if domain:
-                    found[key] = replace(seen, domains=(*seen.domains, domain))
+            # A check that is left early gives its share of the budget back when it is closed.
+            with closing(_findings(check, index)) as proposed:
+                for finding in proposed:
+                    if not replay_finding(index, finding):
+                        unknown.append(
+                            f"the replay rejected a witness; this is a bug in sleec-verify: {finding.message}"
+                        )
+                        continue
+                    if tell is not None and check.scope != "every domain":
+                        tell(finding)
+                    # A redundant rule may have another reason in each domain, and is still one finding.
+                    rules = finding.rules[:1] if check.scope == "every domain" else finding.rules
+                    key: tuple[object, ...] = (finding.code, rules, finding.clauses, finding.obligations, finding.span)
+                    if key in found and not replay_finding(index, found[key]):
+                        # The assumptions of this domain exclude the situation of the other one.
+                        key = (*key, domain)
+                    seen = found.setdefault(key, finding)
+                    if domain:
+                        found[key] = replace(seen, domains=(*seen.domains, domain))
         except Undecided as error:
             unknown.append(str(error))
         except Enough as error:

@@ -22,20 +22,17 @@ def ask_each(asked: Iterable[tuple[str, _Asked]], question: Callable[[_Asked], I
     """The findings of `question` for each item of `asked`, which is given with its name for messages.
 
     Each question but the last spends at most half of the remaining budget, so that hard questions leave some for the
-    others. Raises Undecided after all questions, with the names of the undecided items.
+    others. Findings come as soon as they are found, within the share of their question: close the iterator to end
+    early. Raises Undecided after all questions, with the names of the undecided items.
     """
     why: dict[str, list[str]] = {}
     for (name, one), is_last in _with_last(asked):
-        found: list[Finding] = []
         try:
             begin()
             with share(1 if is_last else 1 / 2):
-                # One by one: what was found before a question is given up stays.
-                for finding in question(one):
-                    found.append(finding)
+                yield from question(one)
         except Undecided as error:
             why.setdefault(str(error), []).append(name)
-        yield from found
     if why:
         raise Undecided("; ".join(f"{_named(names)}: {reason}" for reason, names in why.items()))
 

@@ -31,7 +31,8 @@ class Effect:
 
 def effect_of(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Untimed = "at") -> Effect:
     """The effect of a repair that changes `old` to `new`. Costs a comparison of both."""
-    difference = compare(old, new, domain, untimed)
+    # The checks of the changed text have shown which conflicts remain.
+    difference = compare(old, new, domain, untimed, over_time=False)
     return Effect(difference, _situations(difference))
 
 

@@ -11,7 +11,7 @@ from sleec_verify.repairs.edit import edited
 from sleec_verify.repairs.effect import effect_of
 from sleec_verify.repairs.operators import OPERATORS
 from sleec_verify.repairs.repair import Candidate, Repair
-from sleec_verify.repairs.verification import Rejection, Verification
+from sleec_verify.repairs.verification import Rejected, Verification
 from sleec_verify.results.finding import CheckResult, Finding
 
 
@@ -55,10 +55,11 @@ class RepairSearch:
                 continue
 
     def _repair(self, finding: Finding, candidate: Candidate) -> Iterator[Repair]:
-        repaired = self._verification.repaired(finding, candidate)
-        if not isinstance(repaired, Rejection):
-            effect = effect_of(self._ruleset, repaired, self._domain, self._untimed)
-            yield Repair(finding, candidate, effect, repaired)
+        try:
+            repaired = self._verification.repaired(finding, candidate)
+        except Rejected:
+            return
+        yield Repair(finding, candidate, effect_of(self._ruleset, repaired, self._domain, self._untimed), repaired)
 
 
 def _size(repair: Repair) -> tuple[bool, int, int, str]:

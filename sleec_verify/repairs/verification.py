@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Container, Mapping, Sequence
 
 from sleec_runtime.errors import LanguageError
-from sleec_runtime.language import parse
+from sleec_runtime.language import parse, parse_source
 from sleec_runtime.model import Ruleset
 from sleec_verify.checks import Checking
 from sleec_verify.encoding.trace_scope import Untimed
@@ -19,10 +18,8 @@ Identity = tuple[str, tuple[str, ...], tuple[str, ...]]
 """A finding by its code, its rules and its obligations. Clauses do not count: a repair may add or remove one."""
 
 
-class Rejection(NamedTuple):
-    """Why a candidate is not a repair."""
-
-    why: str
+class Rejected(Exception):
+    """A candidate is not a repair; the message says why."""
 
 
 class Verification:
@@ -43,41 +40,46 @@ class Verification:
         self._domain = domain
         self._untimed: Untimed = untimed
         self._chains = chains
+        # An option of the command replaces the reading that the text states.
+        self._is_read_otherwise = parse_source(ruleset.source).reading != ruleset.reading
         self._names = [result.name for result in results]
         self._unknown = {result.name for result in results if isinstance(result.verdict, Unknown)}
         self._found = Counter(_identity(f, {}) for result in results for f in result.findings)
         self._at = {rule.span.start: rule.label for rule in ruleset.rules}
 
-    def repaired(self, finding: Finding, candidate: Candidate) -> Ruleset | Rejection:
+    def repaired(self, finding: Finding, candidate: Candidate) -> Ruleset:
         """The rules after the change, if the checks show that `finding` is gone and that no other appeared.
 
         A check that decided before must decide again. Costs at most one check of the ruleset.
+
+        Raises:
+            Rejected: the change is not a repair, or it cannot be shown to be one.
         """
         edits = in_order(candidate.edits)
-        text = edited(self._ruleset.source.text, edits)
         try:
-            new = parse(text, self._ruleset.source.path)
+            new = parse(edited(self._ruleset.source.text, edits), self._ruleset.source.path)
         except LanguageError as error:
-            return Rejection(f"the text is not a ruleset: {error.problems[0].message}")
-        if not self._ruleset.reading_stated and new.reading != self._ruleset.reading and not new.reading_stated:
+            raise Rejected(f"the text is not a ruleset: {error.problems[0].message}") from None
+        if self._is_read_otherwise:
             new = new.read_as(self._ruleset.reading)
         labels = self._labels(new, OffsetMap(edits))
-        checking = Checking(new, self._domain, self._untimed, chains=self._chains)
-        wanted = self._found[_identity(finding, {})]
+        target = _identity(finding, {})
+        allowed = self._found - Counter((target,))
+
+        def examine(one: Finding, others: Container[Identity] = ()) -> None:
+            identity = _identity(one, labels)
+            if identity in others or not allowed[identity]:
+                raise Rejected("the finding stays" if identity == target else f"{one.code} appears: {one.message}")
+
+        checking = Checking(new, self._domain, self._untimed, chains=self._chains, seen=examine)
         # The question of the finding first: it rejects most candidates.
-        first = [finding.check] if finding.check in self._names else []
-        for names in (first, [name for name in self._names if name not in first]):
+        for names in ([finding.check], [name for name in self._names if name != finding.check]):
             for result in checking.results(names):
                 if isinstance(result.verdict, Unknown) and result.name not in self._unknown:
-                    return Rejection(f"the check {result.name} of the changed text is unknown: {result.verdict.why}")
-                found: Counter[Identity] = Counter()
+                    raise Rejected(f"the check {result.name} of the changed text is unknown: {result.verdict.why}")
+                more = Counter(_identity(one, labels) for one in result.findings) - allowed
                 for one in result.findings:
-                    identity = _identity(one, labels)
-                    found[identity] += 1
-                    if found[identity] > self._found[identity]:
-                        return Rejection(f"{one.code} appears: {one.message}")
-                if result.name == finding.check and found[_identity(finding, {})] >= wanted:
-                    return Rejection("the finding stays")
+                    examine(one, more)
         return new
 
     def _labels(self, new: Ruleset, offsets: OffsetMap) -> Mapping[str, str]:

@@ -33,19 +33,21 @@ _Told = TypeVar("_Told", Change, ConflictChange, SituationChange, TimedConflictC
 _Any = Union[Change, ConflictChange, SituationChange, TimedConflictChange, Undecidable, str]
 
 
-def compare(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Untimed = "at") -> Difference:
+def compare(
+    old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Untimed = "at", over_time: bool = True
+) -> Difference:
     """The differences in meaning between `old` and `new`, in each domain of either, or only in `domain`.
 
     Each ruleset is read in its own reading. `untimed` is the meaning of a response without a window in rules with time.
     The result is complete and exact, except for `Difference.undecided`. O(size of the rules) for equal rules. Each
     other rule needs questions about the rules of its trigger (satisfiability, NP-hard and small), and a count that
-    stops at the limits of `changes.diagram`.
+    stops at the limits of `changes.diagram`. Without `over_time`, conflicts of several instants are not compared.
     """
     with for_file(len(old.source.text) + len(new.source.text)):
-        return _difference(old, new, domain, untimed)
+        return _difference(old, new, domain, untimed, over_time)
 
 
-def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed) -> Difference:
+def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed, over_time: bool) -> Difference:
     old, new = with_kinds_of(old, new), with_kinds_of(new, old)
     whole = Comparison(old, new, untimed)
     shared = Difference(
@@ -67,9 +69,11 @@ def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed
     else:
         domains = tuple(dict.fromkeys((*old.domains, *new.domains)))
     if domains:
-        found = [_compared(Comparison(old.in_domain(one), new.in_domain(one), untimed), one) for one in domains]
+        found = [
+            _compared(Comparison(old.in_domain(one), new.in_domain(one), untimed), one, over_time) for one in domains
+        ]
     else:
-        found = [_compared(whole, None)]
+        found = [_compared(whole, None, over_time)]
     flat = [one for each in found for one in each]
     difference = shared._replace(
         changes=_merged([one for one in flat if isinstance(one, Change)]),
@@ -82,7 +86,7 @@ def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed
     return difference._replace(notes=(*difference.notes, *limits), rewritten=_rewritten(whole, difference))
 
 
-def _compared(comparison: Comparison, domain: str | None) -> list[_Any]:
+def _compared(comparison: Comparison, domain: str | None, over_time: bool) -> list[_Any]:
     clashes = [*comparison.vocabulary.clashes, *_conditions_that_are_measures(comparison)]
     if clashes:
         return [*clashes]
@@ -92,7 +96,8 @@ def _compared(comparison: Comparison, domain: str | None) -> list[_Any]:
         if is_possible(comparison.index):
             found += conflict_changes(comparison)
             found += changes(comparison)
-            found = _with_conflicts_over_time(found, TimedConflicts(comparison))
+            if over_time:
+                found = _with_conflicts_over_time(found, TimedConflicts(comparison))
         elif all(is_possible(comparison.situations_of(which)) for which in comparison.sides):
             why = "no situation is allowed by the assumptions of both versions"
             found.append(Undecidable("the obligations", why))
