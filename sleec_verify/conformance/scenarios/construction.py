@@ -18,14 +18,17 @@ from sleec_verify.traces.trace import TraceInstant
 def scenario_of(index: TraceIndex, name: str, trace: Sequence[TraceInstant]) -> Scenario | None:
     """The scenario in which this trace happens, or None if the evaluator does not confirm the trace.
 
-    An event occurs because a rule requires it, or else the test causes it. Values change only where rules read them,
-    or else where relations do.
+    An event occurs because a rule requires it, or else the test causes it. Obligations that trigger nothing occur only
+    as rules require. Values change only where rules read them, or else where relations do.
     """
     related = {name for relation in index.relations for kind, name in names_of_relation(relation) if kind == "measure"}
     candidates = (list(_with_lasting_values(index, trace, read)) for read in (frozenset[str](), related))
     moments = next((found for found in candidates if _is_lawful(index, found)), None)
     if moments is None:
         return None
+    needed = _without_unrequired(index, moments)
+    if _is_lawful(index, needed):
+        moments = needed
     due = due_in(index, moments)
     required = [one for one in due if not one.negated]
     steps = tuple(_steps(moments, required))
@@ -49,6 +52,17 @@ def due_in(index: TraceIndex, moments: Sequence[TraceInstant]) -> tuple[Due, ...
 def _is_lawful(index: TraceIndex, moments: Sequence[TraceInstant]) -> bool:
     instants = tuple(Instant(one.time, one.events, one.conditions) for one in moments)
     return not violations(index.ruleset, Trace(instants), index.untimed)
+
+
+def _without_unrequired(index: TraceIndex, moments: Sequence[TraceInstant]) -> list[TraceInstant]:
+    """The instants without the obligations that trigger nothing and that no requirement needs. The solver meets each
+    requirement at an instant of its own, where one instant may serve several."""
+    required = [one for one in due_in(index, moments) if not one.negated]
+    acts = index.ruleset.obligations - index.by_trigger.keys()
+    return [
+        TraceInstant(one.time, one.events - (acts - _met_at(required, one.time, moments)), one.conditions)
+        for one in moments
+    ]
 
 
 def _with_lasting_values(
@@ -89,7 +103,7 @@ def _steps(moments: Sequence[TraceInstant], required: Sequence[Due]) -> Iterator
     """The times at which the test changes values or causes events."""
     before: Mapping[str, Value] = {}
     for moment in moments:
-        done = {one.event for one in required if _met_at(one, moment.time, moments)}
+        done = _met_at(required, moment.time, moments)
         given = {name: value for name, value in moment.conditions.items() if before.get(name) != value}
         when = tuple(sorted(moment.events - done))
         if when or any(name in before or value is not False for name, value in given.items()):
@@ -97,6 +111,10 @@ def _steps(moments: Sequence[TraceInstant], required: Sequence[Due]) -> Iterator
             before = moment.conditions
 
 
-def _met_at(due: Due, time: int, moments: Sequence[TraceInstant]) -> bool:
-    """Whether the first event that meets a requirement occurs at this time."""
-    return _covers(due, time) and not any(due.start <= one.time < time and due.event in one.events for one in moments)
+def _met_at(required: Sequence[Due], time: int, moments: Sequence[TraceInstant]) -> set[str]:
+    """The events that are the first to meet a requirement, if they occur at this time."""
+    return {
+        due.event
+        for due in required
+        if _covers(due, time) and not any(due.start <= one.time < time and due.event in one.events for one in moments)
+    }

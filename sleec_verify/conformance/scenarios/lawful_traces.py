@@ -112,15 +112,20 @@ class LawfulTraces:
         """These literals, which some trace makes true, and literals with which each obligation is met as soon as its
         window opens, as far as possible. Raises `Undecided`."""
         required = list(literals)
-        seen: set[tuple[int, Occurs]] = set()
+        seen: set[tuple[int, Occurs, int]] = set()
         while self.reaches(required):
-            left = [one[:2] for one in self._responses() if not one[1].negated and one[:2] not in seen]
+            left = [one for one in self._responses() if not one[1].negated and one not in seen]
             if not left:
                 break
             seen.update(left)
-            wanted = [self._model.occurs(at, window._replace(end=window.start)) for at, window in left]
+            wanted = [self._promptly(*one) for one in left]
             self._add_many(self._model.ask, required, wanted)
         return required
+
+    def _promptly(self, at: int, window: Occurs, guard: int) -> int:
+        """A literal that implies that a response is met as its window opens, if its clause decides."""
+        met = self._model.occurs(at, window._replace(end=window.start))
+        return self._model.formula.any_of([-guard, met])
 
     def _add_many(self, ask: Callable[..., bool], required: list[int], wanted: Sequence[int]) -> None:
         """Adds as many of the literals `wanted` to `required` as a trace can make true: by halves, because most of them

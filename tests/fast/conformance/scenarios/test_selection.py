@@ -154,3 +154,14 @@ def test_what_a_wrong_file_states() -> None:
         "obligation that the case does not state: `CallNurse` from 0 to 300 seconds (rule `fall`)",
     ]
     assert "violated at 0: RULE fall" in list(unexpected(ruleset, replace(one, obligations=())))
+
+
+@pytest.mark.parametrize("criterion", CRITERIA)
+def test_the_test_causes_no_obligation(criterion: str) -> None:
+    """Whether it is met at once or late, and where several rules require it: the robot executes it."""
+    both = "RULE r0 WHEN T0 THEN A0\nUNLESS c IN WHICH CASE (A1 AND A0 WITHIN 2 seconds)\n"
+    both += "RULE r1 WHEN T1 THEN (A0 WITHIN 2 seconds AND A2)\n"
+    again = "RULE r WHEN T THEN (A WITHIN 1 TO 2 seconds OTHERWISE A) AND (B WITHIN 1 TO 2 seconds ELSE C)\n"
+    for text in (both, again):
+        caused = {name for one in chosen(text, criterion).scenarios for step in one.steps for name in step.when}
+        assert caused <= {"T", "T0", "T1"}
