@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
+from difflib import SequenceMatcher
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -46,6 +47,31 @@ def in_order(edits: Iterable[TextEdit]) -> list[TextEdit]:
                 "two repairs change the same part of the text", "apply one of them, check again, and choose another"
             )
     return ordered
+
+
+def edits_between(old: str, new: str) -> tuple[TextEdit, ...]:
+    """Edits of whole lines that change `old` to `new`, each without the characters that its ends share."""
+    before, after = old.splitlines(keepends=True), new.splitlines(keepends=True)
+    starts = [0]
+    for line in before:
+        starts.append(starts[-1] + len(line))
+    edits = []
+    for tag, i, j, k, m in SequenceMatcher(None, before, after, autojunk=False).get_opcodes():
+        if tag != "equal":
+            edits.append(_trimmed(old, starts[i], starts[j], "".join(after[k:m])))
+    return tuple(edits)
+
+
+def _trimmed(old: str, start: int, end: int, text: str) -> TextEdit:
+    same = _shared(old[start:end], text)
+    start, text = start + same, text[same:]
+    same = _shared(old[start:end][::-1], text[::-1])
+    return TextEdit(start, end - same, text[: len(text) - same])
+
+
+def _shared(one: str, other: str) -> int:
+    """The length of the common beginning of two texts."""
+    return next((n for n, (a, b) in enumerate(zip(one, other)) if a != b), min(len(one), len(other)))
 
 
 class OffsetMap:

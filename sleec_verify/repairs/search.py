@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import replace
 
 from sleec_runtime.errors import Unsayable
 from sleec_runtime.model import Ruleset
 from sleec_verify.encoding.trace_scope import Untimed
-from sleec_verify.repairs.edit import edited
+from sleec_verify.repairs.edit import edited, edits_between
 from sleec_verify.repairs.effect import effect_of
-from sleec_verify.repairs.operators import OPERATORS
+from sleec_verify.repairs.operators import OPERATORS, REMOVALS, Operation
 from sleec_verify.repairs.repair import Candidate, Repair
 from sleec_verify.repairs.verification import Rejected, Verification
 from sleec_verify.results.finding import CheckResult, Finding
+
+_MOST_STEPS = 6
+"""The changes in one repair, at most."""
 
 
 class RepairSearch:
@@ -37,29 +42,72 @@ class RepairSearch:
 
     def repairs(self, finding: Finding) -> list[Repair]:
         """The repairs, those that change the fewest situations first, and of these the shortest edits."""
-        found = [repair for candidate in self.candidates(finding) for repair in self._repair(finding, candidate)]
-        return sorted(found, key=_size)
+        found: dict[str, Repair] = {}
+        for operator, candidate in self._proposed(self._ruleset, finding):
+            repair = self._repair(finding, operator, candidate, _MOST_STEPS)
+            if repair is not None:
+                found.setdefault(repair.repaired.source.text, repair)
+        return sorted(found.values(), key=_size)
 
-    def candidates(self, finding: Finding) -> Iterator[Candidate]:
+    def candidates(self, finding: Finding) -> list[Candidate]:
         """The candidates of the operators for a finding, each changed text once."""
-        text = self._ruleset.source.text
+        return [candidate for _, candidate in self._proposed(self._ruleset, finding)]
+
+    def _proposed(self, ruleset: Ruleset, finding: Finding) -> Iterator[tuple[Operation, Candidate]]:
+        text = ruleset.source.text
         seen = {text}
         for operator in OPERATORS.get(finding.code, ()):
-            try:
-                for candidate in operator(self._ruleset, finding):
+            with suppress(Unsayable):  # the language has no words for this change
+                for candidate in operator(ruleset, finding):
                     changed = edited(text, candidate.edits)
                     if changed not in seen:
                         seen.add(changed)
-                        yield candidate
-            except Unsayable:  # the language has no words for this change
-                continue
+                        yield operator, candidate
 
-    def _repair(self, finding: Finding, candidate: Candidate) -> Iterator[Repair]:
-        try:
-            repaired = self._verification.repaired(finding, candidate)
-        except Rejected:
-            return
-        yield Repair(finding, candidate, effect_of(self._ruleset, repaired, self._domain, self._untimed), repaired)
+    def _repair(self, finding: Finding, operator: Operation, candidate: Candidate, steps: int) -> Repair | None:
+        """The verified repair, after further steps if one is not enough.
+
+        A conflict with one rule can hide a conflict with another one. If the rule that gives way conflicts with a
+        further rule after the change, the same operator lets it give way to that rule, too. A rule or a name that the
+        change makes superfluous is removed.
+        """
+        while True:
+            try:
+                repaired = self._verification.repaired(finding, candidate)
+            except Rejected as rejected:
+                steps -= 1
+                step = _further_step(rejected, finding, operator, candidate) if steps else None
+                if step is None:
+                    return None
+                candidate = self._joined(candidate, *step)
+            else:
+                effect = effect_of(self._ruleset, repaired, self._domain, self._untimed)
+                return Repair(finding, candidate, effect, repaired)
+
+    def _joined(self, first: Candidate, changed: Ruleset, second: Candidate) -> Candidate:
+        """Both changes, one after the other, as one."""
+        text = edited(changed.source.text, second.edits)
+        title = f"{first.title}; then {second.title}"
+        edits = edits_between(self._ruleset.source.text, text)
+        return replace(first, title=title, edits=edits)
+
+
+def _further_step(
+    rejected: Rejected, finding: Finding, operator: Operation, candidate: Candidate
+) -> tuple[Ruleset, Candidate] | None:
+    """The changed rules, and the change of these that a rejected candidate needs, too."""
+    changed, appeared = rejected.changed, rejected.appeared
+    if changed is None or appeared is None:
+        return None
+    with suppress(Unsayable):
+        if appeared.code in REMOVALS:
+            for one in REMOVALS[appeared.code](changed, appeared):
+                return changed, one
+        elif appeared.code == finding.code and candidate.gives_way in appeared.rules:
+            for one in operator(changed, appeared):
+                if one.gives_way == candidate.gives_way:
+                    return changed, one
+    return None
 
 
 def _size(repair: Repair) -> tuple[bool, int, int, str]:

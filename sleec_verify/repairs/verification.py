@@ -19,7 +19,12 @@ Identity = tuple[str, tuple[str, ...], tuple[str, ...]]
 
 
 class Rejected(Exception):
-    """A candidate is not a repair; the message says why."""
+    """A candidate is not a repair; the message says why. `appeared` is a finding that the changed rules have."""
+
+    def __init__(self, why: str, changed: Ruleset | None = None, appeared: Finding | None = None) -> None:
+        super().__init__(why)
+        self.changed = changed
+        self.appeared = appeared
 
 
 class Verification:
@@ -69,7 +74,8 @@ class Verification:
         def examine(one: Finding, others: Container[Identity] = ()) -> None:
             identity = _identity(one, labels)
             if identity in others or not allowed[identity]:
-                raise Rejected("the finding stays" if identity == target else f"{one.code} appears: {one.message}")
+                why = "the finding stays" if identity == target else f"{one.code} appears: {one.message}"
+                raise Rejected(why, new, one)
 
         checking = Checking(new, self._domain, self._untimed, chains=self._chains, seen=examine)
         # The question of the finding first: it rejects most candidates.

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 from sleec_runtime.model import Ruleset
 from sleec_verify.repairs.operators.giving_way import exceptions, guards, responses
-from sleec_verify.repairs.operators.removal import declarations, hedges, rules
+from sleec_verify.repairs.operators.removal import declarations, hedges, redundant_rule, rules
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.results.finding import Finding
 
@@ -14,12 +14,17 @@ Operation = Callable[[Ruleset, Finding], Iterator[Candidate]]
 """Proposes candidates for a finding. They need not be repairs. Raises `Unsayable` if the language has no words for
 one."""
 
+REMOVALS: Mapping[str, Operation] = {
+    "SLEEC202": hedges,
+    "SLEEC301": redundant_rule,
+    "SLEEC302": hedges,
+    "SLEEC501": declarations,
+}
+"""Removal of what has no effect."""
+
 OPERATORS: Mapping[str, tuple[Operation, ...]] = {
-    "SLEEC101": (guards, exceptions, responses, rules),
-    "SLEEC102": (guards, exceptions, responses, rules),
-    "SLEEC202": (hedges,),
-    "SLEEC301": (rules,),
-    "SLEEC302": (hedges,),
-    "SLEEC501": (declarations,),
+    "SLEEC101": (guards, exceptions, responses, hedges, rules),
+    "SLEEC102": (guards, exceptions, responses, hedges, rules),
+    **{code: (removal,) for code, removal in REMOVALS.items()},
     "SLEEC509": (rules,),
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sleec_runtime.model import Declaration, Rule, Ruleset
+from sleec_runtime.model import Constant, Declaration, Measure, Ruleset
 from sleec_verify.repairs.edit import TextEdit
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import removed_rule, without
@@ -16,7 +16,12 @@ def rules(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     """Rule removal: without one of the rules of the finding."""
     for label in finding.rules:
         rule = ruleset.by_label[label]
-        yield Candidate("rule-removal", f"remove rule {quoted(label)}", removed_rule(ruleset, rule))
+        yield Candidate("rule-removal", f"remove rule {quoted(label)}", removed_rule(ruleset, rule), label)
+
+
+def redundant_rule(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """Rule removal: without the rule that the finding calls redundant, its first one."""
+    yield next(rules(ruleset, finding))
 
 
 def hedges(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -26,22 +31,29 @@ def hedges(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             rule = ruleset.by_label[label]
             clause = list(rule.clauses())[number]
             title = f"remove {clause_name(rule, number)}"
-            yield Candidate("defeater-removal", title, without(ruleset, clause.span))
+            yield Candidate("defeater-removal", title, without(ruleset, clause.span), label)
 
 
 def declarations(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     """Without the declaration of an unused name."""
     for statement in ruleset.statements:
-        if isinstance(statement, Rule) or not statement.span.start <= finding.span.start < statement.span.end:
+        if not statement.span.start <= finding.span.start < statement.span.end:
             continue
-        if isinstance(statement, Declaration) and len(statement.names) > 1:
-            spans = statement.name_spans
-            at = spans.index(finding.span)
-            edit = (
-                TextEdit(spans[at].start, spans[at + 1].start, "")
-                if at == 0
-                else TextEdit(spans[at - 1].end, spans[at].end, "")
-            )
-            yield Candidate("declaration-removal", f"remove {quoted(statement.names[at])}", (edit,))
-        else:
-            yield Candidate("declaration-removal", "remove the declaration", without(ruleset, statement.span))
+        if isinstance(statement, (Measure, Constant)):
+            yield _declaration(statement.name, without(ruleset, statement.span))
+        elif isinstance(statement, Declaration):
+            at = statement.name_spans.index(finding.span)
+            yield _declaration(statement.names[at], _without_name(ruleset, statement, at))
+
+
+def _declaration(name: str, edits: tuple[TextEdit, ...]) -> Candidate:
+    return Candidate("declaration-removal", f"remove the declaration of {quoted(name)}", edits)
+
+
+def _without_name(ruleset: Ruleset, declaration: Declaration, at: int) -> tuple[TextEdit, ...]:
+    spans = declaration.name_spans
+    if len(spans) == 1:
+        return without(ruleset, declaration.span)
+    if at == 0:
+        return (TextEdit(spans[0].start, spans[1].start, ""),)
+    return (TextEdit(spans[at - 1].end, spans[at].end, ""),)
