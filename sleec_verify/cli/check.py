@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from sleec_verify.cli.cache.store import Cache
     from sleec_verify.cli.progress import Progress
     from sleec_verify.cli.scope import Scope
+    from sleec_verify.repairs.numbering import FindingRepairs
     from sleec_verify.results.finding import CheckResult
 
 
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     type=click.IntRange(1, 100),
     help="Also check whether the robot can always follow the rules, if the environment acts at most N times.",
 )
+@click.option("--fixes", is_flag=True, help="Also list the verified repairs of each finding, with their effects.")
 @options.fail_level
 @options.output_format(*FORMATS)
 @options.output
@@ -59,6 +61,7 @@ def command(
     paths: tuple[str, ...],
     scope: Scope,
     realizable: int | None,
+    fixes: bool,
     fail_level: Severity,
     form: str,
     output: str | None,
@@ -97,7 +100,7 @@ def command(
             raise click.UsageError("--certify needs exactly one file")
         with nullcontext() if timeout is None else limited(timeout):
             required = (require_proved, require_tied)
-            outcomes = _outcomes(found, scope, realizable, cache, certificate, required)
+            outcomes = _outcomes(found, scope, realizable, fixes, cache, certificate, required)
         report(outcomes, form, output)
         if any(isinstance(outcome, UnusableInput) for outcome in outcomes):
             return exits.UNUSABLE
@@ -114,6 +117,7 @@ def _outcomes(
     found: Sequence[Ruleset | UnusableInput],
     scope: Scope,
     realizable: int | None,
+    fixes: bool,
     cache: Cache | None,
     certificate: str | None,
     required: tuple[bool, bool],
@@ -135,12 +139,12 @@ def _outcomes(
                             results = kept_or_new(ruleset, scope, cache, progress.on(path))
                         else:
                             results = _certified(ruleset, scope, certificate, required, progress)
+                        repairs = _repairs(ruleset, results, scope) if fixes else None
                         if realizable is not None:
                             # A strategy is no refutation, of which certificates speak.
                             results += _realizability(ruleset, scope, realizable, progress)
-                        outcomes.append(
-                            CheckedRuleset(ruleset, results, scope.untimed if speaks_of_traces(ruleset) else None)
-                        )
+                        untimed = scope.untimed if speaks_of_traces(ruleset) else None
+                        outcomes.append(CheckedRuleset(ruleset, results, untimed, repairs=repairs))
                 except InternalError as error:
                     complain(error)
                     outcomes.append(UnusableInput(path, error))
@@ -158,6 +162,14 @@ def _certified(
     made = certify(ruleset, scope.domain, scope.untimed, progressing, Required(*required), scope.chains)
     save(made, ruleset, certificate)
     return made.results
+
+
+def _repairs(ruleset: Ruleset, results: Sequence[CheckResult], scope: Scope) -> tuple[FindingRepairs, ...]:
+    from sleec_verify.repairs.numbering import numbered_repairs
+    from sleec_verify.repairs.search import RepairSearch
+
+    search = RepairSearch(ruleset, results, scope.domain, scope.untimed, scope.chains)
+    return tuple(numbered_repairs(CheckedRuleset(ruleset, tuple(results)).deduplicated, search))
 
 
 def _realizability(ruleset: Ruleset, scope: Scope, acts: int, progress: Progress) -> tuple[CheckResult, ...]:

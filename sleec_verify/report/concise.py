@@ -26,7 +26,13 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             place = source.place(finding.span)
             label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
             message = f"{finding.message}{in_domains(finding.domains)}"
-            yield f"{source.path}:{place.line}:{place.column}: {label} {message}"
+            here = f"{source.path}:{place.line}:{place.column}:"
+            yield f"{here} {label} {message}"
+            for identifier, repair in outcome.repairs_of(finding) or ():
+                from sleec_verify.report.repair_phrases import effect_in_words
+
+                said = f"{repair.candidate.title} ({effect_in_words(repair.effect)})"
+                yield f"{here} {palette('help', f'repair[{identifier}]')} {said}"
         for name, why in outcome.unlisted:
             yield f"{rules.path}: {palette('note', f'note[{name}]')} {why}"
         for name, why in outcome.undecided:

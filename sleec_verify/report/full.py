@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Source
     from sleec_verify.encoding.trace_scope import Untimed
+    from sleec_verify.repairs.numbering import NumberedRepair
     from sleec_verify.report.palette import Palette
     from sleec_verify.results.finding import Finding
 
@@ -29,7 +30,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             continue
         source = outcome.ruleset.source
         for finding in outcome.deduplicated:
-            yield from finding_lines(finding, finding.source or source, palette)
+            yield from finding_lines(finding, finding.source or source, palette, outcome.repairs_of(finding))
             yield ""
         for name, why in outcome.unlisted:
             yield from (f"{source.path}: {palette('note', f'note[{name}]')} {why}", "")
@@ -42,8 +43,10 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
         yield f"{counted(len(outcomes), 'ruleset')}: {_counts(outcomes)}{more}"
 
 
-def finding_lines(finding: Finding, source: Source, palette: Palette) -> Iterator[str]:
-    """The lines of one finding, without the blank line after it."""
+def finding_lines(
+    finding: Finding, source: Source, palette: Palette, repairs: Sequence[NumberedRepair] | None = None
+) -> Iterator[str]:
+    """The lines of one finding, with its repairs if somebody asked for them, without the blank line after it."""
     place = source.place(finding.span)
     label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
     yield f"{source.path}:{place.line}:{place.column}: {label} {palette('strong', finding.message)}"
@@ -55,6 +58,18 @@ def finding_lines(finding: Finding, source: Source, palette: Palette) -> Iterato
         shown = palette("help" if title == "help" else "strong", title)
         yield f"{margin} = {shown}: {text}" if text else f"{margin} = {shown}:"
         yield from (f"{margin}     {line}" for line in lines)
+    if repairs is not None:
+        shown = palette("help", "repairs")
+        yield f"{margin} = {shown}:" if repairs else f"{margin} = {shown}: none found"
+        yield from (f"{margin}     {line}" for line in _repair_lines(repairs, palette))
+
+
+def _repair_lines(repairs: Sequence[NumberedRepair], palette: Palette) -> Iterator[str]:
+    from sleec_verify.report.repair_phrases import effect_in_words
+
+    for identifier, repair in repairs:
+        yield f"{palette('strong', identifier)} {repair.candidate.title}"
+        yield f"{' ' * len(identifier)} {palette('faint', effect_in_words(repair.effect))}"
 
 
 def error_lines(error: SleecError, palette: Palette) -> Iterator[str]:

@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from sleec_runtime.model import Span
 from sleec_verify import __version__
-from sleec_verify.report.outcome import Outcome, UnusableInput, checked, tally
+from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput, checked, tally
 from sleec_verify.results.finding import Unknown
-from sleec_verify.results.json_values import VERDICTS, Json, dump, error_json, finding_json
+from sleec_verify.results.json_values import VERDICTS, Json, dump, error_json, finding_json, span_json
 
 if TYPE_CHECKING:
+    from sleec_runtime.model import Source
+    from sleec_verify.repairs.numbering import NumberedRepair
     from sleec_verify.report.palette import Palette
-    from sleec_verify.results.finding import CheckResult
+    from sleec_verify.results.finding import CheckResult, Finding
 
 
 def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
@@ -41,7 +44,31 @@ def _ruleset(outcome: Outcome) -> Json:
         "rules": len(ruleset.rules),
         "hedges": outcome.hedges,
         "checks": [_check(result) for result in outcome.results],
-        "findings": [finding_json(finding, finding.source or ruleset.source) for finding in outcome.findings],
+        "findings": [_finding(finding, outcome) for finding in outcome.findings],
+    }
+
+
+def _finding(finding: Finding, outcome: CheckedRuleset) -> Json:
+    source = outcome.ruleset.source
+    shown = finding_json(finding, finding.source or source)
+    repairs = outcome.repairs_of(finding)
+    return shown if repairs is None else {**shown, "repairs": [_repair(one, source) for one in repairs]}
+
+
+def _repair(one: NumberedRepair, source: Source) -> Json:
+    from sleec_verify.report.repair_phrases import effect_in_words
+
+    candidate, effect = one.repair.candidate, one.repair.effect
+    return {
+        "id": one.identifier,
+        "operator": candidate.operator,
+        "title": candidate.title,
+        "edits": [
+            {"span": span_json(Span(edit.start, edit.end), source), "text": edit.text} for edit in candidate.edits
+        ],
+        "effect": effect_in_words(effect),
+        "situations": effect.situations,
+        "keeps_meaning": effect.keeps_meaning,
     }
 
 

@@ -13,17 +13,25 @@ if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Ruleset
     from sleec_verify.encoding.trace_scope import Untimed
+    from sleec_verify.repairs.numbering import FindingRepairs, NumberedRepair
     from sleec_verify.results.finding import CheckResult, Finding, Severity
 
 
 class CheckedRuleset(NamedTuple):
     """A ruleset and the results of its checks, in order. `untimed` is the meaning of a response without a window; None
-    for rules without time. `settings`: it is a settings file, and the ruleset only holds its path."""
+    for rules without time. `settings`: it is a settings file, and the ruleset only holds its path. `repairs` are those
+    of the findings in `deduplicated`; None if nobody asked for them."""
 
     ruleset: Ruleset
     results: tuple[CheckResult, ...]
     untimed: Untimed | None = None
     settings: bool = False
+    repairs: tuple[FindingRepairs, ...] | None = None
+
+    def repairs_of(self, finding: Finding) -> tuple[NumberedRepair, ...] | None:
+        """The repairs of a finding; None if nobody asked for them, or if another finding stands for this one."""
+        same = (f for f in self.repairs or () if _identity(f.finding) == _identity(finding))
+        return next((one.repairs for one in same), None)
 
     @property
     def findings(self) -> list[Finding]:
@@ -50,6 +58,10 @@ class CheckedRuleset(NamedTuple):
     def hedges(self) -> int:
         """The number of hedge clauses in the rules."""
         return sum(sum(1 for _ in rule.clauses()) - 1 for rule in self.ruleset.rules)
+
+
+def _identity(finding: Finding) -> tuple[object, ...]:
+    return finding.code, finding.span, finding.rules, finding.clauses, finding.obligations, finding.domains
 
 
 def _path(finding: Finding) -> str:

@@ -11,15 +11,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
+from sleec_runtime.model import Span
 from sleec_verify import __version__
 from sleec_verify.report.flow import steps
-from sleec_verify.report.outcome import Outcome, UnusableInput, checked
+from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput, checked
 from sleec_verify.report.plain import Located, described, in_project, located, troubles
 from sleec_verify.results.json_values import Json, dump
 from sleec_verify.results.phrases import value_text
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Place, Ruleset, Source, Span
+    from sleec_runtime.model import Place, Source
+    from sleec_verify.repairs.numbering import NumberedRepair
     from sleec_verify.report.palette import Palette
     from sleec_verify.results.finding import Severity
 
@@ -37,7 +39,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     open_checks = [(outcome, name, why) for outcome in checked(outcomes) for name, why in outcome.undecided]
     descriptors = _descriptors({one.finding.code for _, one in found}, {name for _, name, _ in open_checks})
     index = {str(descriptor["id"]): number for number, descriptor in enumerate(descriptors)}
-    results: list[Json] = [_result(outcome.ruleset, one, index) for outcome, one in found]
+    results: list[Json] = [_result(outcome, one, index) for outcome, one in found]
     results += [_open(outcome.ruleset.source, name, why, index) for outcome, name, why in open_checks]
     rules: list[Json] = [*descriptors]
     run: _Object = {
@@ -88,7 +90,7 @@ def _descriptors(codes: set[str], undecided: set[str]) -> list[_Object]:
     return descriptors
 
 
-def _result(ruleset: Ruleset, one: Located, index: Mapping[str, int]) -> _Object:
+def _result(outcome: CheckedRuleset, one: Located, index: Mapping[str, int]) -> _Object:
     finding, source, fingerprint = one
     result: _Object = {
         "ruleId": finding.code,
@@ -109,6 +111,9 @@ def _result(ruleset: Ruleset, one: Located, index: Mapping[str, int]) -> _Object
         result["relatedLocations"] = [
             {"id": number, **_location(source, span, word)} for number, (span, word) in enumerate(finding.related, 1)
         ]
+    repairs = outcome.repairs_of(finding)
+    if repairs:
+        result["fixes"] = [_fix(one, source) for one in repairs]
     flow: list[Json] = [
         {
             "location": _location(step.source, step.span, step.words),
@@ -116,11 +121,28 @@ def _result(ruleset: Ruleset, one: Located, index: Mapping[str, int]) -> _Object
             "importance": "essential",
             **({"state": {n: _message(value_text(v)) for n, v in step.state.items()}} if step.state else {}),
         }
-        for step in steps(ruleset, finding)
+        for step in steps(outcome.ruleset, finding)
     ]
     if flow:
         result["codeFlows"] = [{"threadFlows": [{"locations": flow}]}]
     return result
+
+
+def _fix(one: NumberedRepair, source: Source) -> _Object:
+    from sleec_verify.report.repair_phrases import effect_in_words
+
+    candidate = one.repair.candidate
+    replacements: list[Json] = [
+        {
+            "deletedRegion": _region(source.place(Span(edit.start, edit.end))),
+            "insertedContent": {"text": edit.text},
+        }
+        for edit in candidate.edits
+    ]
+    return {
+        "description": _message(f"{one.identifier}: {candidate.title}\n{effect_in_words(one.repair.effect)}"),
+        "artifactChanges": [{"artifactLocation": {"uri": _uri(source.path)}, "replacements": replacements}],
+    }
 
 
 def _open(source: Source, name: str, why: str, index: Mapping[str, int]) -> _Object:

@@ -1,0 +1,57 @@
+"""The effect of a repair in one line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from sleec_verify.report.difference_phrases import effect_text, extent_text
+from sleec_verify.results.phrases import counted, in_short, listed, quoted
+
+if TYPE_CHECKING:
+    from sleec_verify.changes.compare import ConflictChange, Difference
+    from sleec_verify.repairs.effect import Effect
+
+_MOST_CHANGES = 2
+"""The changes that one line names."""
+
+
+def effect_in_words(effect: Effect) -> str:
+    """``instead of the conflict: `NOT Speak`; nothing else changes``"""
+    found = effect.difference
+    if effect.keeps_meaning:
+        return "the rules mean the same"
+    parts = list(dict.fromkeys(_resolved(found)))
+    changes = list(_changes(found))
+    parts += changes[:_MOST_CHANGES]
+    if len(changes) > _MOST_CHANGES:
+        parts.append(counted(len(changes) - _MOST_CHANGES, "more change"))
+    if found.undecided:
+        parts.append(f"the rest of the effect is unknown: {found.undecided[0].why}")
+    elif not changes:
+        parts.append("nothing else changes")
+    return "; ".join(parts)
+
+
+def _resolved(found: Difference) -> Iterator[str]:
+    for conflict in found.conflicts:
+        if conflict.way == "removed":
+            yield f"instead of the conflict: {_required(conflict)}"
+    if any(conflict.way == "removed" for conflict in found.timed_conflicts):
+        yield "the conflict over time is resolved"
+
+
+def _required(conflict: ConflictChange) -> str:
+    """What the new rules require in the situation of a former conflict."""
+    names = dict.fromkeys(quoted(in_short(o)) for one in conflict.after for o in one.obligations)
+    return listed(names) if names else "no obligation"
+
+
+def _changes(found: Difference) -> Iterator[str]:
+    for change in found.changes:
+        rule = quoted(change.old_rule or change.new_rule or "")
+        yield f"rule {rule}: {effect_text(change)} {extent_text(change.extent._replace(over=()))}"
+    for situation in found.situations:
+        count = "" if situation.extent is None else f" {extent_text(situation.extent._replace(over=()))}"
+        allowed = "allowed" if situation.way == "added" else "excluded"
+        yield f"situations are now {allowed}{count}"
