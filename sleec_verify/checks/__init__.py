@@ -18,6 +18,7 @@ from sleec_verify.checks.constant_conditions import CONSTANT_CONDITION
 from sleec_verify.checks.dead import DEAD_HEDGE, DEAD_RULE
 from sleec_verify.checks.duplicate import DUPLICATE_RULE
 from sleec_verify.checks.forbidden_input import FORBIDDEN_INPUT
+from sleec_verify.checks.misread_names import MISREAD_NAME
 from sleec_verify.checks.reading import READING
 from sleec_verify.checks.realizability import REALIZABILITY, realizability
 from sleec_verify.checks.redundant import REDUNDANT_HEDGE, REDUNDANT_RULE
@@ -54,6 +55,7 @@ CHECKS: Mapping[str, Check] = {
         FORBIDDEN_INPUT,
         PHRASE_KEYWORD,
         CONFUSABLE,
+        MISREAD_NAME,
         DEFECTS,
         DUPLICATE_RULE,
         STRAY_EVENT,

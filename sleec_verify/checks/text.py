@@ -114,8 +114,7 @@ def _lower_case_keywords(index: RulesetIndex) -> Iterator[Finding]:
         words = name.split()
         # "call someone else" is fine, too: a time, or what is due instead, would follow.
         times = _TIMES if name in ruleset.obligations and words[-1].lower() not in _TIMES else frozenset[str]()
-        # "the user does not answer" is fine as one condition; "not asleep" most likely is not.
-        found = [w for n, w in enumerate(words) if w.lower() in _KEYWORDS | times or (n == 0 and w.lower() == "not")]
+        found = [word for word in words if word.lower() in _KEYWORDS | times]
         if len(words) > 1 and found:
             span, rules = mentions(ruleset, name)
             yield PHRASE_KEYWORD.finding(

@@ -1,0 +1,165 @@
+"""Names whose words say more than the rules know: negations, modal verbs, comparisons, opposites, keywords, variants.
+
+A phrase is one name, whatever its words mean: `the robot must not leave` is an obligation of that name. A declaration
+says that a name is meant as it is written, so declared names of structured English have no findings here. In the DSL,
+where every name is declared, only variants of one name are reported.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+
+from sleec_runtime.model import NOWHERE, Ruleset, Span
+from sleec_verify.checks.base import Check, FindingKind
+from sleec_verify.checks.names.misreading import Misreading
+from sleec_verify.encoding.name_places import name_places
+from sleec_verify.encoding.name_uses import mentions, names_used
+from sleec_verify.query.ruleset_index import RulesetIndex
+from sleec_verify.results.finding import Finding
+
+
+def _misread(index: RulesetIndex) -> Iterator[Finding]:
+    ruleset = index.ruleset
+    found = misreadings(ruleset)
+    if not found:
+        return
+    places = _places(ruleset, found)
+    for one in found:
+        other = places[one.other][:1] if one.other is not None else []
+        yield MISREAD_NAME.finding(
+            one.message,
+            next(iter(places[one.name]), NOWHERE),
+            kind=one.kind,
+            rules=mentions(ruleset, one.name)[1],
+            help=one.help,
+            related=tuple((span, "the other name") for span in other),
+        )
+
+
+def replacements(ruleset: Ruleset, finding: Finding) -> tuple[tuple[Span, str], ...]:
+    """The text to write instead for a finding of this check: every place of its name, each with its new text.
+
+    Empty if only the author knows what to write.
+    """
+    found = misreadings(ruleset)
+    places = _places(ruleset, found)
+    for one in found:
+        if MISREAD_NAME.kinds[one.kind].code == finding.code and places[one.name][:1] == [finding.span]:
+            return () if one.instead is None else tuple((span, one.instead) for span in places[one.name])
+    return ()
+
+
+def _places(ruleset: Ruleset, found: list[Misreading]) -> Mapping[str, list[Span]]:
+    return defaultdict(list, name_places(ruleset, {name for one in found for name in (one.name, one.other) if name}))
+
+
+def misreadings(ruleset: Ruleset) -> list[Misreading]:
+    """The names that people read differently than the rules do. Each name is in the list at most once."""
+    from sleec_verify.checks.names.variants import variants
+
+    kinds = _kinds(ruleset)
+    declared = frozenset[str]() if ruleset.syntax == "dsl" else declared_names(ruleset)
+    found: list[Misreading] = []
+    phrases = sorted(name for name in kinds if " " in name)
+    if phrases:
+        from sleec_verify.checks.names.opposites import negated_conditions, opposites
+        from sleec_verify.checks.names.phrases import misread_phrase
+
+        found += [one for name in phrases if (one := misread_phrase(ruleset, name)) is not None]
+        conditions = [name for name in phrases if "condition" in kinds[name]]
+        found += negated_conditions(conditions)
+        found += opposites(ruleset, conditions)
+    found += variants(ruleset, kinds, declared)
+    return list({one.name: one for one in reversed(found) if one.name not in declared}.values())
+
+
+def declared_names(ruleset: Ruleset) -> frozenset[str]:
+    return frozenset[str]().union(*ruleset.declared.values(), (n for n, m in ruleset.measures.items() if m.declared))
+
+
+def _kinds(ruleset: Ruleset) -> dict[str, frozenset[str]]:
+    """The kinds of each name that rules or constraints use: trigger, condition or obligation."""
+    used = names_used(ruleset)
+    kinds: dict[str, frozenset[str]] = {}
+    for kind in ("trigger", "condition", "obligation"):
+        for name in used[kind]:
+            kinds[name] = kinds.get(name, frozenset()) | {kind}
+    return kinds
+
+
+MISREAD_NAME = Check(
+    "misread-name",
+    "Does every name mean what its words say?",
+    (
+        FindingKind(
+            "SLEEC520",
+            "warning",
+            "a negation inside a name",
+            "A name contains a word such as `not` or `never`. It is one name. An obligation with such a name requires "
+            "what its words deny. A condition with such a name is independent of the condition without the negation.",
+            "Write the keyword NOT before the name without the negation. If the name is meant as it is written, "
+            "declare it.",
+            "WHEN the alarm rings THEN open the door\nUNLESS it is night IN WHICH CASE wait\n"
+            "WHEN the user calls THEN answer\nUNLESS it is not night IN WHICH CASE speak loudly\n",
+            "WHEN the alarm rings THEN open the door\nUNLESS it is night IN WHICH CASE wait\n"
+            "WHEN the user calls THEN answer\nUNLESS NOT it is night IN WHICH CASE speak loudly\n",
+        ),
+        FindingKind(
+            "SLEEC521",
+            "warning",
+            "a modal verb inside an obligation",
+            "An obligation contains a word such as `must` or `should`. The words are part of its name, so the same "
+            "action without them is a different obligation.",
+            "Write only the action: THEN says that the robot must do it. If the name is meant as it is written, "
+            "declare it.",
+            "WHEN the user falls THEN the robot should call the nurse\n",
+            "WHEN the user falls THEN call the nurse\n",
+        ),
+        FindingKind(
+            "SLEEC522",
+            "warning",
+            "a comparison inside a name",
+            "A condition contains words such as `under 6`, or a measure and its value. It is one name, so it is "
+            "independent of the measure and of other bounds.",
+            "Declare a measure, and compare it with an operator. If the name is meant as it is written, declare it.",
+            "WHEN the door opens THEN greet\nUNLESS the age is under 6 IN WHICH CASE wave\n",
+            "MEASURE age: number\nWHEN the door opens THEN greet\nUNLESS age < 6 IN WHICH CASE wave\n",
+        ),
+        FindingKind(
+            "SLEEC523",
+            "warning",
+            "two conditions that are opposites",
+            "Two conditions differ only by a word and its opposite, such as `open` and `closed`. The rules do not know "
+            "that they exclude each other. So `check` examines situations in which both hold, and some in which "
+            "neither does.",
+            "Use one of the two, with NOT for the other. If neither may hold, exclude both with ASSUME.",
+            "WHEN the bell rings THEN go in\nUNLESS the door is closed IN WHICH CASE knock\n"
+            "WHEN the guest leaves THEN close the door\nUNLESS the door is open IN WHICH CASE wait\n",
+            "WHEN the bell rings THEN go in\nUNLESS the door is closed IN WHICH CASE knock\n"
+            "WHEN the guest leaves THEN close the door\nUNLESS NOT the door is closed IN WHICH CASE wait\n",
+        ),
+        FindingKind(
+            "SLEEC524",
+            "warning",
+            "a word in capitals that is not a keyword",
+            "A name contains a word in capitals that looks like a keyword, such as BUT or IMMEDIATELY. Structured "
+            "English has no such keyword. The word is part of the name.",
+            "Use the keyword of structured English, or leave the word out.",
+            "WHEN the user falls THEN call the nurse IMMEDIATELY\n",
+            "WHEN the user falls THEN call the nurse\n",
+        ),
+        FindingKind(
+            "SLEEC525",
+            "warning",
+            "two names that differ only slightly",
+            "Two names differ only by an article, by capitals, by singular and plural, by the form of a verb, or by "
+            "one letter. They are two different names. A rule about one does not conflict with a rule about the other.",
+            "Use one spelling everywhere. If you mean two different things, choose names that differ more.",
+            "WHEN the user falls THEN call the nurse\nWHEN the user sleeps THEN NOT call nurse\n",
+            "WHEN the user falls THEN call the nurse\nWHEN the user sleeps THEN NOT play music\n",
+        ),
+    ),
+    _misread,
+    scope="text",
+)

@@ -1,0 +1,116 @@
+"""Comparisons inside a phrase: `the child is under 6`, or a measure and its value."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from sleec_runtime.model import Measure, Ruleset
+from sleec_verify.checks.names.misreading import COMPARISON, Misreading
+from sleec_verify.checks.names.word_forms import ARTICLES, stems
+from sleec_verify.checks.names.word_lists import COMPARATORS, NEGATED_OPERATORS, NUMBERS, PEOPLE
+from sleec_verify.results.phrases import quoted
+
+_NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]+)?")
+_IS = frozenset({"is", "are", "was", "were"})
+_VERBS = _IS | {"be", "been", "there", "has", "have", "had", "falls", "drops", "rises", "goes", "gets"}
+_PRONOUNS = frozenset({"it", "this", "that"})
+_NOT = frozenset({"not", "never"})
+
+
+class _Bound(NamedTuple):
+    """`subject operator value`; `rest` are the words after it."""
+
+    subject: list[str]
+    operator: str
+    value: str
+    rest: list[str]
+
+
+def compared(ruleset: Ruleset, name: str) -> Misreading | None:
+    """The comparison that a phrase contains: with a number, a constant, or a value of the scale of a measure."""
+    words = name.split()
+    for at, word in enumerate(words):
+        bound = _bound(ruleset, words, at, word)
+        if bound is None:
+            continue
+        measure = _measure(ruleset, bound)
+        if measure is not None:
+            return _with_measure(name, measure, bound.operator, bound.value)
+        if _NUMBER.fullmatch(bound.value):
+            subject = _subject(bound)
+            written = f"{subject or 'age'} {bound.operator} {bound.value}"
+            declaration = f"MEASURE {subject or 'age'}: number"
+            advice = f"compare a measure: declare, for example, {quoted(declaration)}, and write {quoted(written)}"
+            message = f"{quoted(name)} is read as one name, not as a comparison"
+            return Misreading(COMPARISON, name, message, advice, written if subject else None)
+    return _value_before_measure(ruleset, name) if ruleset.measures else None
+
+
+def _with_measure(name: str, measure: str, operator: str, value: str) -> Misreading:
+    instead = f"{measure} {operator} {value}"
+    message = f"{quoted(name)} is read as one name, not as a comparison of the measure {quoted(measure)}"
+    return Misreading(COMPARISON, name, message, f"write {quoted(instead)}", instead)
+
+
+def _bound(ruleset: Ruleset, words: list[str], at: int, word: str) -> _Bound | None:
+    """The comparison whose value is the word at this place."""
+    value = word if _NUMBER.fullmatch(word) else str(NUMBERS.get(word.casefold(), ""))
+    if not value:
+        is_value = word in ruleset.constants or any(word in measure.values for measure in ruleset.measures.values())
+        if not is_value:
+            return None
+        value = word
+    before = [part.casefold() for part in words[:at]]
+    while before and before[-1] in ARTICLES:
+        before.pop()
+    length = next((n for n in (3, 2, 1) if " ".join(before[-n:]) in COMPARATORS and n <= len(before)), 0)
+    if length:
+        operator = COMPARATORS[" ".join(before[-length:])]
+    elif word.casefold() not in NUMBERS and (before and (before[-1] in _IS | _NOT)):
+        operator = "="
+    else:
+        return None
+    before = before[: len(before) - length]
+    while before and before[-1] in _VERBS | _NOT:
+        if before.pop() in _NOT:
+            operator = NEGATED_OPERATORS[operator]
+    return _Bound(words[: len(before)], operator, value, words[at + 1 :])
+
+
+def _measure(ruleset: Ruleset, bound: _Bound) -> str | None:
+    """The measure that a bound is about: its name begins or ends the subject, or is the rest."""
+    subject = stems(" ".join(bound.subject))
+    for name, measure in ruleset.measures.items():
+        if not _fits(ruleset, measure, bound.value):
+            continue
+        said = stems(name)
+        if said and said in (subject[: len(said)], subject[-len(said) :], stems(" ".join(bound.rest))):
+            return name
+    if _subject(bound) != "age":
+        return None
+    return next((name for name, m in ruleset.measures.items() if m.kind != "scale" and stems(name) == ("age",)), None)
+
+
+def _fits(ruleset: Ruleset, measure: Measure, value: str) -> bool:
+    return value in measure.values if measure.kind == "scale" else value in ruleset.constants or value[-1].isdecimal()
+
+
+def _subject(bound: _Bound) -> str:
+    """A name for a measure that is not declared: `age` for people, otherwise the words before or after, if any."""
+    words, rest = (
+        [word for word in map(str.casefold, part) if word not in ARTICLES | _VERBS | _PRONOUNS]
+        for part in (bound.subject, bound.rest)
+    )
+    if (words and words[-1] in PEOPLE) or rest[:1] in (["years"], ["year"]):
+        return "age"
+    return "_".join(words or rest[:1])
+
+
+def _value_before_measure(ruleset: Ruleset, name: str) -> Misreading | None:
+    """`high danger`, if `danger` is a measure and `high` one of its values."""
+    words = [word for word in name.split() if word.casefold() not in ARTICLES | _VERBS]
+    for measure in ruleset.measures.values():
+        if words and words[0] in measure.values and stems(" ".join(words[1:])) == stems(measure.name):
+            return _with_measure(name, measure.name, "=", words[0])
+    return None

@@ -1,0 +1,62 @@
+"""Conditions that deny or exclude each other in words: a negation, or a word and its opposite."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from sleec_runtime.model import RELATIONS, Assume, Atom, Never, Ruleset, leaves
+from sleec_verify.checks.names.misreading import NEGATION, OPPOSITE, Misreading
+from sleec_verify.checks.names.word_forms import stems, words_of
+from sleec_verify.checks.names.word_lists import AUXILIARIES, CONTRACTIONS, NEGATING_PREFIXES, NEGATIONS, OPPOSITES
+from sleec_verify.encoding.relations import formulas_of_relation
+from sleec_verify.results.phrases import quoted
+
+
+def negated_conditions(names: Sequence[str]) -> Iterator[Misreading]:
+    """Conditions that differ from another one only by a negation, or that begin with one."""
+    plain = {stems(name): name for name in reversed(names)}
+    for name in names:
+        words = words_of(name)
+        if NEGATIONS.isdisjoint(words):
+            continue
+        left = [CONTRACTIONS.get(word, word) for word in words if word in CONTRACTIONS or word not in NEGATIONS]
+        finite = [word for word in left if word not in AUXILIARIES]
+        other = plain.get(stems(" ".join(left))) or plain.get(stems(" ".join(finite)))
+        if other is not None and other != name:
+            instead = f"NOT {other}"
+            message = f"{quoted(name)} and {quoted(other)} are two independent conditions"
+            yield Misreading(NEGATION, name, message, f"write {quoted(instead)}", instead, other)
+        elif words[0] == "not" and " " in name:
+            instead = f"NOT {name.split(maxsplit=1)[1]}"
+            message = f"{quoted(name)} is read as one name, including the word `{name.split()[0]}`"
+            yield Misreading(NEGATION, name, message, f"write {quoted(instead)}", instead)
+
+
+def opposites(ruleset: Ruleset, names: Sequence[str]) -> Iterator[Misreading]:
+    """Conditions that differ only by a word and its opposite, if nothing in the text relates them."""
+    known = {tuple(words_of(name)): name for name in names}
+    pairs = {
+        tuple(sorted((name, other)))
+        for words, name in known.items()
+        for at, word in enumerate(words)
+        for opposite in (OPPOSITES.get(word, ""), *(prefix + word for prefix in NEGATING_PREFIXES))
+        if (other := known.get((*words[:at], opposite, *words[at + 1 :]))) is not None
+    }
+    related = _related(ruleset) if pairs else []
+    for one, other in sorted(pairs):
+        if not any({one, other} <= together for together in related):
+            message = f"{quoted(other)} and {quoted(one)} are two independent conditions"
+            advice = (
+                f"write {quoted(f'NOT {one}')} instead, "
+                f"or exclude both together: {quoted(f'ASSUME NOT ({one} AND {other})')}"
+            )
+            yield Misreading(OPPOSITE, other, message, advice, f"NOT {one}", one)
+
+
+def _related(ruleset: Ruleset) -> list[set[str]]:
+    """The conditions in each constraint or relation."""
+    return [
+        {leaf.name for formula in formulas_of_relation(s) for leaf in leaves(formula) if isinstance(leaf, Atom)}
+        for s in ruleset.statements
+        if isinstance(s, (Never, Assume, *RELATIONS))
+    ]

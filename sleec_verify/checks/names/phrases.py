@@ -1,0 +1,111 @@
+"""One phrase by itself: negations and modal verbs in an obligation, words in capitals that are not keywords."""
+
+from __future__ import annotations
+
+import re
+
+from sleec_runtime.model import Ruleset
+from sleec_verify.checks.names.comparisons import compared
+from sleec_verify.checks.names.misreading import FOREIGN_KEYWORD, MODAL, NEGATION, Misreading
+from sleec_verify.checks.names.word_lists import (
+    AUXILIARIES,
+    CONTRACTIONS,
+    FOREIGN,
+    MODALS,
+    NEGATIONS,
+    OUTSIDE_OBLIGATIONS,
+    ROBOTS,
+    SUPERFLUOUS,
+)
+from sleec_verify.results.phrases import quoted
+
+_PERMITTED = "(?:allowed|permitted|required|supposed|obliged|able|free)"
+_NOT = rf"(?:{'|'.join(sorted(NEGATIONS))})"
+_MODAL = rf"(?:{'|'.join(sorted(MODALS))})"
+_VERB_GROUP = (
+    rf"(?:{_MODAL}|{_NOT}|(?:{'|'.join(sorted(AUXILIARIES))})(?= {_NOT} )|(?:has|have|needs?)(?= (?:{_NOT} )?to )"
+    rf"|(?:is|are|be)(?= (?:{_NOT} )?(?:to|{_PERMITTED}) )|{_PERMITTED}(?= to )|also|to|longer)"
+)
+_SAID = re.compile(
+    rf"(?P<subject>(?:(?:the|a|an|this|your) )?(?:{'|'.join(ROBOTS)}) )?(?P<verbs>(?:{_VERB_GROUP} )+)(?P<action>.+)",
+    re.IGNORECASE,
+)
+_OTHER_SUBJECT = re.compile(
+    rf"(?:the|a|an|no|any|every|all) (?:[\w'-]+ ){{1,3}}?(?P<verbs>(?:must|shall|should)(?: {_NOT})?) .+", re.IGNORECASE
+)
+_IS = re.compile(r"\b(?:is|are)\b", re.IGNORECASE)
+_TO_DO = re.compile(r"\b(?:has|have|needs?|is|are|be) to\b", re.IGNORECASE)
+
+
+def misread_phrase(ruleset: Ruleset, name: str) -> Misreading | None:
+    """What people read in a phrase, if that is not what the rules say."""
+    foreign = next((word for word in name.split() if word in FOREIGN), None)
+    if foreign is not None:
+        return _foreign(ruleset, name, foreign)
+    if name in ruleset.obligations:
+        return _said(name)
+    found = compared(ruleset, name)
+    if found is None or name in ruleset.conditions:
+        return found
+    # An event such as `the temperature falls below 20` is what it says.
+    return _in_trigger(found) if _IS.search(name) else None
+
+
+def _in_trigger(found: Misreading) -> Misreading:
+    advice = "name an event, and write the comparison after AND, for example: WHEN the user calls AND age < 6"
+    return found._replace(help=advice, instead=None)
+
+
+def _foreign(ruleset: Ruleset, name: str, foreign: str) -> Misreading:
+    words = name.split()
+    at = words.index(foreign)
+    before, after = " ".join(words[:at]), " ".join(words[at + 1 :])
+    instead = None
+    if name in ruleset.obligations:
+        if foreign in SUPERFLUOUS:
+            instead = " ".join(word for word in words if word not in SUPERFLUOUS)
+        elif foreign == "NEVER" and not before:
+            instead = f"NOT {after}"
+    elif name in ruleset.conditions and before and after:
+        instead = {
+            "IMPLIES": f"(NOT {before} OR {after})",
+            "XOR": f"(({before} AND NOT {after}) OR (NOT {before} AND {after}))",
+            "NOR": f"NOT ({before} OR {after})",
+            "BUT": f"({before} AND {after})",
+        }.get(foreign)
+    advice = (FOREIGN if name in ruleset.obligations else FOREIGN | OUTSIDE_OBLIGATIONS)[foreign]
+    if instead:
+        advice += f"; here, write {quoted(instead)}"
+    message = f"{quoted(name)} is read as one name, including the word {quoted(foreign)}"
+    return Misreading(FOREIGN_KEYWORD, name, message, advice, instead or None)
+
+
+def _said(name: str) -> Misreading | None:
+    """A negation or modal verb before the action of an obligation."""
+    plain = name.replace("\u2019", "'")
+    found = _SAID.fullmatch(plain)
+    if found is None:
+        other = _OTHER_SUBJECT.fullmatch(plain)
+        if other is None:
+            return None
+        negated = not NEGATIONS.isdisjoint(other["verbs"].casefold().split())
+        wanted = "what the robot must not do, and write NOT before it" if negated else "what the robot must do"
+        return _in_obligation(name, negated, f"name {wanted}, for example: {'NOT ' * negated}open the door")
+    action = name[found.start("action") :]
+    verbs = found["verbs"].casefold().split()
+    negations = sum(verb in NEGATIONS for verb in verbs)
+    if negations == 1:
+        instead = f"NOT {action}"
+        return _in_obligation(name, True, f"to forbid it, write {quoted(instead)}", instead)
+    is_modal = _TO_DO.search(found["verbs"]) or not MODALS.isdisjoint(CONTRACTIONS.get(verb, verb) for verb in verbs)
+    # "can" and "will" without a subject may be other words.
+    if not negations and is_modal and (found["subject"] or verbs[0] not in ("can", "will", "may", "to")):
+        return _in_obligation(name, False, f"write only the action: {quoted(action)}", action)
+    return None
+
+
+def _in_obligation(name: str, negated: bool, help: str, instead: str | None = None) -> Misreading:
+    if negated:
+        message = f"{quoted(name)} is read as an obligation, although it says what the robot must not do"
+        return Misreading(NEGATION, name, message, help, instead)
+    return Misreading(MODAL, name, f"{quoted(name)} is read as one name, including the modal verb", help, instead)

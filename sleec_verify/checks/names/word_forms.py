@@ -1,0 +1,101 @@
+"""The words of a name, and their stems, so that names that differ only by grammar can be compared."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+ARTICLES = frozenset({"the", "a", "an"})
+_IRREGULAR = {
+    "are": "is",
+    "were": "was",
+    "has": "have",
+    "does": "do",
+    "goes": "go",
+    "children": "child",
+    "people": "person",
+    "men": "man",
+    "women": "woman",
+    "feet": "foot",
+    "teeth": "tooth",
+}
+"""Forms of frequent words that do not follow a rule."""
+
+_WORD = re.compile(r"[^\W\d_]+(?:'[^\W\d_]+)*|[0-9]+")
+_CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+_CONSONANTS = re.compile("v+c+")
+
+
+def words_of(name: str) -> list[str]:
+    """The words of a name in small letters: those of a phrase, or the parts of ``CamelCase`` and ``snake_case``."""
+    return [
+        word.casefold() for part in _WORD.findall(name.replace("\u2019", "'")) for word in _CAMEL.sub(" ", part).split()
+    ]
+
+
+def stems(name: str) -> tuple[str, ...]:
+    """What names have in common that differ only by articles, case, number or the form of a verb."""
+    return tuple(stem(word) for word in words_of(name) if word not in ARTICLES)
+
+
+def singulars(name: str) -> tuple[str, ...]:
+    """What names have in common that differ only by articles, case or a final `s`."""
+    return tuple(singular(word) for word in words_of(name) if word not in ARTICLES)
+
+
+def singular(word: str) -> str:
+    """A word without the ending of the plural or of the third person (Porter 1980, step 1a)."""
+    if word in _IRREGULAR:
+        return _IRREGULAR[word]
+    if len(word) < 3 or word.endswith("ss"):
+        return word
+    if word.endswith(("sses", "ies")):
+        return word[:-2]
+    return word.removesuffix("s")
+
+
+@lru_cache(maxsize=1 << 14)
+def stem(word: str) -> str:
+    """The stem of an English word without inflection (Porter 1980, steps 1 and 5): `take`, `takes` and `taking` have
+    the same one. The stem is for comparison only: it need not be a word."""
+    word = singular(word)
+    if len(word) < 3 or not word.isascii():
+        return word
+    if word.endswith("eed"):
+        word = word[:-1] if _measure(word[:-3]) else word
+    else:
+        ending = next((e for e in ("ed", "ing") if word.endswith(e)), "")
+        rest = word.removesuffix(ending)
+        if ending and "v" in _shape(rest):
+            word = _completed(rest)
+    if word.endswith(("y", "i")) and "v" in _shape(word[:-1]):
+        word = f"{word[:-1]}i"
+    if word.endswith("e") and (_measure(word[:-1]) > 1 or (_measure(word[:-1]) == 1 and not _is_short(word[:-1]))):
+        word = word[:-1]
+    return word[:-1] if word.endswith("ll") and _measure(word) > 1 else word
+
+
+def _completed(rest: str) -> str:
+    """The word that has lost `ed` or `ing`: `hop` for `hopp`, `hope` for `hop`."""
+    if rest.endswith(("at", "bl", "iz")):
+        return f"{rest}e"
+    if len(rest) > 1 and rest[-1] == rest[-2] and rest[-1] not in "aeioulsz":
+        return rest[:-1]
+    return f"{rest}e" if _measure(rest) == 1 and _is_short(rest) else rest
+
+
+def _shape(word: str) -> str:
+    """`c` for each consonant and `v` for each vowel. A `y` after a consonant is a vowel."""
+    shape = ""
+    for letter in word:
+        shape += "v" if letter in "aeiou" or (letter == "y" and shape[-1:] == "c") else "c"
+    return shape
+
+
+def _measure(word: str) -> int:
+    """How many groups of vowels a group of consonants follows."""
+    return len(_CONSONANTS.findall(_shape(word)))
+
+
+def _is_short(word: str) -> bool:
+    return _shape(word)[-3:] == "cvc" and word[-1] not in "wxy"

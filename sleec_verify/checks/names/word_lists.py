@@ -1,0 +1,131 @@
+"""Words that say more to people than to the rules."""
+
+from __future__ import annotations
+
+CONTRACTIONS = {
+    "cannot": "can",
+    "can't": "can",
+    "don't": "do",
+    "doesn't": "does",
+    "didn't": "did",
+    "isn't": "is",
+    "aren't": "are",
+    "wasn't": "was",
+    "weren't": "were",
+    "hasn't": "has",
+    "haven't": "have",
+    "won't": "will",
+    "mustn't": "must",
+    "shouldn't": "should",
+}
+"""Verbs that contain a negation, and the verb without it."""
+
+NEGATIONS = frozenset({"not", "never", "no", *CONTRACTIONS})
+MODALS = frozenset({"must", "shall", "should", "may", "might", "can", "could", "will", "would", "ought"})
+AUXILIARIES = frozenset({"do", "does", "did"})
+ROBOTS = ("robot", "system", "agent", "machine", "it", "he", "she", "they", "you", "we")
+"""The subjects of a sentence about what the robot does."""
+
+_PAIRS = """
+open closed, on off, awake asleep, full empty, present absent, day night, light dark, inside outside, indoors outdoors,
+alive dead, true false, allowed forbidden, enabled disabled, healthy ill, near far, wet dry, left right, begins ends,
+starts stops, alone accompanied, standing sitting, valid invalid, visible invisible, active inactive,
+complete incomplete, correct incorrect, possible impossible, legal illegal
+"""
+OPPOSITES = {one: other for pair in _PAIRS.split(",") for one, other in (pair.split(), reversed(pair.split()))}
+"""Words that exclude each other."""
+NEGATING_PREFIXES = ("un", "dis", "non")
+"""A word with one of these before it is the opposite of that word."""
+
+COMPARATORS = {
+    **dict.fromkeys(("under", "below", "less than", "fewer than", "younger than", "lower than", "smaller than"), "<"),
+    **dict.fromkeys(("colder than", "shorter than", "beneath"), "<"),
+    **dict.fromkeys(("at most", "no more than", "up to", "no greater than", "no higher than", "no older than"), "<="),
+    **dict.fromkeys(("over", "above", "more than", "greater than", "older than", "higher than", "larger than"), ">"),
+    **dict.fromkeys(("warmer than", "hotter than", "longer than", "exceeds", "exceeding"), ">"),
+    **dict.fromkeys(("at least", "no less than", "no fewer than", "no lower than", "no younger than"), ">="),
+    **dict.fromkeys(("exactly", "equal to", "equals"), "="),
+}
+"""Words that compare, and their operators."""
+
+NEGATED_OPERATORS = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "=": "!="}
+
+_UP_TO_TWENTY = """
+zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen
+eighteen nineteen twenty
+"""
+_TENS = "thirty forty fifty sixty seventy eighty ninety hundred"
+NUMBERS = {
+    **{word: number for number, word in enumerate(_UP_TO_TWENTY.split())},
+    **{word: number for number, word in zip(range(30, 110, 10), _TENS.split())},
+}
+"""Numbers in words."""
+
+_PEOPLE = """
+child children user patient person resident guest man woman boy girl pupil student visitor customer baby he she client
+driver passenger
+"""
+PEOPLE = frozenset(_PEOPLE.split())
+"""Whom a bound on a number most likely says the age of."""
+
+FOREIGN = {
+    **dict.fromkeys(("BUT", "ALTHOUGH"), "leave it out, write AND, or write UNLESS before an exception"),
+    **dict.fromkeys(
+        ("IMMEDIATELY", "NOW", "ASAP", "INSTANTLY"), "leave it out: without WITHIN, the obligation is due at once"
+    ),
+    **dict.fromkeys(("DO", "PLEASE", "ALSO"), "leave it out"),
+    **dict.fromkeys(
+        ("MUST", "SHALL", "SHOULD", "WILL"), "leave it out: the robot must do what follows THEN or IN WHICH CASE"
+    ),
+    **dict.fromkeys(
+        ("MAY", "CAN", "OPTIONALLY"),
+        "leave it out, and say with UNLESS when the robot need not do it: a rule permits nothing",
+    ),
+    "FOR": "write NOT and WITHIN for a prohibition that lasts, for example: NOT play music WITHIN 5 minutes",
+    "AFTER": "write WITHIN and two times for an earliest time, for example: WITHIN 5 TO 10 minutes",
+    "BEFORE": "write WITHIN for a deadline, for example: WITHIN 5 minutes",
+    "BY": "write WITHIN for a deadline, for example: WITHIN 5 minutes",
+    "IMPLIES": "write NOT and OR: `NOT a OR b` says that a implies b",
+    "XOR": "write both cases: `(a AND NOT b) OR (NOT a AND b)`",
+    "NOR": "write AND NOT",
+    **dict.fromkeys(("ELSEIF", "ELIF", "ELSIF", "ENDIF", "END"), "write one UNLESS for each exception"),
+    **dict.fromkeys(("ONCE", "UPON", "GIVEN"), "write WHEN before the trigger, and AND before a condition"),
+    **dict.fromkeys(("PROVIDED", "ASSUMING"), "write AND and the condition before THEN, or UNLESS NOT after it"),
+    "NEVER": "write NOT before the obligation",
+    "ALWAYS": "leave it out: a rule applies whenever its trigger occurs",
+    **dict.fromkeys(("EQUALS", "IS"), "write = to compare a measure"),
+    **dict.fromkeys(
+        ("WITNESSES", "EXCLUDES", "PRECEDES", "CAUSES", "INCLUDES", "FORBIDS", "OPPOSES"),
+        "it is a keyword only in a RELATION",
+    ),
+}
+"""Words in capitals that look like keywords and are none in a rule, and what to write instead."""
+
+OUTSIDE_OBLIGATIONS = {
+    **dict.fromkeys(
+        ("FOR", "AFTER", "BEFORE", "BY"),
+        "leave the time out, or declare a measure for it and compare it, for example: minutes_asleep > 5",
+    ),
+    **dict.fromkeys(("MUST", "SHALL", "SHOULD", "WILL", "MAY", "NOW", "IMMEDIATELY", "ASAP", "ALWAYS"), "leave it out"),
+    "NEVER": "write NOT before the condition",
+}
+"""What to write instead in a trigger or condition, where it is something else."""
+
+SUPERFLUOUS = frozenset(
+    {
+        "BUT",
+        "ALTHOUGH",
+        "IMMEDIATELY",
+        "NOW",
+        "ASAP",
+        "INSTANTLY",
+        "DO",
+        "PLEASE",
+        "ALSO",
+        "MUST",
+        "SHALL",
+        "SHOULD",
+        "WILL",
+    }
+)
+"""Those without which an obligation says the same."""

@@ -1,0 +1,56 @@
+"""Every place of a name in the text, word for word: for messages about the name, and for changes of it."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Collection, Mapping
+
+from sleec_runtime.language.common.token_cursor import composed
+from sleec_runtime.model import Ruleset, Span
+
+
+def name_places(ruleset: Ruleset, names: Collection[str]) -> Mapping[str, list[Span]]:
+    """The places of these names in rules, constraints and declarations, in text order.
+
+    Labels and domains are not among them.
+    """
+    return _in_dsl(ruleset, names) if ruleset.syntax == "dsl" else _in_english(ruleset, names)
+
+
+def _in_dsl(ruleset: Ruleset, names: Collection[str]) -> Mapping[str, list[Span]]:
+    from sleec_runtime.language.dsl.scanner import scan
+
+    tokens = scan(ruleset.source.text)
+    places: dict[str, list[Span]] = defaultdict(list)
+    for start, end in zip(tokens.starts, tokens.ends):
+        word = tokens.text[start:end]
+        if word in names:
+            places[word].append(Span(start, end))
+    return places
+
+
+def _in_english(ruleset: Ruleset, names: Collection[str]) -> Mapping[str, list[Span]]:
+    from sleec_runtime.language.english.keywords import CLAIMS, PHRASE, RELATION_WORDS, STATEMENTS
+    from sleec_runtime.language.english.scanner import scan
+
+    tokens = scan(ruleset.source.text)
+    kinds = tokens.kinds
+    separators = {"RELATION": RELATION_WORDS, "EVENT": frozenset({"BY"})}
+    places: dict[str, list[Span]] = defaultdict(list)
+    statement = ""
+    at = 0
+    while kinds[at] != "end":
+        first = at
+        if kinds[at] == "word":
+            ends_before = separators.get(statement, frozenset[str]())
+            while kinds[at] in PHRASE and tokens.text_of(at) not in ends_before:
+                at += 1
+            is_name = statement != "DOMAIN" and kinds[first - 1] not in CLAIMS | {"RULE"}
+            if at > first and is_name:
+                name = composed(" ".join(map(tokens.text_of, range(first, at))))
+                if name in names:
+                    places[name].append(Span(tokens.starts[first], tokens.ends[at - 1]))
+        elif kinds[at] in STATEMENTS:
+            statement = kinds[at]
+        at = max(at, first + 1)
+    return places
