@@ -74,6 +74,16 @@ def _shared(one: str, other: str) -> int:
     return next((n for n, (a, b) in enumerate(zip(one, other)) if a != b), min(len(one), len(other)))
 
 
+def joined(edits: Iterable[TextEdit]) -> tuple[TextEdit, ...]:
+    """The edits, with all insertions at one place as a single one, in the order given."""
+    found: dict[tuple[int, int], TextEdit] = {}
+    for number, edit in enumerate(edits):
+        key = (edit.start, -1 if edit.start == edit.end else number)
+        before = found.get(key)
+        found[key] = edit if before is None else edit._replace(text=before.text + edit.text)
+    return tuple(found.values())
+
+
 class OffsetMap:
     """Where the unchanged parts of a text are after some edits."""
 

@@ -3,12 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from sleec_runtime.language.common.formula_printer import FormulaPrinter
 from sleec_runtime.language.common.statement_printer import StatementPrinter
 from sleec_runtime.language.dsl.statement_printer import DslPrinter
 from sleec_runtime.language.english.statement_printer import EnglishPrinter
-from sleec_runtime.model import Clause, Formula, Obligation, Or, Rule, Ruleset, Span
+from sleec_runtime.model import (
+    And,
+    Clause,
+    Comparison,
+    Formula,
+    MeasureRef,
+    Not,
+    Obligation,
+    Or,
+    Rule,
+    Ruleset,
+    ScaleValue,
+    Span,
+)
 from sleec_verify.encoding.equation import conjunction
 from sleec_verify.repairs.edit import TextEdit
 
@@ -22,7 +36,29 @@ def printer_of(ruleset: Ruleset) -> StatementPrinter:
 
 def formula_text(ruleset: Ruleset, formula: Formula) -> str:
     """A formula in the language of a ruleset."""
-    return _formulas(ruleset).formula(formula)
+    return _formulas(ruleset).formula(as_read(ruleset, formula))
+
+
+def as_read(ruleset: Ruleset, formula: Formula) -> Formula:
+    """A formula in which every value of a scale has the name that it has in that scale. A copy of a foreign value
+    would be another defect."""
+    if isinstance(formula, Not):
+        return Not(as_read(ruleset, formula.operand))
+    if isinstance(formula, (And, Or)):
+        return type(formula)(tuple(as_read(ruleset, operand) for operand in formula.operands))
+    if not isinstance(formula, Comparison):
+        return formula
+    left, right = formula.left, formula.right
+    if isinstance(left, MeasureRef) and isinstance(right, ScaleValue):
+        return replace(formula, right=_own_value(ruleset, left, right))
+    if isinstance(right, MeasureRef) and isinstance(left, ScaleValue):
+        return replace(formula, left=_own_value(ruleset, right, left))
+    return formula
+
+
+def _own_value(ruleset: Ruleset, measure: MeasureRef, value: ScaleValue) -> ScaleValue:
+    values = ruleset.measures[measure.name].values
+    return ScaleValue(values[value.rank], value.rank) if 0 <= value.rank < len(values) else value
 
 
 def _formulas(ruleset: Ruleset) -> FormulaPrinter:
@@ -49,12 +85,14 @@ def response_text(ruleset: Ruleset, response: Sequence[Obligation]) -> str:
 def strengthened(ruleset: Ruleset, rule: Rule, condition: Formula) -> tuple[TextEdit, ...]:
     """The rule with one more condition at its trigger: ``WHEN trigger AND condition``."""
     formulas = _formulas(ruleset)
+    condition = as_read(ruleset, condition)
     if rule.guard is None:
         return (TextEdit(rule.trigger_span.end, rule.trigger_span.end, formulas.guard(condition)),)
     start, end = _with_parentheses(ruleset.source.text, rule.trigger_span.end, rule.guard.span)
     if ruleset.syntax == "dsl":
         # The DSL has one formula after the event, so that it needs parentheses around both.
-        return (TextEdit(rule.trigger_span.end, end, formulas.guard(conjunction([rule.guard, condition]))),)
+        both = conjunction([as_read(ruleset, rule.guard), condition])
+        return (TextEdit(rule.trigger_span.end, end, formulas.guard(both)),)
     added = TextEdit(end, end, formulas.guard(condition))
     if isinstance(rule.guard, Or) and start == rule.guard.span.start:
         return (TextEdit(start, start, "("), added._replace(text=f"){added.text}"))
@@ -83,9 +121,9 @@ def with_exception(
     exception = exception_text(ruleset, condition, response)
     chain = (rule.default, *rule.hedges)
     if clause is chain[-1]:
-        end = _end_of_line(text, rule.span.end)
+        end = end_of_line(text, rule.span.end)
         indent = _indent_of_exceptions(ruleset, rule)
-        return (TextEdit(end, end, f"{_line_break(text)}{indent}{exception}"),)
+        return (TextEdit(end, end, f"{line_break_of(text)}{indent}{exception}"),)
     first, last = clause.obligations[0].span.start, clause.obligations[-1].span.end
     if _is_in_parentheses(text, first, last):
         return (TextEdit(last, last, f" {exception}"),)
@@ -97,7 +135,7 @@ def _is_in_parentheses(text: str, start: int, end: int) -> bool:
     return text[:start].rstrip().endswith(("(", "{")) and text[end:].lstrip().startswith((")", "}"))
 
 
-def _end_of_line(text: str, offset: int) -> int:
+def end_of_line(text: str, offset: int) -> int:
     """The end of the line of `offset`, if only spaces and a comment follow; otherwise `offset`."""
     end = text.find("\n", offset)
     end = len(text) if end < 0 else end
@@ -107,7 +145,7 @@ def _end_of_line(text: str, offset: int) -> int:
     return end - 1 if text[:end].endswith("\r") else end
 
 
-def _line_break(text: str) -> str:
+def line_break_of(text: str) -> str:
     return "\r\n" if "\r\n" in text else "\n"
 
 
@@ -134,7 +172,7 @@ def without(ruleset: Ruleset, span: Span) -> tuple[TextEdit, ...]:
     start = text.rfind("\n", 0, span.start) + 1
     if text[start : span.start].strip():
         return (TextEdit(_end_of_word(text, span.start), span.end, ""),)
-    end = _end_of_line(text, span.end)
+    end = end_of_line(text, span.end)
     if end == span.end and text[end : end + 1] not in ("", "\r", "\n"):
         return (TextEdit(span.start, span.end, ""),)
     for line_break in ("\r\n", "\n"):

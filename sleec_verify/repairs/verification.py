@@ -17,6 +17,15 @@ from sleec_verify.results.finding import CheckResult, Finding, Unknown
 Identity = tuple[str, tuple[str, ...], tuple[str, ...]]
 """A finding by its code, its rules and its obligations. Clauses do not count: a repair may add or remove one."""
 
+_ABOUT: Mapping[str, int] = {
+    "SLEEC102": 1,
+    "SLEEC104": 0,
+    "SLEEC105": 0,
+    "SLEEC107": 1,
+    "SLEEC301": 1,
+}
+"""How many of its rules a finding is about. The others explain it; another explanation is not another finding."""
+
 
 class Rejected(Exception):
     """A candidate is not a repair; the message says why. `appeared` is a finding that the changed rules have."""
@@ -95,5 +104,6 @@ class Verification:
 
 
 def _identity(finding: Finding, labels: Mapping[str, str]) -> Identity:
-    rules = tuple(sorted(labels.get(rule, rule) for rule in finding.rules))
+    about = finding.rules[: _ABOUT.get(finding.code)]
+    rules = tuple(sorted(labels.get(rule, rule) for rule in about))
     return finding.code, rules, tuple(sorted(finding.obligations))

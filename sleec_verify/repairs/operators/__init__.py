@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 
 from sleec_runtime.model import Ruleset
+from sleec_verify.repairs.operators.concerns import preventions
 from sleec_verify.repairs.operators.giving_way import exceptions, guards, responses
 from sleec_verify.repairs.operators.removal import declarations, hedges, redundant_rule, rules
 from sleec_verify.repairs.repair import Candidate
@@ -25,6 +26,8 @@ REMOVALS: Mapping[str, Operation] = {
 OPERATORS: Mapping[str, tuple[Operation, ...]] = {
     "SLEEC101": (guards, exceptions, responses, hedges, rules),
     "SLEEC102": (guards, exceptions, responses, hedges, rules),
+    "SLEEC104": (preventions,),
     **{code: (removal,) for code, removal in REMOVALS.items()},
     "SLEEC509": (rules,),
+    "SLEEC510": (preventions,),
 }

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sleec_verify.repairs.edit import OffsetMap, OverlappingEdits, TextEdit, edited, in_order
+from sleec_verify.repairs.edit import OffsetMap, OverlappingEdits, TextEdit, edited, in_order, joined
 
 TEXT = "0123456789"
 
@@ -21,6 +21,11 @@ def test_everything_else_stays() -> None:
 def test_edits_of_the_same_place_overlap(edits: tuple[TextEdit, ...]) -> None:
     with pytest.raises(OverlappingEdits, match="the same part of the text"):
         edited(TEXT, edits)
+
+
+def test_insertions_at_one_place_are_one_in_their_order() -> None:
+    edits = joined([TextEdit(2, 2, "b"), TextEdit(0, 1, ""), TextEdit(2, 2, "a")])
+    assert edited(TEXT, edits) == "1ba23456789"
 
 
 @given(

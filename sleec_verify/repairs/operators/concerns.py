@@ -1,0 +1,146 @@
+"""Repairs of a concern that can happen although every rule is followed.
+
+A concern says that some occurrence of an event, under a condition, has a response. Its negation is a rule: every such
+occurrence has the opposite response. This is the operator *new rule from a concern* of SLEEC-PATCH (2026).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from sleec_runtime.model import And, Atom, Claim, Formula, Not, Obligation, Rule, Ruleset
+from sleec_verify.encoding.equation import conjunction, guard
+from sleec_verify.repairs.edit import TextEdit, joined
+from sleec_verify.repairs.repair import Candidate
+from sleec_verify.repairs.statement_edits import exception_text, strengthened, with_exception
+from sleec_verify.repairs.statement_insertion import new_label, rule_text, with_rule_after
+from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import clause_name, listed, quoted
+
+
+def preventions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """A shorter window, an exception, or a new rule, so that the concern cannot happen."""
+    for concern in ruleset.statements:
+        if isinstance(concern, Claim) and concern.kind == "concern" and concern.label in finding.obligations:
+            for opposite in _opposites(concern):
+                yield from _shorter_windows(ruleset, concern, opposite)
+                yield from _exceptions(ruleset, concern, opposite)
+                yield from _rules(ruleset, concern, opposite)
+
+
+def _opposites(concern: Claim) -> Iterator[Obligation]:
+    """Responses that are met exactly if one of the concern is not. A concern with several needs all of them, so each
+    opposite prevents it. A response with alternatives or exceptions has none."""
+    for response in concern.responses:
+        first, *others = response.obligations
+        is_simple = first.timing is None or not any(True for _ in first.timing.alternatives())
+        if is_simple and not others and not response.hedges:
+            yield replace(first, negated=not first.negated)
+
+
+def _shorter_windows(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> Iterator[Candidate]:
+    """Deadline refinement: a rule with the trigger of the concern requires the response in the time of the concern."""
+    wanted = opposite.timing.window if opposite.timing is not None else None
+    if wanted is None or opposite.negated:
+        return
+    text = ruleset.source.text[slice(*wanted.span)]
+    for rule, number in _clauses(ruleset, opposite):
+        if rule.trigger != concern.event:
+            continue
+        for own in list(rule.clauses())[number].obligations:
+            window = own.timing.window if own.timing is not None else None
+            if own.name == opposite.name and window is not None and window != wanted:
+                title = f"write {quoted(text)} for {quoted(own.name)} in {clause_name(rule, number)}"
+                yield Candidate("deadline-refinement", title, (TextEdit(*window.span, text),))
+
+
+def _exceptions(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> Iterator[Candidate]:
+    """Defeater introduction: a clause with the trigger of the concern that requires its response has an exception."""
+    for rule, number in _clauses(ruleset, _contrary(opposite)):
+        condition = _where(ruleset, rule, number, concern)
+        if rule.trigger == concern.event and condition is not None:
+            title = f"add to {clause_name(rule, number)}: {quoted(exception_text(ruleset, condition, [opposite]))}"
+            edits = with_exception(ruleset, rule, list(rule.clauses())[number], condition, [opposite])
+            yield Candidate("defeater-introduction", title, edits)
+
+
+def _rules(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> Iterator[Candidate]:
+    """The rule that says the opposite of the concern; and this rule with exceptions or guards in the rules that
+    contradict it."""
+    label = new_label(ruleset, f"{concern.label}_rule")
+    lines = rule_text(ruleset, label, concern.event, concern.condition, opposite)
+    edits = with_rule_after(ruleset, ruleset.rules[-1], lines)
+    title = f"add the rule {quoted(' '.join(lines))}"
+    yield Candidate("rule-addition", title, edits)
+    contrary = [one for one in _clauses(ruleset, _contrary(opposite)) if not _may_wait(one, opposite)]
+    if len({rule.label for rule, _ in contrary}) < len(contrary):
+        return
+    for has_response in (False, True):
+        changed = [_giving_way(ruleset, rule, number, concern, opposite, has_response) for rule, number in contrary]
+        if changed and all(changed):
+            names = listed(quoted(rule.label) for rule, _ in contrary)
+            how = "an exception" if has_response else "a condition"
+            yield Candidate(
+                "rule-addition",
+                f"{title}, and {how} to {names} for this case",
+                joined((*(edit for one in changed for edit in one), *edits)),
+            )
+
+
+def _giving_way(
+    ruleset: Ruleset, rule: Rule, number: int, concern: Claim, opposite: Obligation, has_response: bool
+) -> tuple[TextEdit, ...]:
+    """The rule with an exception or a guard where the concern applies; no edit if it always does."""
+    condition = _where(ruleset, rule, number, concern)
+    if condition is None:
+        return ()
+    if has_response:
+        return with_exception(ruleset, rule, list(rule.clauses())[number], condition, [opposite])
+    if rule.hedges:
+        # Other clauses of the rule keep their situations.
+        outer = {rule.trigger, *(_parts(rule.guard) if rule.guard is not None else ())}
+        own = [part for part in _parts(guard(rule, ruleset.reading, number))[1:] if part not in outer]
+        condition = conjunction([*own, condition])
+    return strengthened(ruleset, rule, condition.operand if isinstance(condition, Not) else Not(condition))
+
+
+def _where(ruleset: Ruleset, rule: Rule, number: int, concern: Claim) -> Formula | None:
+    """The condition under which the concern applies where a clause decides; None if it always does.
+
+    A check of rules with time cannot decide a condition that names a response. So it leaves out such an event.
+    """
+    own = {Atom("trigger", rule.trigger), *_parts(guard(rule, ruleset.reading, number))}
+    applies = _parts(concern.condition) if concern.condition is not None else ()
+    if not applies or concern.event not in ruleset.obligations:
+        applies = (Atom("trigger", concern.event), *applies)
+    needed = [part for part in applies if part not in own]
+    return conjunction(needed) if needed else None
+
+
+def _parts(formula: Formula) -> tuple[Formula, ...]:
+    return formula.operands if isinstance(formula, And) else (formula,)
+
+
+def _contrary(opposite: Obligation) -> Obligation:
+    return replace(opposite, negated=not opposite.negated)
+
+
+def _may_wait(clause: tuple[Rule, int], opposite: Obligation) -> bool:
+    """Whether a clause requires the response at some time from the trigger on, so that a prohibition that ends does
+    not contradict it."""
+    rule, number = clause
+    windows = [
+        one.timing.window if one.timing is not None else None
+        for one in list(rule.clauses())[number].obligations
+        if one.name == opposite.name and not one.negated
+    ]
+    return bool(windows) and all(window is not None and window.end is None for window in windows)
+
+
+def _clauses(ruleset: Ruleset, response: Obligation) -> Iterator[tuple[Rule, int]]:
+    """The clauses that require, or forbid, what `response` does, at whatever time."""
+    for rule in ruleset.rules:
+        for number, clause in enumerate(rule.clauses()):
+            if any(one.name == response.name and one.negated == response.negated for one in clause.obligations):
+                yield rule, number

@@ -1,0 +1,56 @@
+"""What holds for every repair, shown without the code that verifies repairs."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from sleec_runtime.language import parse
+from sleec_runtime.model import Ruleset
+from sleec_verify.checks import run_checks
+from sleec_verify.repairs.edit import edited
+from sleec_verify.repairs.repair import Repair
+from sleec_verify.repairs.search import RepairSearch
+from sleec_verify.results.finding import CheckResult, Finding
+
+
+def findings(results: Sequence[CheckResult]) -> list[Finding]:
+    return [finding for result in results for finding in result.findings]
+
+
+def repairs_of(text: str, code: str) -> list[Repair]:
+    """The repairs of all findings with a code, each of which is a repair indeed."""
+    return [repair for _, repair in found_repairs(parse(text), code)]
+
+
+def found_repairs(ruleset: Ruleset, code: str) -> Iterator[tuple[Finding, Repair]]:
+    results = run_checks(ruleset)
+    search = RepairSearch(ruleset, results)
+    for finding in findings(results):
+        if finding.code == code:
+            for repair in search.repairs(finding):
+                assert_is_repair(ruleset, results, repair)
+                yield finding, repair
+
+
+def assert_is_repair(ruleset: Ruleset, results: Sequence[CheckResult], repair: Repair) -> None:
+    """A check of the changed text has fewer findings of this code, and not more of any other. Every statement that no
+    edit touches is as before, in the same order."""
+    edits = repair.candidate.edits
+    new = parse(edited(ruleset.source.text, edits))
+    assert new.statements == repair.repaired.statements
+    before = Counter(finding.code for finding in findings(results))
+    after = Counter(finding.code for finding in findings(run_checks(new)))
+    assert after[repair.finding.code] < before[repair.finding.code], repair.candidate.title
+    assert not after - before, repair.candidate.title
+    kept = [
+        statement
+        for statement in ruleset.statements
+        if not any(edit.start <= statement.span.end and statement.span.start <= edit.end for edit in edits)
+    ]
+    rest = iter(new.statements)
+    assert all(any(statement == other for other in rest) for statement in kept), repair.candidate.title
+
+
+def texts_after(text: str, repairs: Sequence[Repair]) -> list[str]:
+    return [edited(text, repair.candidate.edits) for repair in repairs]
