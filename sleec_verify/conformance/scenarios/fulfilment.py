@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cached_property
 from itertools import groupby
 
 from sleec_verify.conformance.scenarios.course import Course
@@ -112,11 +113,12 @@ class Fulfilment:
         """Whether the exception that the scenario raised in the code of a clause stopped it before this obligation of
         the clause."""
         clause = {other.name for other in self.requirements if other.rule is one.rule and other.place == one.place}
-        return any(
-            isinstance(execution.end.error, WithheldCompletion)
-            for execution in self.executions
-            if execution.name in clause and execution.start.act == one.act and execution.end is not None
-        )
+        for name in clause - {one.name}:
+            of_window = (e for e in self.of_name(name) if e.place > one.place and one.covers(e.start.at))
+            first = next(of_window, None)
+            if first is not None and first.end is not None and isinstance(first.end.error, WithheldCompletion):
+                return True
+        return False
 
     def _is_attempt(self, execution: Execution, one: Requirement) -> bool:
         """Whether an execution would have fulfilled a requirement if the scenario had let it complete."""
@@ -200,7 +202,21 @@ class Fulfilment:
             for execution in self.of_name(replaced.name)
             if replaced.place < execution.place < place
         )
+        if one.overdue and replaced.last is not None:
+            # A completion in the last second is in time for the clock only if it comes before the clock.
+            place = min(place, self._clock_starts.get(replaced.last, place))
         return (failed and not one.overdue) or not self.is_done(replaced, place)
+
+    @cached_property
+    def _clock_starts(self) -> dict[int, int]:
+        """For each time at which the clock starts something, the place of the first start."""
+        acts: set[int] = set()
+        found: dict[int, int] = {}
+        for place, one in enumerate(self.course.happenings):
+            if one.kind == "starts" and one.act not in acts:
+                found.setdefault(one.at, place)
+            acts.add(one.act)
+        return found
 
     def _may_apply(self, one: Requirement, place: int, time: int) -> bool:
         """Whether a requirement is due if its predecessor was completed in its last second, but after the clock."""

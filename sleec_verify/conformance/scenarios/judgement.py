@@ -157,11 +157,11 @@ class _CourseJudgement:
                 and one.place < execution.place
                 and one.covers(start.at)
                 and self.fulfilment.applies(one, execution.place, start.at)
-                and not self._is_discharged(one, execution)
+                and (not self._is_discharged(one, execution) or self._is_of_clause(one, execution))
             ]
             if candidates:
                 if execution.end is None or execution.end.kind != "fails":
-                    used.add(min(candidates, key=lambda one: (one.replaces is not None, one.last is None, one.last)))
+                    used.add(min(candidates, key=lambda one: _preference(one, start.act)))
             elif not self._relation_requires(execution):
                 yield Fault("not required", start.at, (execution.name,), None, start)
 
@@ -182,6 +182,15 @@ class _CourseJudgement:
         after = -1 if replaced is None or replaced.last is None else replaced.last
         return self.fulfilment.is_done(one, execution.place, execution.start.act, after)
 
+    def _is_of_clause(self, one: Requirement, execution: Execution) -> bool:
+        """Whether the code of a clause runs as a whole as its windows open, because something else of it is due."""
+        return execution.start.at == one.first and any(
+            other.start.act == execution.start.act and not self._is_discharged(due, other)
+            for due in self.fulfilment.requirements
+            if due.rule is one.rule and due.place == one.place and due.first == one.first and due.name != one.name
+            for other in self.fulfilment.of_name(due.name)
+        )
+
     def _relation_requires(self, execution: Execution) -> bool:
         """Whether a relation is broken without the event of an execution."""
         if execution.end is None or not any(isinstance(s, RELATIONS) for s in self.ruleset.statements):
@@ -192,6 +201,11 @@ class _CourseJudgement:
         without = tuple(one for one in self.course.happenings if one is not execution.end)
         trace = replace(self.course, happenings=without).trace()
         return len(violations(relations, trace)) > len(violations(relations, self.course.trace()))
+
+
+def _preference(one: Requirement, act: int) -> tuple[object, ...]:
+    """An execution counts for what its own act requires, then for what is due first."""
+    return one.replaces is not None, one.act != act, one.last is None, one.last
 
 
 def _with_triggers_apart(ruleset: Ruleset, names: frozenset[str]) -> Ruleset:
