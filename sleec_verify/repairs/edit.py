@@ -49,6 +49,16 @@ def in_order(edits: Iterable[TextEdit]) -> list[TextEdit]:
     return ordered
 
 
+def inverse(text: str, edits: Sequence[TextEdit]) -> list[TextEdit]:
+    """The edits that change the edited text back to `text`. `edits` are in the order of the text."""
+    back = []
+    shift = 0
+    for start, end, new in edits:
+        back.append(TextEdit(start + shift, start + shift + len(new), text[start:end]))
+        shift += len(new) - (end - start)
+    return back
+
+
 def edits_between(old: str, new: str) -> tuple[TextEdit, ...]:
     """Edits of whole lines that change `old` to `new`, each without the characters that its ends share."""
     before, after = old.splitlines(keepends=True), new.splitlines(keepends=True)

@@ -3,28 +3,23 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Callable, Container, Hashable, Sequence
+from dataclasses import replace
 
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, parse_source
-from sleec_runtime.model import Ruleset
+from sleec_runtime.model import Rule, Ruleset
 from sleec_verify.checks import Checking
+from sleec_verify.checks.conflict import CONFLICT
 from sleec_verify.encoding.trace_scope import Untimed
-from sleec_verify.repairs.edit import OffsetMap, edited, in_order
+from sleec_verify.repairs.edit import OffsetMap, edited, in_order, inverse
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.results.finding import CheckResult, Finding, Unknown
 
-Identity = tuple[str, tuple[str, ...], tuple[str, ...]]
-"""A finding by its code, its rules and its obligations. Clauses do not count: a repair may add or remove one."""
-
-_ABOUT: Mapping[str, int] = {
-    "SLEEC102": 1,
-    "SLEEC104": 0,
-    "SLEEC105": 0,
-    "SLEEC107": 1,
-    "SLEEC301": 1,
-}
-"""How many of its rules a finding is about. The others explain it; another explanation is not another finding."""
+Identity = tuple[Hashable, ...]
+"""What makes a finding the same before and after a change. A conflict is known by its rules and obligations: a repair
+may add or remove clauses. Any other finding is known by its place, because the rules that it names may be only those
+of the situation that it shows."""
 
 
 class Rejected(Exception):
@@ -58,8 +53,7 @@ class Verification:
         self._is_read_otherwise = parse_source(ruleset.source).reading != ruleset.reading
         self._names = [result.name for result in results]
         self._unknown = {result.name for result in results if isinstance(result.verdict, Unknown)}
-        self._found = Counter(_identity(f, {}) for result in results for f in result.findings)
-        self._at = {rule.span.start: rule.label for rule in ruleset.rules}
+        self._found = Counter(_identity(f, f.span.start) for result in results for f in result.findings)
 
     def repaired(self, finding: Finding, candidate: Candidate) -> Ruleset:
         """The rules after the change, if the checks show that `finding` is gone and that no other appeared.
@@ -69,41 +63,74 @@ class Verification:
         Raises:
             Rejected: the change is not a repair, or it cannot be shown to be one.
         """
+        source = self._ruleset.source
         edits = in_order(candidate.edits)
         try:
-            new = parse(edited(self._ruleset.source.text, edits), self._ruleset.source.path)
+            new = parse(edited(source.text, edits), source.path)
         except LanguageError as error:
             raise Rejected(f"the text is not a ruleset: {error.problems[0].message}") from None
         if self._is_read_otherwise:
             new = new.read_as(self._ruleset.reading)
-        labels = self._labels(new, OffsetMap(edits))
-        target = _identity(finding, {})
+        places = _Places(self._ruleset, new, OffsetMap(inverse(source.text, edits)))
+        target = _identity(finding, finding.span.start)
         allowed = self._found - Counter((target,))
 
         def examine(one: Finding, others: Container[Identity] = ()) -> None:
-            identity = _identity(one, labels)
+            identity = places.identity(one)
             if identity in others or not allowed[identity]:
                 why = "the finding stays" if identity == target else f"{one.code} appears: {one.message}"
                 raise Rejected(why, new, one)
 
-        checking = Checking(new, self._domain, self._untimed, chains=self._chains, seen=examine)
+        if finding.check == CONFLICT.name:
+            # Rules that contradict each other on their own do so among other rules, with rare exceptions. This small
+            # question rejects most candidates.
+            alone = self._checking(places.only(finding.rules)).result(finding.check)
+            for one in alone.findings:
+                if places.identity(one) == target:
+                    examine(one)
+        checking = self._checking(new, examine)
         # The question of the finding first: it rejects most candidates.
         for names in ([finding.check], [name for name in self._names if name != finding.check]):
             for result in checking.results(names):
                 if isinstance(result.verdict, Unknown) and result.name not in self._unknown:
                     raise Rejected(f"the check {result.name} of the changed text is unknown: {result.verdict.why}")
-                more = Counter(_identity(one, labels) for one in result.findings) - allowed
+                more = Counter(places.identity(one) for one in result.findings) - allowed
                 for one in result.findings:
                     examine(one, more)
         return new
 
-    def _labels(self, new: Ruleset, offsets: OffsetMap) -> Mapping[str, str]:
-        """The earlier label of each rule: a rule without a label is called by its number, which may change."""
-        places = {offsets.after(start): label for start, label in self._at.items()}
-        return {rule.label: places[rule.span.start] for rule in new.rules if rule.span.start in places}
+    def _checking(self, ruleset: Ruleset, examine: Callable[[Finding], None] | None = None) -> Checking:
+        return Checking(ruleset, self._domain, self._untimed, chains=self._chains, seen=examine)
 
 
-def _identity(finding: Finding, labels: Mapping[str, str]) -> Identity:
-    about = finding.rules[: _ABOUT.get(finding.code)]
-    rules = tuple(sorted(labels.get(rule, rule) for rule in about))
-    return finding.code, rules, tuple(sorted(finding.obligations))
+class _Places:
+    """The changed rules with the labels and places that they had before the change."""
+
+    def __init__(self, old: Ruleset, new: Ruleset, back: OffsetMap) -> None:
+        self._back = back
+        self._new = new
+        # A rule without a label is called by its number, which may change.
+        before = {rule.span.start: rule.label for rule in old.rules}
+        self._labels = {
+            rule.label: before[start] for rule in new.rules if (start := back.after(rule.span.start)) in before
+        }
+
+    def identity(self, finding: Finding) -> Identity:
+        """The identity of a finding of the new rules as one of the old rules."""
+        rules = tuple(map(self._label, finding.rules))
+        start = self._back.after(finding.span.start)
+        return _identity(replace(finding, rules=rules), start)
+
+    def only(self, kept: Container[str]) -> Ruleset:
+        """The new ruleset with only those rules whose earlier labels are `kept`."""
+        rules = (one for one in self._new.statements if not isinstance(one, Rule) or self._label(one.label) in kept)
+        return replace(self._new, statements=tuple(rules))
+
+    def _label(self, label: str) -> str:
+        return self._labels.get(label, label)
+
+
+def _identity(finding: Finding, start: int | None) -> Identity:
+    if finding.check == CONFLICT.name:
+        return finding.code, tuple(sorted(finding.rules)), tuple(sorted(finding.obligations))
+    return finding.code, start
