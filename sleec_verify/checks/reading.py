@@ -204,8 +204,7 @@ READING = Check(
             "with `READING cascade` or `READING priority`.",
             "At the top of the text, write the reading that you mean: `READING cascade` or `READING priority`. If "
             "other tools read the rule, write it so that both readings agree: repeat the condition of each exception "
-            "in the next one, as below. If no exception depends on another one, write a rule for each: docs/language.md "
-            "describes exceptions that do not depend on each other.",
+            "in the next one, as below. docs/language.md shows exceptions that do not depend on each other.",
             "WHEN HumanOnFloor THEN CallEmergencyServices\n"
             "UNLESS UserResponsive IN WHICH CASE AskForUserStatus\n"
             "UNLESS UserWithCompanion IN WHICH CASE AskCompanionToCheck\n",

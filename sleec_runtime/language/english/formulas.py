@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from typing import NoReturn
 
 from sleec_runtime.errors import Problem
 from sleec_runtime.language.common.comparisons import MAX_DIGITS, OPERATORS, Side
-from sleec_runtime.language.common.formula_parser import FormulaParser
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.tokens import Tokens
 from sleec_runtime.language.english.comparisons import EnglishComparisons
 from sleec_runtime.language.english.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
 from sleec_runtime.language.english.name_resolution import EnglishNames
-from sleec_runtime.language.english.phrases import EnglishPhraseParser
+from sleec_runtime.language.english.worded_conditions import EnglishWordedConditionParser
 from sleec_runtime.model import Atom, Formula, Rational, Source, Span, Truth
 
 _DECIMAL_COMMA = re.compile(r"-?[0-9]+,[0-9]+")
@@ -22,14 +20,14 @@ _THOUSANDS = re.compile(r"-?[1-9][0-9]{0,2},[0-9]{3}")
 _BOOLEAN_HINT = "a condition is true or false by itself: write its name alone, or NOT and its name"
 
 
-class EnglishConditionParser(EnglishPhraseParser, FormulaParser):
+class EnglishConditionParser(EnglishWordedConditionParser):
     """Reads conditions. `resolve` makes an atom of a name; what a name means depends on the statement."""
 
     def __init__(self, source: Source, tokens: Tokens, problems: list[Problem], names: EnglishNames) -> None:
         super().__init__(source, tokens, problems)
         self.names = names
-        self._compare = EnglishComparisons(names).comparison
-        self.resolve: Callable[[str, Span], Atom] = names.condition
+        self.compare = EnglishComparisons(names).comparison
+        self.resolve = names.condition
 
     def leaf(self) -> Formula:
         first = self.at
@@ -49,6 +47,10 @@ class EnglishConditionParser(EnglishPhraseParser, FormulaParser):
             truth = self._truth(first)
             if truth is not None:
                 return truth
+        if self.kinds[first + 1] in PHRASE:
+            worded = self.worded_condition(first)
+            if worded is not None:
+                return worded
         name = self.name("a condition")
         if not name:
             return self.operand()
@@ -93,7 +95,7 @@ class EnglishConditionParser(EnglishPhraseParser, FormulaParser):
             )
         if self.has_failed:
             return Truth(True, span)
-        return self._compare(left, operator, right, span)
+        return self.compare(left, operator, right, span)
 
     def side(self, what: str, hint: str) -> Side:
         first = self.at

@@ -43,6 +43,13 @@ class EnglishNames(SymbolTable):
     def declare(self, kind: Kind, name: str, span: Span) -> None:
         self._declared[kind].setdefault(name, span)
 
+    def is_declared(self, kind: Kind, name: str) -> bool:
+        return name in self._declared[kind]
+
+    def is_condition(self, name: str) -> bool:
+        """Whether a condition or a trigger of this name is declared, or triggers a rule."""
+        return self.is_declared("condition", name) or self.is_declared("trigger", name) or name in self.triggers
+
     def declare_event(self, name: str, span: Span, agent: Agent | None) -> None:
         """Declares an event, which may be a trigger and an obligation. All declarations must name the same agent."""
         first, other = self._events.setdefault(name, (span, agent))
@@ -163,7 +170,7 @@ class EnglishNames(SymbolTable):
 
     def condition(self, name: str, span: Span) -> Atom:
         """A leaf of a guard or an exception: an event if the name is a trigger, else a condition."""
-        if name in self.triggers or name in self._declared["trigger"]:
+        if name in self.triggers or self.is_declared("trigger", name):
             return self._atom("trigger", name, span)
         return self._atom("condition", name, span)
 

@@ -47,6 +47,10 @@ class EnglishPhraseParser(EnglishCursor):
             last += 1
         return self.joined_name(token, last)
 
+    def small_word(self, token: int) -> str:
+        """The token in lowercase, with a straight apostrophe, to compare it with words of English."""
+        return self.token_text(token).casefold().replace("\u2019", "'")
+
     def refuse_name(self, what: str, hint: str | None) -> NoReturn:
         """Gives up because `what` cannot start with the token at hand."""
         kind = self.kinds[self.at]

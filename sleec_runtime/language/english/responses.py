@@ -7,11 +7,13 @@ and for a choice after IN WHICH CASE.
 
 from __future__ import annotations
 
+from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.token_cursor import ALTERNATIVE_LEVELS, MAX_DEPTH
-from sleec_runtime.language.english.keywords import ALTERNATIVES, IN_WHICH_CASE, STATEMENTS
+from sleec_runtime.language.english.keywords import ALTERNATIVES, IN_WHICH_CASE, PHRASE, STATEMENTS
+from sleec_runtime.language.english.modal_verbs import STARTS, modal_verb
 from sleec_runtime.language.english.phrases import OBLIGATION
 from sleec_runtime.language.english.windows import EnglishTimeParser
-from sleec_runtime.model import Clause, Obligation, Timing
+from sleec_runtime.model import Clause, Obligation, Span, Timing
 from sleec_runtime.support.suggestions import edit_distance
 
 RULE_STOPS = STATEMENTS | {"UNLESS"}
@@ -143,6 +145,9 @@ class EnglishResponseParser(EnglishTimeParser):
         at_name = self.at
         if self.kinds[at_name] != "word":
             self.refuse_name(OBLIGATION, self._hint_at_obligation())
+        if not negated and self.small_word(at_name) in STARTS:
+            negated = self._modal_verb()
+            at_name = self.at
         name = self.name(OBLIGATION)
         if not name:
             return self._literal()
@@ -151,6 +156,27 @@ class EnglishResponseParser(EnglishTimeParser):
             self.names.use("obligation", name, span)
         timed = self._timed(name, negated, first) if self.kinds[self.at] in _BEHIND_A_NAME else None
         return timed or Obligation(name, negated, self.span(first) if negated else span)
+
+    def _modal_verb(self) -> bool:
+        """Skips a modal verb before the name, unless the phrase is a declared name. Whether it forbids the
+        obligation."""
+        first = self.at
+        if self.names.is_declared("obligation", self.name_at(first)):
+            return False
+        end = first
+        while self.kinds[end] in PHRASE or self.kinds[end] == "NOT":
+            end += 1
+        found = modal_verb([self.small_word(token) for token in range(first, min(end, first + MAX_DEPTH))])
+        if found is None:
+            return False
+        if self.kinds[first + found.words] != "word":
+            span = Span(self.starts[first], self.ends[first + found.words - 1])
+            written = quoted(self.text[span.start : span.end])
+            self.fail(
+                f"no obligation follows {written}", span, "write what the robot must do, or NOT and what it must not do"
+            )
+        self.at += found.words
+        return found.forbids
 
     def _timed(self, name: str, negated: bool, first: int) -> Obligation:
         """The obligation with the time and the alternatives at hand."""

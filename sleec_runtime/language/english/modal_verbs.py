@@ -1,0 +1,48 @@
+"""Modal verbs before an obligation, such as ``must not`` in ``THEN the robot must not leave``.
+
+A response states what is due or forbidden, so only modal verbs with that meaning are read: ``must leave`` is the
+obligation ``leave``, and ``must not leave`` is ``NOT leave``. Permissions such as ``may leave`` stay names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+_SUBJECT = ("the", "robot")
+_DUE = ("must", "shall", "should")
+_VERBS = (*_DUE, "may", "can", "will", "do", "does")
+_CONTRACTIONS = ("mustn't", "shan't", "shouldn't", "can't", "won't", "don't", "doesn't")
+
+_FORMS: tuple[tuple[tuple[str, ...], bool], ...] = (
+    *(((verb, word), True) for verb in _VERBS for word in ("not", "never")),
+    *(((word,), True) for word in ("never", "cannot", *_CONTRACTIONS)),
+    *(((verb,), False) for verb in _DUE),
+)
+"""The forms, longest first, each with whether it forbids what follows it."""
+
+STARTS = frozenset({_SUBJECT[0], *(words[0] for words, _ in _FORMS)})
+"""The first words of the forms."""
+
+_UNCLEAR = frozenset({"only", "not", "always"})
+"""Words after a form that change its meaning: ``must not only``."""
+
+
+class ModalVerb(NamedTuple):
+    """A modal verb of this many words, with the subject before it."""
+
+    words: int
+    forbids: bool
+
+
+def modal_verb(words: Sequence[str]) -> ModalVerb | None:
+    """The modal verb at the start of a phrase, in lowercase; None if there is none, or if its meaning is unclear, as in
+    ``must never not``."""
+    first = len(_SUBJECT) if tuple(words[:2]) == _SUBJECT else 0
+    for form, forbids in _FORMS:
+        end = first + len(form)
+        if tuple(words[first:end]) == form:
+            behind = words[end:]
+            is_clear = not behind or (behind[0] not in _UNCLEAR and modal_verb(behind) is None)
+            return ModalVerb(end, forbids) if is_clear else None
+    return None

@@ -1,0 +1,150 @@
+"""Forms of plain English: the table of the docs, what stays a name, and random texts with their canonical form."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sleec_runtime.errors import LanguageError
+from sleec_runtime.language import parse, print_ruleset
+from sleec_runtime.model import And
+from tests.support.paths import ROOT
+
+DECLARATIONS = "MEASURE age: number\nMEASURE danger: low < high\nMEASURE body weight: integer\nCONSTANT LegalAge = 18\n"
+PAGE = (ROOT / "docs" / "language.md").read_text(encoding="utf-8")
+TABLE = re.findall(r"^\| `((?:THEN|UNLESS|ASSUME) [^`]+)` \| `([^`]+)` \|$", PAGE, re.MULTILINE)
+
+
+def whole(part: str) -> str:
+    """A text with one part of a rule, or a statement, and the condition `it is night`."""
+    rest = "\nWHEN b THEN y\nUNLESS it is night\n"
+    if part.startswith("THEN"):
+        return f"{DECLARATIONS}WHEN a {part}{rest}"
+    return f"{DECLARATIONS}WHEN a THEN x\n{part}{rest}"
+
+
+def test_the_docs_have_the_forms() -> None:
+    assert len(TABLE) >= 19
+
+
+@pytest.mark.parametrize(("written", "canonical"), TABLE)
+def test_the_form_means_its_canonical_form(written: str, canonical: str) -> None:
+    ruleset = parse(whole(written))
+    assert ruleset == parse(whole(canonical))
+    printed = print_ruleset(ruleset)
+    assert canonical in printed
+    assert parse(printed) == ruleset
+    assert print_ruleset(parse(printed)) == printed
+
+
+@pytest.mark.parametrize(
+    "part",
+    [
+        "THEN may leave",
+        "THEN must not only leave",
+        "THEN the robot leaves",
+        "THEN must never not leave",
+        "THEN NOT must not leave",
+        "UNLESS the child is under 6",
+        "UNLESS age is under 6 years",
+        "UNLESS age is high",
+        "UNLESS danger is unknown",
+        "UNLESS age is never below 3",
+        "UNLESS age is not between 3 and 5",
+        "UNLESS Age is under 6",
+        "UNLESS it is not day",
+        "UNLESS it is not only night",
+    ],
+)
+def test_what_is_not_certain_stays_a_name(part: str) -> None:
+    printed = print_ruleset(parse(whole(part)))
+    assert part in printed
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "CONDITION it is night, it is not night\n\nWHEN a THEN x\nUNLESS it is not night\n",
+        "OBLIGATION never mind\n\nWHEN a THEN never mind\n",
+        "EVENT a, do not disturb\n\nWHEN a THEN do not disturb\n",
+        "MEASURE age: number\n\nCONDITION age is under 6\n\nWHEN a THEN x\nUNLESS age is under 6\n",
+        "MEASURE age: number\n\nWHEN age is under 6 THEN x\n\nWHEN b THEN y\nUNLESS age is under 6\n",
+        "WHEN it is not night THEN it is night\n",
+    ],
+)
+def test_a_declared_name_and_a_trigger_stay_names(text: str) -> None:
+    assert print_ruleset(parse(text)) == text
+
+
+@pytest.mark.parametrize(
+    ("part", "message"),
+    [
+        ("THEN must", "no obligation follows `must`"),
+        ("THEN must NEVER leave", "no obligation follows `must`"),
+        ("THEN do not", "no obligation follows `do not`"),
+        ("UNLESS danger is hihg", "`hihg` is not a value of `danger`"),
+        ("UNLESS danger is above 3", "`danger` is a scale and `3` is a number"),
+        ("UNLESS age is under 1,5", "unexpected comma in the number `1,5`"),
+    ],
+)
+def test_half_a_form_is_an_error(part: str, message: str) -> None:
+    with pytest.raises(LanguageError) as raised:
+        parse(whole(part))
+    (problem,) = raised.value.problems
+    assert problem.message.startswith(message)
+
+
+def test_the_spans_are_those_of_the_words() -> None:
+    text = whole(
+        "UNLESS b AND the age is between 3 and 5 AND it isn\u2019t night IN WHICH CASE the robot must not leave"
+    )
+    (hedge,) = parse(text).rules[0].hedges
+    assert isinstance(hedge.condition, And)
+    assert [str(text[part.span.start : part.span.end]) for part in hedge.condition.operands] == [
+        "b",
+        "age is between 3 and 5",
+        "it isn\u2019t night",
+    ]
+    (obligation,) = hedge.obligations
+    assert text[obligation.span.start : obligation.span.end] == "the robot must not leave"
+
+
+# Random texts -------------------------------------------------------------------------------------------------
+
+WORDED = st.sampled_from([row for row in TABLE if row[0].startswith("UNLESS")]).map(
+    lambda row: (row[0].removeprefix("UNLESS "), f"({row[1].removeprefix('UNLESS ')})")
+)
+CONDITIONS = st.recursive(
+    st.one_of(WORDED, st.sampled_from(["c", "the user is asleep"]).map(lambda name: (name, name))),
+    lambda inner: st.one_of(
+        inner.map(lambda pair: (f"NOT ({pair[0]})", f"NOT ({pair[1]})")),
+        st.tuples(inner, st.sampled_from(["AND", "OR"]), inner).map(
+            lambda three: tuple(f"({left}) {three[1]} ({right})" for left, right in zip(three[0], three[2]))
+        ),
+    ),
+    max_leaves=4,
+)
+RESPONSES = st.lists(
+    st.sampled_from([row for row in TABLE if row[0].startswith("THEN")]).map(
+        lambda row: tuple(part.removeprefix("THEN ") for part in row)
+    ),
+    min_size=1,
+    max_size=3,
+).map(lambda pairs: tuple(" AND ".join(parts) for parts in zip(*pairs)))
+
+
+@given(responses=st.tuples(RESPONSES, RESPONSES), conditions=st.tuples(CONDITIONS, CONDITIONS))
+def test_random_texts_with_forms_mean_their_canonical_text(responses, conditions) -> None:
+    texts = []
+    for side in (0, 1):
+        (default, response), (guard, condition) = ([pair[side] for pair in part] for part in (responses, conditions))
+        rule = f"WHEN a AND ({guard}) THEN {default}\nUNLESS {condition} IN WHICH CASE ({response})\n"
+        texts.append(f"{DECLARATIONS}CONDITION it is night, c, the user is asleep\n{rule}")
+    written, canonical = map(parse, texts)
+    assert written == canonical
+    printed = print_ruleset(written)
+    assert parse(printed) == written
+    assert print_ruleset(parse(printed)) == printed
