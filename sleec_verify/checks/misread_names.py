@@ -1,8 +1,8 @@
 """Names whose words say more than the rules know: negations, modal verbs, comparisons, opposites, keywords, variants.
 
-A phrase is one name, whatever its words mean: `the robot must not leave` is an obligation of that name. A declaration
-says that a name is meant as it is written, so declared names of structured English have no findings here. In the DSL,
-where every name is declared, only variants of one name are reported.
+A phrase is one name, unless the language reads it as a form of plain English: `the robot is not allowed to leave` is an
+obligation of that name. A declaration says that a name is meant as it is written, so declared names of structured
+English have no findings here. In the DSL, where every name is declared, only variants of one name are reported.
 """
 
 from __future__ import annotations
@@ -100,10 +100,8 @@ MISREAD_NAME = Check(
             "what its words deny. A condition with such a name is independent of the condition without the negation.",
             "Write the keyword NOT before the name without the negation. If the name is meant as it is written, "
             "declare it.",
-            "WHEN the alarm rings THEN open the door\nUNLESS it is night IN WHICH CASE wait\n"
-            "WHEN the user calls THEN answer\nUNLESS it is not night IN WHICH CASE speak loudly\n",
-            "WHEN the alarm rings THEN open the door\nUNLESS it is night IN WHICH CASE wait\n"
-            "WHEN the user calls THEN answer\nUNLESS NOT it is night IN WHICH CASE speak loudly\n",
+            "WHEN the user sleeps THEN the robot is not allowed to play music\n",
+            "WHEN the user sleeps THEN NOT play music\n",
         ),
         FindingKind(
             "SLEEC521",
@@ -113,7 +111,7 @@ MISREAD_NAME = Check(
             "action without them is a different obligation.",
             "Write only the action: THEN says that the robot must do it. If the name is meant as it is written, "
             "declare it.",
-            "WHEN the user falls THEN the robot should call the nurse\n",
+            "WHEN the user falls THEN the robot has to call the nurse\n",
             "WHEN the user falls THEN call the nurse\n",
         ),
         FindingKind(

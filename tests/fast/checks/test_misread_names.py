@@ -186,11 +186,11 @@ def test_an_event_and_a_state_may_differ_by_the_form_of_the_verb() -> None:
     assert codes(states.format("sound")) == [SIMILAR]
 
 
-DECLARED = "TRIGGER the bell rings\nCONDITION the child is under 6\nOBLIGATION do not leave, leave, leaves\n"
+DECLARED = "TRIGGER the bell rings\nCONDITION the child is under 6\nOBLIGATION not leave, leave, leaves\n"
 
 
 def test_declared_names_are_meant_as_they_are_written() -> None:
-    text = "WHEN the bell rings THEN do not leave AND leave AND leaves UNLESS the child is under 6\n"
+    text = "WHEN the bell rings THEN not leave AND leave AND leaves UNLESS the child is under 6\n"
     assert codes(text) == [NEGATION, SIMILAR, COMPARISON]
     assert not codes(DECLARED + text)
 
