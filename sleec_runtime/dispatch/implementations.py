@@ -8,24 +8,27 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from sleec_runtime.dispatch.recording import recorded
 from sleec_runtime.errors import Unbindable
-from sleec_runtime.support.messages import represent
+from sleec_runtime.support.messages import listed, represent
+from sleec_runtime.support.suggestions import nearest
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 _MARK = "__sleec_obligation__"
 _TAKES_TIME = "__sleec_takes_time__"
-_WORD_BORDER = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+_WORD_BORDER = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])|[\s-]+")
+_APOSTROPHE = re.compile("['\u2019]")
 
 
 def snake_case(name: str) -> str:
-    """The name of the method that implements obligation `name`: ``AskLegalPresence`` is ``ask_legal_presence``."""
-    return _WORD_BORDER.sub("_", name).lower()
+    """The name of the method that implements obligation `name`: ``AskLegalPresence`` is ``ask_legal_presence``, and
+    ``take the patient's coat`` is ``take_the_patients_coat``."""
+    return _WORD_BORDER.sub("_", _APOSTROPHE.sub("", name)).lower()
 
 
 def obligation(name: str, completes: bool = True) -> Callable[[F], F]:
@@ -89,6 +92,23 @@ def implementations(robot: object, obligations: Iterable[str]) -> dict[str, Call
         if callable(implementation):
             found[name] = implementation
     return found
+
+
+def sought_callables(obligations: Sequence[str], robots: Iterable[object]) -> str:
+    """For a hint: the callables that would implement `obligations`, and similar ones that `robots` have.
+    O(attributes)."""
+    sought = [snake_case(name) for name in obligations]
+    known = sorted({attribute for robot in robots for attribute in dir(robot) if _is_callable(robot, attribute)})
+    similar = {f"`{near}`" for name in sought if (near := nearest(name, known)) is not None}
+    return (
+        f"give an object with {listed(f'`{name}`' for name in sought)}, "
+        f'or with methods that are marked, such as @sleec_runtime.obligation("{obligations[0]}")'
+        + (f"; there is {listed(sorted(similar))}" if similar else "")
+    )
+
+
+def _is_callable(robot: object, attribute: str) -> bool:
+    return not attribute.startswith("_") and callable(_underlying(inspect.getattr_static(robot, attribute, None)))
 
 
 def _underlying(attribute: object) -> object:

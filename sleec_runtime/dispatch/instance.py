@@ -10,7 +10,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
-from sleec_runtime.dispatch.implementations import implementations, obligation_of, takes_time, taking_time
+from sleec_runtime.dispatch.implementations import (
+    implementations,
+    obligation_of,
+    sought_callables,
+    takes_time,
+    taking_time,
+)
 from sleec_runtime.dispatch.layered_methods import own_entries, select
 from sleec_runtime.dispatch.layers import Layers
 from sleec_runtime.dispatch.methods import Method, mark, marked_methods, refuse_misplaced
@@ -39,6 +45,7 @@ class Instance:
         self._silent: frozenset[str] = frozenset()
         self._methods: dict[str, Method] = {}
         self._callables: dict[str, Callable[..., Any]] = {}
+        self._robots: tuple[object, ...] = ()
         self.takes_time: frozenset[str] = frozenset()
         self.fitting: set[tuple[object, ...]] = set()
         self._variants: dict[tuple[str, int], tuple[Clause, Variant | None]] = {}
@@ -53,6 +60,7 @@ class Instance:
         copy._silent = self._silent
         copy._methods = dict(self._methods)
         copy._callables = dict(self._callables)
+        copy._robots = self._robots
         copy.takes_time = self.takes_time
         copy.fitting = set()
         copy._variants = {}
@@ -145,8 +153,9 @@ class Instance:
             if not found:
                 raise Unbindable(
                     f"{represent(target)} implements no obligation of the ruleset",
-                    'mark methods with @sleec_runtime.obligation("…"), or name them in snake case',
+                    sought_callables(sorted(obligations), [target]) if obligations else "its rules require nothing",
                 )
+            self._robots += (target,)
         self._callables.update(found)
         self.takes_time = self.takes_time.difference(found).union(
             name for name, function in found.items() if takes_time(function)
@@ -228,7 +237,8 @@ class Instance:
             raise NotBound(
                 f"rule `{rule.label}` has no method, and {listed(without)} ({clause_name(rule, number)}) no callable",
                 [rule.label],
-                f'mark a method with @sleec.rule("{rule.label}") and bind() its object, or implement() the obligations',
+                f'mark a method with @sleec.rule("{rule.label}") and bind() its object, or implement() the obligations'
+                f": {sought_callables(without, self._robots)}",
             )
         if not names:
             return None

@@ -65,7 +65,7 @@ class Robot:
         return f"{'' if self.module_level else 'self.'}{self._method(name)}()"
 
     def _method(self, name: str) -> str:
-        return f"does_{snake_case(name).replace(' ', '_')}" if name in self.marked else snake_case(name)
+        return f"does_{snake_case(name)}" if name in self.marked else snake_case(name)
 
     def _self(self, *more: str) -> str:
         return ", ".join(more if self.module_level else ("self", *more))

@@ -7,8 +7,10 @@ import inspect
 
 import pytest
 
-from sleec_runtime import obligation, recording
+from sleec_runtime import Sleec, obligation, recording
 from sleec_runtime.dispatch.implementations import implementations, obligation_of, snake_case, watched
+from sleec_runtime.errors import NotBound, Unbindable
+from sleec_runtime.language import parse
 
 
 @pytest.mark.parametrize(
@@ -21,6 +23,11 @@ from sleec_runtime.dispatch.implementations import implementations, obligation_o
         ("Step2Done", "step2_done"),
         ("wait", "wait"),
         ("already_snake", "already_snake"),
+        ("call the nurse", "call_the_nurse"),
+        ("Call the ICU nurse", "call_the_icu_nurse"),
+        ("take the patient's coat", "take_the_patients_coat"),
+        ("take the patient\u2019s coat", "take_the_patients_coat"),
+        ("re-open door 3", "re_open_door_3"),
     ],
 )
 def test_the_name_in_snake_case(name: str, method: str) -> None:
@@ -38,6 +45,43 @@ def test_a_marked_function_does_what_it_did() -> None:
     assert list(inspect.signature(pull).parameters) == ["far", "slowly"]
     assert obligation_of(pull) == "OpenCurtains"
     assert obligation_of(print) is None
+
+
+class Robot:
+    """Unmarked methods that implement phrases."""
+
+    def __init__(self) -> None:
+        self.done: list[str] = []
+
+    def call_nurse(self) -> None:
+        self.done.append("nurse")
+
+    def take_the_coat(self) -> None:
+        self.done.append("coat")
+
+
+PHRASES = "WHEN a guest comes THEN take the coat\nWHEN the user falls THEN call the nurse\n"
+
+
+def test_a_phrase_reaches_the_method_of_its_words() -> None:
+    sleec = Sleec(parse(PHRASES))
+    sleec.implement(robot := Robot())
+    sleec.trigger("a guest comes")
+    assert robot.done == ["coat"]
+
+
+def test_a_phrase_without_a_method_names_the_method_and_a_similar_one() -> None:
+    sleec = Sleec(parse(PHRASES))
+    sleec.implement(Robot())
+    with pytest.raises(NotBound, match=r"`call_the_nurse`.*obligation\(\"call the nurse\"\); there is `call_nurse`"):
+        sleec.trigger("the user falls")
+
+
+def test_an_object_that_implements_nothing_says_what_it_lacks() -> None:
+    with pytest.raises(Unbindable, match=r"`call_the_nurse`, `take_the_coat`, .*; there is `call_nurse`"):
+        Sleec(parse(PHRASES)).implement(type("Other", (), {"call_nurse": print})())
+    with pytest.raises(Unbindable, match="its rules require nothing"):
+        Sleec(parse("DOMAIN home\nWHEN a guest comes THEN greet\n").in_domain("ward")).implement(Robot())
 
 
 class Arm:
