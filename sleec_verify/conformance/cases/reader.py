@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 SUFFIX = ".cases.toml"
 _FILE_KEYS = {"ruleset", "sha256", "reading", "coverage", "unreachable", "case"}
-_CASE_KEYS = {"name", "when", "given", "obligations", "prohibitions", "conflict", "domain", "reaches"}
+_CASE_KEYS = {"name", "when", "given", "obligations", "prohibitions", "conflict", "domain", "reaches", "steps"}
 
 
 class CaseFile(NamedTuple):

@@ -70,8 +70,9 @@ def _tables(path: Path, where: str, entries: object, key: str, keys: set[str]) -
     if not isinstance(entries, list) or not all(isinstance(one, dict) for one in entries):
         raise SituationError(f"{key} is not a list of tables", f"write {key} = [{{ {', '.join(sorted(keys))} }}]")
     for number, table in enumerate(entries, 1):
-        check_keys(path, f"{where}: {key} {number}", table, keys)
-        yield f"{key} {number}", table
+        here = f"{key.removesuffix('s')} {number}"
+        check_keys(path, f"{where}: {here}", table, keys)
+        yield here, table
 
 
 @contextmanager
