@@ -11,6 +11,7 @@ import click
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.cached_checks import cache_of_environment
 from sleec_verify.cli.cached_checks import results as kept_or_new
+from sleec_verify.cli.fix_option import FixCommand, identifiers
 from sleec_verify.cli.inputs import files, rulesets
 from sleec_verify.cli.output import complain, report
 from sleec_verify.encoding.budget import limited
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 
 @click.command(
     "check",
+    cls=FixCommand,
     short_help="Check the rules for contradictions and other mistakes.",
     epilog="Example: sleec-verify check rulesets/ --format concise --fail-level warning",
 )
@@ -42,6 +44,15 @@ if TYPE_CHECKING:
     help="Also check whether the robot can always follow the rules, if the environment acts at most N times.",
 )
 @click.option("--fixes", is_flag=True, help="Also list the verified repairs of each finding, with their effects.")
+@click.option(
+    "--fix",
+    "fix",
+    metavar="[CODE:N]",
+    multiple=True,
+    help="Apply the repair that --fixes lists as CODE:N, or without a value all removals that change no meaning, "
+    "and check again. The file is replaced atomically.",
+)
+@click.option("--diff", "only_show", is_flag=True, help="With --fix: show the changes, and write nothing.")
 @options.fail_level
 @options.output_format(*FORMATS)
 @options.output
@@ -62,6 +73,8 @@ def command(
     scope: Scope,
     realizable: int | None,
     fixes: bool,
+    fix: tuple[str, ...],
+    only_show: bool,
     fail_level: Severity,
     form: str,
     output: str | None,
@@ -84,6 +97,12 @@ def command(
 
         require_writable(output, (path for path in files(paths) if not isinstance(path, UnusableInput)))
     cache = None if no_cache else cache_of_environment()
+    if only_show and not fix:
+        raise click.UsageError("--diff needs --fix")
+    if fix:
+        for given, option in ((watched, "--watch"), (certificate, "--certify"), (only_show and output, "--diff -o")):
+            if given:
+                raise click.UsageError(f"--fix cannot be combined with {option}")
 
     if certificate is None and (require_proved or require_tied):
         raise click.UsageError("--require-proved and --require-tied need --certify DIR")
@@ -93,6 +112,15 @@ def command(
         if watched:
             raise click.UsageError("--certify cannot be combined with --watch")
         check_free(certificate, force=False)
+
+    if fix:
+        from sleec_verify.cli.fixing import apply
+
+        chosen = identifiers(fix)
+        with nullcontext() if timeout is None else limited(timeout):
+            code = apply(paths, chosen, scope, cache, only_show)
+        if code is not None:
+            return code
 
     def once() -> int:
         found = rulesets(paths, scope.reading, scope.domain)

@@ -11,7 +11,6 @@ from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import files
 from sleec_verify.cli.output import complain, note_link, tell, write_data, write_line
 from sleec_verify.files.placement import write_whole
-from sleec_verify.report.escape import as_line
 from sleec_verify.report.outcome import UnusableInput
 from sleec_verify.results.internal_error import internal_errors_of
 from sleec_verify.results.phrases import counted
@@ -87,10 +86,6 @@ def _show(path: str, ruleset: Ruleset, laid_out: str, mode: str) -> None:
     elif mode == "check":
         write_line(f"{ruleset.source.path} is not formatted")
     else:
-        from difflib import unified_diff
-        from io import StringIO
+        from sleec_verify.cli.text_diff import show_diff
 
-        name = as_line(ruleset.source.path)
-        before, after = (StringIO(text).readlines() for text in (ruleset.source.text, laid_out))
-        for line in unified_diff(before, after, name, name):
-            write_data((line if line.endswith("\n") else line + "\n\\ No newline at end of file\n",))
+        show_diff(ruleset.source.path, ruleset.source.text, laid_out)

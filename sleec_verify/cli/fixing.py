@@ -1,0 +1,97 @@
+"""``sleec-verify check --fix``: apply repairs to files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import click
+
+from sleec_runtime.errors import SleecError
+from sleec_verify.cli import exits
+from sleec_verify.cli.cached_checks import results as kept_or_new
+from sleec_verify.cli.inputs import rulesets
+from sleec_verify.cli.output import complain, tell
+from sleec_verify.cli.text_diff import show_diff
+from sleec_verify.repairs.choice import chosen_repairs, combined
+from sleec_verify.repairs.rules_file import RulesFile
+from sleec_verify.repairs.search import RepairSearch
+from sleec_verify.repairs.simplification import simplifications
+from sleec_verify.report.outcome import CheckedRuleset, UnusableInput
+from sleec_verify.results.internal_error import internal_errors_of
+
+if TYPE_CHECKING:
+    from sleec_runtime.model import Ruleset
+    from sleec_verify.cli.cache.store import Cache
+    from sleec_verify.cli.scope import Scope
+    from sleec_verify.repairs.repair import Repair
+
+
+def apply(
+    paths: Sequence[str],
+    chosen: Sequence[tuple[str, int]],
+    scope: Scope,
+    cache: Cache | None,
+    only_show: bool,
+) -> int | None:
+    """Apply the chosen repairs, or those that keep the meaning if none is chosen. With `only_show`, write the changes
+    to standard output instead.
+
+    Returns the exit code if the command ends with this; None if the files are to be checked again.
+
+    Raises:
+        click.UsageError: repairs are chosen for several files, or standard input is to be changed.
+    """
+    found = rulesets(paths, scope.reading, scope.domain)
+    if chosen and len(found) > 1:
+        raise click.UsageError("--fix CODE:N needs exactly one file")
+    if "-" in paths and not only_show:
+        raise click.UsageError("standard input cannot be changed in place; add --diff to show the change")
+    changed = failed = 0
+    for ruleset in found:
+        try:
+            if isinstance(ruleset, UnusableInput):
+                raise ruleset.error
+            with internal_errors_of(ruleset.source.path):
+                changed += _fix_one(ruleset, chosen, scope, cache, only_show)
+        except SleecError as error:
+            complain(error)
+            failed += 1
+    if failed:
+        return exits.UNUSABLE
+    return (exits.FINDINGS if changed else exits.HOLDS) if only_show else None
+
+
+def _fix_one(
+    ruleset: Ruleset, chosen: Sequence[tuple[str, int]], scope: Scope, cache: Cache | None, only_show: bool
+) -> bool:
+    """Whether there was something to change."""
+    path = ruleset.source.path
+    repairs = list(_repairs(ruleset, chosen, scope, cache))
+    if not repairs:
+        tell(f"{path}: nothing to fix without a change of meaning")
+        return False
+    if only_show:
+        show_diff(path, ruleset.source.text, repairs[-1].repaired.source.text)
+        return True
+    file = RulesFile.of(ruleset.source)
+    for repair in repairs:
+        file = file.edited(repair.candidate.edits)
+    file.write()
+    for repair in repairs:
+        tell(f"{path}: fixed: {repair.candidate.title}")
+    return True
+
+
+def _repairs(
+    ruleset: Ruleset, chosen: Sequence[tuple[str, int]], scope: Scope, cache: Cache | None
+) -> Iterator[Repair]:
+    """The repairs, each of the text after the one before it."""
+    results = kept_or_new(ruleset, scope, cache)
+    how = scope.domain, scope.untimed, scope.chains
+    if not chosen:
+        yield from simplifications(ruleset, results, *how)
+        return
+    findings = CheckedRuleset(ruleset, results).deduplicated
+    search = RepairSearch(ruleset, results, *how)
+    yield combined(chosen_repairs(chosen, findings, search, ruleset.source.path), ruleset, results, *how)

@@ -1,0 +1,110 @@
+"""Repairs that a user chooses by their identifiers, and what several of them do together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import combinations
+
+from sleec_runtime.errors import SleecError
+from sleec_runtime.model import Ruleset
+from sleec_verify.checks import CHECKS
+from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.repairs.edit import OverlappingEdits, in_order
+from sleec_verify.repairs.effect import effect_of
+from sleec_verify.repairs.numbering import NumberedRepair, numbered_repairs
+from sleec_verify.repairs.repair import Repair
+from sleec_verify.repairs.search import RepairSearch
+from sleec_verify.repairs.verification import Rejected, Verification
+from sleec_verify.results.finding import CheckResult, Finding
+from sleec_verify.results.phrases import counted, listed
+
+ONE_BY_ONE = "nothing was written; apply one of them, check again, and choose another"
+
+
+class UnknownRepair(SleecError):
+    """An identifier that names no repair of a ruleset."""
+
+
+class IncompatibleRepairs(SleecError):
+    """Repairs that cannot be applied together."""
+
+
+def chosen_repairs(
+    identifiers: Sequence[tuple[str, int]], findings: Sequence[Finding], search: RepairSearch, path: str
+) -> list[NumberedRepair]:
+    """The repairs with these codes and numbers, each once. `findings` are in the order of the report.
+
+    Raises:
+        UnknownRepair: there is no such repair.
+    """
+    chosen = []
+    for code in dict.fromkeys(code for code, _ in identifiers):
+        of_code = [finding for finding in findings if finding.code == code]
+        if not of_code:
+            raise _unknown_code(code, path)
+        repairs = [one for found in numbered_repairs(of_code, search) for one in found.repairs]
+        for number in dict.fromkeys(number for named, number in identifiers if named == code):
+            if number > len(repairs):
+                raise UnknownRepair(
+                    f"there is no repair {code}:{number}: {path} has {counted(len(repairs), 'repair')} for {code}",
+                    "`sleec-verify check --fixes` lists the repairs",
+                )
+            chosen.append(repairs[number - 1])
+    return chosen
+
+
+def _unknown_code(code: str, path: str) -> UnknownRepair:
+    codes = [kind.code for check in CHECKS.values() for kind in check.kinds]
+    if code in codes:
+        return UnknownRepair(
+            f"{path} has no finding with the code {code}", "`sleec-verify check` lists the findings of the file"
+        )
+    return UnknownRepair(f"no finding has the code {code}", "`sleec-verify rules` lists the codes")
+
+
+def combined(
+    chosen: Sequence[NumberedRepair],
+    ruleset: Ruleset,
+    results: Sequence[CheckResult],
+    domain: str | None = None,
+    untimed: Untimed = "at",
+    chains: bool = True,
+) -> Repair:
+    """The repairs of `ruleset` as one, verified together if they are several: each is only verified on its own.
+
+    Costs a check for each of several repairs.
+
+    Raises:
+        IncompatibleRepairs: two of them repair the same finding or change the same part of the text; or together, they
+            are not a repair, or change a meaning that each of them keeps.
+    """
+    first = chosen[0].repair
+    if len(chosen) == 1:
+        return first
+    for one, other in combinations(chosen, 2):
+        _require_apart(one, other)
+    edits = tuple(in_order(edit for one in chosen for edit in one.repair.candidate.edits))
+    title = "; ".join(one.repair.candidate.title for one in chosen)
+    joint = replace(first.candidate, title=title, edits=edits)
+    verification = Verification(ruleset, results, domain, untimed, chains)
+    together = f"together, {listed(one.identifier for one in chosen)}"
+    try:
+        for one in chosen:
+            repaired = verification.repaired(one.repair.finding, joint)
+    except Rejected as rejected:
+        raise IncompatibleRepairs(f"{together} are not a repair: {rejected}", ONE_BY_ONE) from None
+    effect = effect_of(ruleset, repaired, domain, untimed)
+    if not effect.keeps_meaning and all(one.repair.effect.keeps_meaning for one in chosen):
+        raise IncompatibleRepairs(f"{together} change the meaning, which each of them keeps", ONE_BY_ONE)
+    return Repair(first.finding, joint, effect, repaired)
+
+
+def _require_apart(one: NumberedRepair, other: NumberedRepair) -> None:
+    both = f"{one.identifier} and {other.identifier}"
+    if one.repair.finding is other.repair.finding:
+        raise IncompatibleRepairs(f"{both} repair the same finding", "nothing was written; choose one of them")
+    try:
+        in_order((*one.repair.candidate.edits, *other.repair.candidate.edits))
+    except OverlappingEdits:
+        raise IncompatibleRepairs(f"{both} change the same part of the text", ONE_BY_ONE) from None

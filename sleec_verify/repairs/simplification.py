@@ -1,0 +1,42 @@
+"""Repairs that change no meaning: the text says the same without what they remove."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from sleec_runtime.model import Ruleset
+from sleec_verify.checks import run_checks
+from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.repairs.operators import REMOVALS
+from sleec_verify.repairs.repair import Repair
+from sleec_verify.repairs.search import RepairSearch
+from sleec_verify.results.finding import CheckResult
+
+CODES = frozenset((*REMOVALS, "SLEEC509"))
+"""The findings that are repaired without a question, if the repair keeps the meaning."""
+
+
+def simplifications(
+    ruleset: Ruleset,
+    results: Sequence[CheckResult],
+    domain: str | None = None,
+    untimed: Untimed = "at",
+    chains: bool = True,
+) -> Iterator[Repair]:
+    """Repairs that change no meaning: each is one of the rules after the repair before it, until there are no more.
+
+    One at a time, because a repair may make another one wrong: of two equal rules, each is redundant as long as the
+    other is there. The last of them goes first. `results` are those of `ruleset`, made with the same options. Each
+    repair costs some checks.
+    """
+    while True:
+        search = RepairSearch(ruleset, results, domain, untimed, chains)
+        findings = [finding for result in results for finding in result.findings if finding.code in CODES]
+        ordered = sorted(findings, key=lambda finding: finding.span, reverse=True)
+        kept = (one for finding in ordered for one in search.repairs(finding) if one.effect.keeps_meaning)
+        repair = next(kept, None)
+        if repair is None:
+            return
+        yield repair
+        ruleset = repair.repaired
+        results = run_checks(ruleset, None, domain, untimed=untimed, chains=chains)

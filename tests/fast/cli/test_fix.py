@@ -1,0 +1,273 @@
+"""`check --fix` applies repairs, and changes nothing else of a file."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import stat
+from pathlib import Path
+
+import pytest
+
+from sleec_verify.repairs.search import RepairSearch
+from tests.support.cli import Cli
+
+CONFLICT = """\
+RULE privacy // because
+WHEN CurtainsRequested THEN OpenCurtains
+UNLESS UserUndressed IN WHICH CASE NOT OpenCurtains
+RULE air
+WHEN CurtainsRequested AND RoomStuffy THEN OpenCurtains AND OpenWindow
+"""
+DEAD = "UNLESS Night AND NOT Night IN WHICH CASE Wait\n"
+TWO = f"{CONFLICT}RULE quiet\nWHEN Bell THEN NOT Speak\nRULE call\nWHEN Bell AND Storm THEN Speak\n"
+
+
+SHORTER = "remove `OpenCurtains` from rule `air`"
+"""The title of a repair of `CONFLICT`."""
+
+
+def identifiers(cli: Cli, title: str, text: str) -> list[str]:
+    """The repairs of `text` with this title."""
+    (ruleset,) = json.loads(cli("check", "--fixes", "--format", "json", "a.sleec", files={"a.sleec": text}).out)[
+        "rulesets"
+    ]
+    repairs = [repair for finding in ruleset["findings"] for repair in finding.get("repairs", ())]
+    return [repair["id"] for repair in repairs if repair["title"] == title]
+
+
+def test_the_numbered_repair_is_applied_and_the_rest_is_checked_again(cli: Cli, tmp_path: Path) -> None:
+    (name,) = identifiers(cli, SHORTER, CONFLICT)
+    ran = cli("check", "--fix", name, "a.sleec")
+    assert ran.code == 0
+    assert ran.err == f"a.sleec: fixed: {SHORTER}\n"
+    assert ran.out.endswith("checks passed (reading cascade; 2 rules, 1 exception)\n")
+    assert (tmp_path / "a.sleec").read_text() == CONFLICT.replace("OpenCurtains AND OpenWindow", "OpenWindow")
+
+
+def test_every_listed_repair_can_be_applied(cli: Cli, tmp_path: Path) -> None:
+    listed = cli("check", "--fixes", "--format", "concise", "a.sleec", files={"a.sleec": TWO}).out.count("SLEEC101:")
+    for number in range(1, listed + 1):
+        ran = cli("check", "--fix", f"sleec101:{number}", "a.sleec", files={"a.sleec": TWO})
+        assert ran.out.count("error[SLEEC101]") == 1
+        assert (tmp_path / "a.sleec").read_text() != TWO
+
+
+def test_several_repairs_at_once(cli: Cli) -> None:
+    names = [*identifiers(cli, SHORTER, TWO), identifiers(cli, "remove rule `call`", TWO)[0]]
+    ran = cli("check", "--fix", names[0], "--fix", names[1], "a.sleec", files={"a.sleec": TWO})
+    assert ran.code == 0
+    assert ran.err == f"a.sleec: fixed: {SHORTER}; remove rule `call`\n"
+
+
+BYTES = {
+    "byte order mark": "\ufeff" + TWO,
+    "Windows line breaks": TWO.replace("\n", "\r\n"),
+    "old Mac line breaks": TWO.replace("\n", "\r"),
+    "mixed line breaks": TWO.replace("because\n", "because\r\n").replace("Window\n", "Window\r"),
+    "no line break at the end": TWO.rstrip(),
+    "other letters": TWO.replace("because", "weil es so schön ist 🌅"),
+    "all": "\ufeff" + TWO.replace("because", "schön 🌅").replace("\n", "\r\n").rstrip(),
+}
+
+
+@pytest.mark.parametrize("kind", BYTES)
+def test_all_other_bytes_stay(kind: str, cli: Cli, tmp_path: Path) -> None:
+    path = tmp_path / "a.sleec"
+    before = BYTES[kind]
+    path.write_bytes(before.encode())
+    (name,) = identifiers(cli, SHORTER, TWO)
+    path.write_bytes(before.encode())
+    assert cli("check", "--fix", name, "a.sleec").code == 1
+    assert path.read_bytes() == before.replace("OpenCurtains AND OpenWindow", "OpenWindow").encode()
+
+
+@pytest.mark.parametrize(
+    ("kind", "line_break"), [("Windows line breaks", "\r\n"), ("old Mac line breaks", "\r"), ("byte order mark", "\n")]
+)
+def test_new_lines_end_as_the_others(kind: str, line_break: str, cli: Cli, tmp_path: Path) -> None:
+    path = tmp_path / "a.sleec"
+    (name,) = identifiers(cli, "add to rule `air`: `UNLESS UserUndressed IN WHICH CASE OpenWindow`", TWO)
+    path.write_bytes(BYTES[kind].encode())
+    cli("check", "--fix", name, "a.sleec")
+    added = f"AND OpenWindow{line_break}UNLESS UserUndressed IN WHICH CASE OpenWindow{line_break}"
+    assert path.read_bytes().decode() == BYTES[kind].replace(f"AND OpenWindow{line_break}", added)
+
+
+def test_fix_alone_applies_what_changes_no_meaning(cli: Cli, tmp_path: Path) -> None:
+    text = f"{TWO}{DEAD}RULE again\nWHEN Bell AND Storm THEN Speak\n"
+    ran = cli("check", "--fix", "a.sleec", files={"a.sleec": text})
+    assert ran.code == 1
+    assert "SLEEC101" in ran.out
+    assert "SLEEC202" not in ran.out
+    assert (tmp_path / "a.sleec").read_text() == TWO
+    assert len(ran.err.splitlines()) == 2
+
+
+def test_one_of_two_equal_rules_stays(cli: Cli, tmp_path: Path) -> None:
+    text = "RULE a\nWHEN Bell THEN Speak\nRULE b\nWHEN Bell AND Storm THEN Speak\nRULE c\nWHEN Bell THEN Speak\n"
+    assert cli("check", "--fix", "a.sleec", files={"a.sleec": text}).code == 0
+    assert (tmp_path / "a.sleec").read_text() == "RULE a\nWHEN Bell THEN Speak\n"
+
+
+def test_fix_alone_stops_when_nothing_is_left(cli: Cli, tmp_path: Path) -> None:
+    path = tmp_path / "a.sleec"
+    ran = cli("check", "--fix", "a.sleec", files={"a.sleec": CONFLICT})
+    assert ran.err == "a.sleec: nothing to fix without a change of meaning\n"
+    assert ran.code == 1
+    assert path.read_text() == CONFLICT
+
+
+def test_fix_changes_several_files(cli: Cli, tmp_path: Path) -> None:
+    files = {"a.sleec": CONFLICT + DEAD, "b.sleec": "WHEN", "c.sleec": CONFLICT + DEAD}
+    ran = cli("check", "--fix", ".", files=files)
+    assert ran.code == 2
+    assert (tmp_path / "a.sleec").read_text() == (tmp_path / "c.sleec").read_text() == CONFLICT
+    assert (tmp_path / "b.sleec").read_text() == "WHEN"
+
+
+def test_diff_shows_and_writes_nothing(cli: Cli, tmp_path: Path) -> None:
+    ran = cli("check", "--fix", "--diff", "a.sleec", files={"a.sleec": CONFLICT + DEAD})
+    assert ran.code == 1
+    assert ran.out.endswith(f"-{DEAD}")
+    assert (tmp_path / "a.sleec").read_text() == CONFLICT + DEAD
+    assert cli("check", "--fix", "--diff", "b.sleec", files={"b.sleec": CONFLICT}).code == 0
+
+
+def test_a_link_stays_and_rights_stay(cli: Cli, tmp_path: Path) -> None:
+    target = tmp_path / "there" / "a.sleec"
+    target.parent.mkdir()
+    target.write_text(CONFLICT + DEAD)
+    target.chmod(0o640)
+    (tmp_path / "link.sleec").symlink_to(target)
+    cli("check", "--fix", "link.sleec")
+    assert (tmp_path / "link.sleec").is_symlink()
+    assert target.read_text() == CONFLICT
+    assert stat.S_IMODE(target.stat().st_mode) == 0o640
+    assert os.listdir(target.parent) == ["a.sleec"]
+
+
+def test_standard_input_is_only_shown(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO((CONFLICT + DEAD).encode())))
+    assert "standard input cannot be changed in place; add --diff" in cli("check", "--fix", "-").err
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO((CONFLICT + DEAD).encode())))
+    assert cli("check", "--fix", "--diff", "-").out.endswith(f"-{DEAD}")
+
+
+REFUSED = [
+    (("--fix", "SLEEC101:99"), "there is no repair SLEEC101:99: a.sleec has "),
+    (("--fix", "SLEEC301:1"), "a.sleec has no finding with the code SLEEC301"),
+    (("--fix", "SLEEC999:1"), "no finding has the code SLEEC999"),
+    (("--fix", "SLEEC503:1"), "there is no repair SLEEC503:1: a.sleec has no repairs for SLEEC503"),
+    (("--fix", "SLEEC101"), "--fix SLEEC101: write the code and the number of a repair, such as SLEEC101:1"),
+    (("--fix", "SLEEC101:0"), "--fix SLEEC101:0: write the code"),
+    (("--fix=3",), "--fix 3: write the code"),
+    (("--fix", "SLEEC101:1", "--fix", "SLEEC101:2"), "SLEEC101:1 and SLEEC101:2 repair the same finding"),
+    (("--fix", "--fix", "SLEEC101:1"), "--fix without a value cannot be combined with --fix CODE:N"),
+    (("--fix", "--watch"), "--fix cannot be combined with --watch"),
+    (("--fix", "--certify", "folder"), "--fix cannot be combined with --certify"),
+    (("--fix", "--diff", "-o", "file"), "--fix cannot be combined with --diff -o"),
+    (("--diff",), "--diff needs --fix"),
+    (("--fix", "SLEEC101:1", "b.sleec"), "--fix CODE:N needs exactly one file"),
+]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"), REFUSED, ids=lambda one: " ".join(one) if isinstance(one, tuple) else ""
+)
+def test_what_is_refused_writes_nothing(options: tuple[str, ...], message: str, cli: Cli, tmp_path: Path) -> None:
+    text = f"{CONFLICT}UNLESS Storm\n"
+    ran = cli("check", *options, "a.sleec", files={"a.sleec": text, "b.sleec": text})
+    assert ran.code == 2
+    assert message in ran.err
+    assert "Traceback" not in ran.err
+    assert ran.out == ""
+    assert (tmp_path / "a.sleec").read_text() == (tmp_path / "b.sleec").read_text() == text
+    assert sorted(os.listdir(tmp_path)) == ["a.sleec", "b.sleec"]
+
+
+def test_repairs_of_the_same_text_overlap(cli: Cli, tmp_path: Path) -> None:
+    text = "RULE a\nWHEN Bell THEN Speak\nRULE b\nWHEN Bell THEN NOT Speak AND Wave\nRULE c\nWHEN Bell THEN NOT Wave\n"
+    names = [name for name in identifiers(cli, "remove rule `b`", text) if name.startswith("SLEEC101:")]
+    assert len(names) == 2
+    ran = cli("check", "--fix", names[0], "--fix", names[1], "a.sleec")
+    assert ran.code == 2
+    assert f"{names[0]} and {names[1]} change the same part of the text" in ran.err
+    assert (tmp_path / "a.sleec").read_text() == text
+
+
+@pytest.mark.parametrize(
+    ("rest", "why"),
+    [("", "are not a repair"), ("RULE c\nWHEN Bell THEN Wave\n", "change the meaning, which each of them keeps")],
+)
+def test_repairs_that_do_not_go_together(rest: str, why: str, cli: Cli, tmp_path: Path) -> None:
+    text = f"RULE a\nWHEN Bell THEN Speak\nRULE b\nWHEN Bell THEN Speak\n{rest}"
+    (one,), (other,) = (identifiers(cli, f"remove rule `{label}`", text)[:1] for label in "ab")
+    ran = cli("check", "--fix", one, "--fix", other, "a.sleec")
+    assert ran.code == 2
+    assert f"together, {one} and {other} {why}" in ran.err
+    assert (tmp_path / "a.sleec").read_text() == text
+
+
+def test_a_file_that_changes_meanwhile_is_kept(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "a.sleec"
+    search = RepairSearch.repairs
+
+    def meanwhile(*arguments: object) -> object:
+        path.write_text("// mine\n" + CONFLICT)
+        return search(*arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(RepairSearch, "repairs", meanwhile)
+    ran = cli("check", "--fix", "SLEEC101:1", "a.sleec", files={"a.sleec": CONFLICT})
+    assert ran.code == 2
+    assert "a.sleec was changed since the check" in ran.err
+    assert path.read_text() == "// mine\n" + CONFLICT
+
+
+def test_a_file_that_vanishes_meanwhile(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    search = RepairSearch.repairs
+
+    def meanwhile(*arguments: object) -> object:
+        (tmp_path / "a.sleec").unlink()
+        return search(*arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(RepairSearch, "repairs", meanwhile)
+    ran = cli("check", "--fix", "SLEEC101:1", "a.sleec", files={"a.sleec": CONFLICT})
+    assert ran.code == 2
+    assert "a.sleec cannot be read: No such file or directory" in ran.err
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_read_only_file_is_kept(cli: Cli, tmp_path: Path) -> None:
+    path = tmp_path / "a.sleec"
+    path.write_text(CONFLICT)
+    path.chmod(0o444)
+    ran = cli("check", "--fix", "SLEEC101:1", "a.sleec")
+    assert ran.code == 2
+    assert "a.sleec is read-only" in ran.err
+    assert path.read_text() == CONFLICT
+
+
+def test_a_failing_write_keeps_the_file(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr("os.replace", fail)
+    ran = cli("check", "--fix", "SLEEC101:1", "a.sleec", files={"a.sleec": CONFLICT})
+    assert ran.code == 2
+    assert "a.sleec cannot be written: Permission denied" in ran.err
+    assert os.listdir(tmp_path) == ["a.sleec"]
+
+
+def test_a_file_that_is_not_a_ruleset(cli: Cli, tmp_path: Path) -> None:
+    ran = cli("check", "--fix", "SLEEC101:1", "a.sleec", files={"a.sleec": "WHEN"})
+    assert ran.code == 2
+    assert "a.sleec:1:5" in ran.err
+    assert (tmp_path / "a.sleec").read_text() == "WHEN"
+
+
+@pytest.mark.parametrize("words", [("--fix", "a.sleec"), ("a.sleec", "--fix"), ("--fix", "--", "a.sleec")])
+def test_a_path_may_follow_fix(words: tuple[str, ...], cli: Cli, tmp_path: Path) -> None:
+    assert cli("check", *words, files={"a.sleec": CONFLICT + DEAD}).code == 1
+    assert (tmp_path / "a.sleec").read_text() == CONFLICT
