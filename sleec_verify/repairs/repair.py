@@ -24,6 +24,7 @@ Operator = Literal[
     "rule-decomposition",
     "rule-removal",
     "declaration-removal",
+    "claim-removal",
     "assumption",
     "correction",
     "renaming",

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from sleec_runtime.language import parse
-from sleec_runtime.model import Ruleset
+from sleec_runtime.model import Rule, Ruleset, Statement
 from sleec_verify.checks import run_checks
 from sleec_verify.repairs.edit import edited
 from sleec_verify.repairs.repair import Repair
@@ -44,12 +45,17 @@ def assert_is_repair(ruleset: Ruleset, results: Sequence[CheckResult], repair: R
     assert after[repair.finding.code] < before[repair.finding.code], repair.candidate.title
     assert not after - before, repair.candidate.title
     kept = [
-        statement
+        _unnumbered(statement)
         for statement in ruleset.statements
         if not any(edit.start <= statement.span.end and statement.span.start <= edit.end for edit in edits)
     ]
-    rest = iter(new.statements)
+    rest = map(_unnumbered, new.statements)
     assert all(any(statement == other for other in rest) for statement in kept), repair.candidate.title
+
+
+def _unnumbered(statement: Statement) -> Statement:
+    """A rule without the label that is only its number, which changes if a rule before it is removed."""
+    return replace(statement, label="") if isinstance(statement, Rule) and not statement.labelled else statement
 
 
 def texts_after(text: str, repairs: Sequence[Repair]) -> list[str]:

@@ -6,7 +6,9 @@ from collections.abc import Callable, Iterator, Mapping
 
 from sleec_runtime.model import Ruleset
 from sleec_verify.repairs.operators.concerns import preventions
+from sleec_verify.repairs.operators.corrections import events, labels, values, windows
 from sleec_verify.repairs.operators.giving_way import exceptions, guards, responses
+from sleec_verify.repairs.operators.inputs import agents
 from sleec_verify.repairs.operators.removal import declarations, hedges, redundant_rule, rules
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.results.finding import Finding
@@ -27,7 +29,12 @@ OPERATORS: Mapping[str, tuple[Operation, ...]] = {
     "SLEEC101": (guards, exceptions, responses, hedges, rules),
     "SLEEC102": (guards, exceptions, responses, hedges, rules),
     "SLEEC104": (preventions,),
+    "SLEEC107": (agents, responses, hedges, redundant_rule),
     **{code: (removal,) for code, removal in REMOVALS.items()},
+    "SLEEC506": (labels,),
+    "SLEEC507": (values,),
+    "SLEEC508": (values,),
     "SLEEC509": (rules,),
-    "SLEEC510": (preventions,),
+    "SLEEC510": (preventions, events),
+    "SLEEC513": (windows,),
 }

@@ -43,14 +43,15 @@ def declarations(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             yield _declaration(statement.name, without(ruleset, statement.span))
         elif isinstance(statement, Declaration):
             at = statement.name_spans.index(finding.span)
-            yield _declaration(statement.names[at], _without_name(ruleset, statement, at))
+            yield _declaration(statement.names[at], without_name(ruleset, statement, at))
 
 
 def _declaration(name: str, edits: tuple[TextEdit, ...]) -> Candidate:
     return Candidate("declaration-removal", f"remove the declaration of {quoted(name)}", edits)
 
 
-def _without_name(ruleset: Ruleset, declaration: Declaration, at: int) -> tuple[TextEdit, ...]:
+def without_name(ruleset: Ruleset, declaration: Declaration, at: int) -> tuple[TextEdit, ...]:
+    """The text without name number `at` of a declaration."""
     spans = declaration.name_spans
     if len(spans) == 1:
         return without(ruleset, declaration.span)

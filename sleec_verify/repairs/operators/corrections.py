@@ -1,0 +1,69 @@
+"""Corrections of single words: the text says what it is read as, or names what exists."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sleec_runtime.model import Claim, Comparison, Formula, MeasureRef, Rule, Ruleset, ScaleValue, formulas_of, leaves
+from sleec_runtime.support.suggestions import nearest
+from sleec_verify.encoding.name_uses import events_of_rules, formulas_beside_rules
+from sleec_verify.repairs.edit import TextEdit
+from sleec_verify.repairs.repair import Candidate
+from sleec_verify.repairs.statement_edits import replaced, without
+from sleec_verify.repairs.statement_insertion import new_label
+from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import quoted
+
+
+def labels(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """A repeated label gets a number."""
+    for statement in ruleset.statements:
+        if isinstance(statement, (Rule, Claim)) and statement.label_span == finding.span:
+            stem = ruleset.source.text[slice(*finding.span)]
+            label = new_label(ruleset, stem)
+            edit = TextEdit(finding.span.end, finding.span.end, label[len(stem) :])
+            yield Candidate("renaming", f"call the second {quoted(stem)} {quoted(label)}", (edit,))
+
+
+def values(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """A foreign value, or a number, is the value of the scale as which it is read."""
+    formulas: list[Formula] = [formula for rule in ruleset.rules for formula in formulas_of(rule)]
+    for formula in (*formulas, *formulas_beside_rules(ruleset)):
+        for leaf in leaves(formula):
+            if isinstance(leaf, Comparison) and leaf.span.start <= finding.span.start < leaf.span.end:
+                meant = _value(ruleset, leaf)
+                if meant is not None:
+                    written = ruleset.source.text[slice(*finding.span)]
+                    title = f"write {quoted(meant)} for {quoted(written)}"
+                    yield Candidate("correction", title, replaced(finding.span, meant))
+                    return
+
+
+def _value(ruleset: Ruleset, comparison: Comparison) -> str | None:
+    sides = (comparison.left, comparison.right)
+    for measure, value in (sides, sides[::-1]):
+        if isinstance(measure, MeasureRef) and isinstance(value, ScaleValue):
+            scale = ruleset.measures[measure.name].values
+            return scale[value.rank] if 0 <= value.rank < len(scale) else None
+    return None
+
+
+def events(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """A claim names an event of a rule instead of one that no rule mentions; or a purpose is removed, which is always
+    possible then."""
+    written = ruleset.source.text[slice(*finding.span)]
+    meant = nearest(written, sorted(events_of_rules(ruleset)))
+    if meant is not None:
+        yield Candidate("renaming", f"write {quoted(meant)} for {quoted(written)}", replaced(finding.span, meant))
+    for claim in ruleset.statements:
+        if isinstance(claim, Claim) and claim.kind == "purpose" and claim.label in finding.obligations:
+            title = f"remove the purpose {quoted(claim.label)}"
+            yield Candidate("claim-removal", title, without(ruleset, claim.span))
+
+
+def windows(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """A window without length is removed, because a response without a window is due at the same instant."""
+    text = ruleset.source.text
+    start = len(text[: finding.span.start].rstrip())
+    title = f"remove {quoted(text[slice(*finding.span)])}"
+    yield Candidate("canonical-form", title, (TextEdit(start, finding.span.end, ""),))
