@@ -60,7 +60,7 @@ class EnglishPhraseParser(EnglishCursor):
                 self.token_span(self.at),
                 "begin it with a letter, for example: Limit3"
                 if what in ("the name of a measure", "the name of a constant")
-                else "put a word before the number, for example: at least 3 people",
+                else "put a word before the number, for example: ring 3 times",
             )
         if kind == "dotted":
             self.fail(

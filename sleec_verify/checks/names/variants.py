@@ -18,7 +18,7 @@ Kinds = Mapping[str, frozenset[str]]
 """The kinds of each name: trigger, condition, obligation."""
 
 _SHORTEST = 5
-"""The fewest letters of a misspelled word. Many shorter words differ from others by one letter."""
+"""The fewest letters of the longer of two words that may be one. Many shorter words differ by one letter."""
 
 
 def variants(ruleset: Ruleset, kinds: Kinds, declared: Collection[str]) -> Iterator[Misreading]:
@@ -63,21 +63,24 @@ def _misspelled(groups: Mapping[tuple[str, ...], list[str]]) -> Iterator[tuple[t
     distinguishes two words, such as `left light` and `left right`.
     """
     containing: dict[str, list[tuple[str, ...]]] = defaultdict(list)
-    long_words: dict[str, str] = {}
+    stem_of: dict[str, str] = {}
     for group, names in groups.items():
         for word in words_of(names[0]):
-            if len(word) >= _SHORTEST and word.isalpha() and word not in OPPOSITES:
-                long_words.setdefault(word, stem(word))
+            if len(word) >= _SHORTEST - 1 and word.isalpha() and word not in OPPOSITES:
+                stem_of.setdefault(word, stem(word))
                 containing[stem(word)].append(group)
     near: dict[str, list[str]] = defaultdict(list)
-    for word in long_words:
+    for word in stem_of:
         for at in range(1, len(word) + 1):
             near[word[:at] + word[at + 1 :]].append(word)
     pairs = {
-        tuple(sorted((long_words[one], long_words[other])))
+        tuple(sorted((stem_of[one], stem_of[other])))
         for words in near.values()
         for one, other in combinations(words, 2)
-        if long_words[one] != long_words[other] and edit_distance(one, other, 2) == 1 and not _look_alike(one, other)
+        if max(len(one), len(other)) >= _SHORTEST
+        and stem_of[one] != stem_of[other]
+        and edit_distance(one, other, 2) == 1
+        and not _look_alike(one, other)
     }
     for one, other in sorted(pairs):
         for group in dict.fromkeys(containing[one]):
