@@ -76,7 +76,14 @@ def _trimmed(old: str, start: int, end: int, text: str) -> TextEdit:
     same = _shared(old[start:end], text)
     start, text = start + same, text[same:]
     same = _shared(old[start:end][::-1], text[::-1])
-    return TextEdit(start, end - same, text[: len(text) - same])
+    end, text = end - same, text[: len(text) - same]
+    if start == end:
+        # Insert before the line break rather than after it, where the next statement begins.
+        for line_break in ("\r\n", "\n"):
+            if text.endswith(line_break) and old.endswith(line_break, 0, start):
+                size = len(line_break)
+                return TextEdit(start - size, start - size, line_break + text[:-size])
+    return TextEdit(start, end, text)
 
 
 def _shared(one: str, other: str) -> int:

@@ -44,7 +44,7 @@ class RepairSearch:
         """The repairs, those that change the fewest situations first, and of these the shortest edits."""
         found: dict[str, Repair] = {}
         for operator, candidate in self._proposed(self._ruleset, finding):
-            repair = self._repair(finding, operator, candidate, _MOST_STEPS)
+            repair = self._repair(finding, operator, candidate)
             if repair is not None:
                 found.setdefault(repair.repaired.source.text, repair)
         return sorted(found.values(), key=_size)
@@ -64,25 +64,30 @@ class RepairSearch:
                         seen.add(changed)
                         yield operator, candidate
 
-    def _repair(self, finding: Finding, operator: Operation, candidate: Candidate, steps: int) -> Repair | None:
+    def _repair(self, finding: Finding, operator: Operation, candidate: Candidate) -> Repair | None:
         """The verified repair, after further steps if one is not enough.
 
         A conflict with one rule can hide a conflict with another one. If the rule that gives way conflicts with a
-        further rule after the change, the same operator lets it give way to that rule, too. A rule or a name that the
-        change makes superfluous is removed.
+        further rule after the change, the same operator lets it give way to that rule, too. In the end, the rules and
+        names that the change makes superfluous are removed.
         """
-        while True:
+        is_giving_way = True
+        for _ in range(_MOST_STEPS):
             try:
                 repaired = self._verification.repaired(finding, candidate)
             except Rejected as rejected:
-                steps -= 1
-                step = _further_step(rejected, finding, operator, candidate) if steps else None
+                step = _removal(rejected)
+                if step is not None:
+                    is_giving_way = False
+                elif is_giving_way:
+                    step = _again(rejected, finding, operator, candidate.gives_way)
                 if step is None:
                     return None
                 candidate = self._joined(candidate, *step)
             else:
                 effect = effect_of(self._ruleset, repaired, self._domain, self._untimed)
                 return Repair(finding, candidate, effect, repaired)
+        return None
 
     def _joined(self, first: Candidate, changed: Ruleset, second: Candidate) -> Candidate:
         """Both changes, one after the other, as one."""
@@ -92,21 +97,27 @@ class RepairSearch:
         return replace(first, title=title, edits=edits)
 
 
-def _further_step(
-    rejected: Rejected, finding: Finding, operator: Operation, candidate: Candidate
-) -> tuple[Ruleset, Candidate] | None:
-    """The changed rules, and the change of these that a rejected candidate needs, too."""
+_Step = tuple[Ruleset, Candidate]
+"""The changed rules, and a further change of these."""
+
+
+def _removal(rejected: Rejected) -> _Step | None:
+    """The removal of what a change has made superfluous."""
     changed, appeared = rejected.changed, rejected.appeared
-    if changed is None or appeared is None:
+    if changed is None or appeared is None or appeared.code not in REMOVALS:
+        return None
+    return changed, next(REMOVALS[appeared.code](changed, appeared))
+
+
+def _again(rejected: Rejected, finding: Finding, operator: Operation, gives_way: str | None) -> _Step | None:
+    """The next change by which the same rule gives way."""
+    changed, appeared = rejected.changed, rejected.appeared
+    if changed is None or appeared is None or appeared.code != finding.code or gives_way not in appeared.rules:
         return None
     with suppress(Unsayable):
-        if appeared.code in REMOVALS:
-            for one in REMOVALS[appeared.code](changed, appeared):
+        for one in operator(changed, appeared):
+            if one.gives_way == gives_way:
                 return changed, one
-        elif appeared.code == finding.code and candidate.gives_way in appeared.rules:
-            for one in operator(changed, appeared):
-                if one.gives_way == candidate.gives_way:
-                    return changed, one
     return None
 
 

@@ -109,6 +109,22 @@ def _with_parentheses(text: str, after: int, span: Span) -> Span:
     return Span(start, end)
 
 
+def with_condition(ruleset: Ruleset, hedge: Clause, condition: Formula) -> tuple[TextEdit, ...]:
+    """The exception with another condition."""
+    assert hedge.condition is not None, "a hedge has a condition"
+    start, end = _with_parentheses(ruleset.source.text, hedge.span.start, hedge.condition.span)
+    return (TextEdit(start, end, formula_text(ruleset, condition)),)
+
+
+def reordered(ruleset: Ruleset, first: Clause, second: Clause) -> tuple[TextEdit, ...]:
+    """The rule with two of its exceptions in the other order."""
+    text = ruleset.source.text
+    return (
+        TextEdit(*first.span, text[slice(*second.span)]),
+        TextEdit(*second.span, text[slice(*first.span)]),
+    )
+
+
 def with_exception(
     ruleset: Ruleset, rule: Rule, clause: Clause, condition: Formula, response: Sequence[Obligation]
 ) -> tuple[TextEdit, ...]:

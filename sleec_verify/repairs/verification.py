@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Container, Hashable, Sequence
+from collections.abc import Callable, Container, Hashable, Iterator, Sequence
 from dataclasses import replace
 
 from sleec_runtime.errors import LanguageError
@@ -17,9 +17,9 @@ from sleec_verify.repairs.repair import Candidate
 from sleec_verify.results.finding import CheckResult, Finding, Unknown
 
 Identity = tuple[Hashable, ...]
-"""What makes a finding the same before and after a change. A conflict is known by its rules and obligations: a repair
-may add or remove clauses. Any other finding is known by its place, because the rules that it names may be only those
-of the situation that it shows."""
+"""What makes a finding the same before and after a change. A conflict is known by its rules and the places of its
+clauses. Any other finding is known by its own place, because the rules that it names may be only those of the situation
+that it shows."""
 
 
 class Rejected(Exception):
@@ -53,7 +53,7 @@ class Verification:
         self._is_read_otherwise = parse_source(ruleset.source).reading != ruleset.reading
         self._names = [result.name for result in results]
         self._unknown = {result.name for result in results if isinstance(result.verdict, Unknown)}
-        self._found = Counter(_identity(f, f.span.start) for result in results for f in result.findings)
+        self._found = Counter(_identity(ruleset, f) for result in results for f in result.findings)
 
     def repaired(self, finding: Finding, candidate: Candidate) -> Ruleset:
         """The rules after the change, if the checks show that `finding` is gone and that no other appeared.
@@ -72,7 +72,9 @@ class Verification:
         if self._is_read_otherwise:
             new = new.read_as(self._ruleset.reading)
         places = _Places(self._ruleset, new, OffsetMap(inverse(source.text, edits)))
-        target = _identity(finding, finding.span.start)
+        if not places.same_text_is_same_meaning():
+            raise Rejected("a part of the text that does not change would be read differently")
+        target = _identity(self._ruleset, finding)
         allowed = self._found - Counter((target,))
 
         def examine(one: Finding, others: Container[Identity] = ()) -> None:
@@ -108,6 +110,7 @@ class _Places:
 
     def __init__(self, old: Ruleset, new: Ruleset, back: OffsetMap) -> None:
         self._back = back
+        self._old = old
         self._new = new
         # A rule without a label is called by its number, which may change.
         before = {rule.span.start: rule.label for rule in old.rules}
@@ -115,22 +118,44 @@ class _Places:
             rule.label: before[start] for rule in new.rules if (start := back.after(rule.span.start)) in before
         }
 
+    def same_text_is_same_meaning(self) -> bool:
+        """Whether each statement with the same text is the same. A name may be of another kind without a rule that the
+        change removes."""
+        before = {one.span.start: one for one in self._old.statements}
+        for new in self._new.statements:
+            start = self._back.after(new.span.start)
+            old = None if start is None else before.get(start)
+            if old is None or self._old.source.text[slice(*old.span)] != self._new.source.text[slice(*new.span)]:
+                continue
+            if isinstance(new, Rule) and isinstance(old, Rule):
+                new = replace(new, label=old.label)
+            if new != old:
+                return False
+        return True
+
     def identity(self, finding: Finding) -> Identity:
-        """The identity of a finding of the new rules as one of the old rules."""
-        rules = tuple(map(self._label, finding.rules))
-        start = self._back.after(finding.span.start)
-        return _identity(replace(finding, rules=rules), start)
+        """The identity of a finding of the new rules as one of the old rules; a new place is None."""
+        if finding.check != CONFLICT.name:
+            return finding.code, self._back.after(finding.span.start)
+        rules = frozenset(self._labels.get(label, label) for label in finding.rules)
+        return finding.code, rules, frozenset(map(self._back.after, _clause_places(self._new, finding)))
 
     def only(self, kept: Container[str]) -> Ruleset:
         """The new ruleset with only those rules whose earlier labels are `kept`."""
-        rules = (one for one in self._new.statements if not isinstance(one, Rule) or self._label(one.label) in kept)
+        rules = (
+            one
+            for one in self._new.statements
+            if not isinstance(one, Rule) or self._labels.get(one.label, one.label) in kept
+        )
         return replace(self._new, statements=tuple(rules))
 
-    def _label(self, label: str) -> str:
-        return self._labels.get(label, label)
+
+def _identity(ruleset: Ruleset, finding: Finding) -> Identity:
+    if finding.check != CONFLICT.name:
+        return finding.code, finding.span.start
+    return finding.code, frozenset(finding.rules), frozenset(_clause_places(ruleset, finding))
 
 
-def _identity(finding: Finding, start: int | None) -> Identity:
-    if finding.check == CONFLICT.name:
-        return finding.code, tuple(sorted(finding.rules)), tuple(sorted(finding.obligations))
-    return finding.code, start
+def _clause_places(ruleset: Ruleset, finding: Finding) -> Iterator[int]:
+    for label, number in finding.clauses:
+        yield list(ruleset.by_label[label].clauses())[number].span.start

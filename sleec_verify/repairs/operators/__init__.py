@@ -7,15 +7,18 @@ from collections.abc import Callable, Iterator, Mapping
 from sleec_runtime.model import Ruleset
 from sleec_verify.repairs.operators.concerns import preventions
 from sleec_verify.repairs.operators.corrections import events, labels, values, windows
-from sleec_verify.repairs.operators.giving_way import exceptions, guards, responses
+from sleec_verify.repairs.operators.giving_way import exceptions, guards, refinements, responses
 from sleec_verify.repairs.operators.inputs import agents
 from sleec_verify.repairs.operators.removal import declarations, hedges, redundant_rule, rules
+from sleec_verify.repairs.operators.reordering import orders
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.results.finding import Finding
 
 Operation = Callable[[Ruleset, Finding], Iterator[Candidate]]
 """Proposes candidates for a finding. They need not be repairs. Raises `Unsayable` if the language has no words for
 one."""
+
+_WHO_GIVES_WAY: tuple[Operation, ...] = (guards, exceptions, refinements, orders, responses, hedges, rules)
 
 REMOVALS: Mapping[str, Operation] = {
     "SLEEC202": hedges,
@@ -26,11 +29,12 @@ REMOVALS: Mapping[str, Operation] = {
 """Removal of what has no effect."""
 
 OPERATORS: Mapping[str, tuple[Operation, ...]] = {
-    "SLEEC101": (guards, exceptions, responses, hedges, rules),
-    "SLEEC102": (guards, exceptions, responses, hedges, rules),
+    "SLEEC101": _WHO_GIVES_WAY,
+    "SLEEC102": _WHO_GIVES_WAY,
     "SLEEC104": (preventions,),
     "SLEEC107": (agents, responses, hedges, redundant_rule),
     **{code: (removal,) for code, removal in REMOVALS.items()},
+    "SLEEC202": (orders, hedges),
     "SLEEC506": (labels,),
     "SLEEC507": (values,),
     "SLEEC508": (values,),

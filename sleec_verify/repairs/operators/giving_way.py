@@ -16,6 +16,7 @@ from sleec_verify.repairs.statement_edits import (
     exception_text,
     formula_text,
     strengthened,
+    with_condition,
     with_exception,
     without_obligations,
 )
@@ -66,7 +67,14 @@ def _conditions(ruleset: Ruleset, rule: Rule, number: int, others: Iterable[tupl
 def _conjuncts(formula: Formula) -> tuple[Formula, ...]:
     if isinstance(formula, Truth):
         return ()
+    if isinstance(formula, Not) and isinstance(formula.operand, Not):
+        return _conjuncts(formula.operand.operand)
     return formula.operands if isinstance(formula, And) else (formula,)
+
+
+def negation(formula: Formula) -> Formula:
+    """The opposite of a formula, without a double negation."""
+    return formula.operand if isinstance(formula, Not) else Not(formula)
 
 
 def guards(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -79,7 +87,7 @@ def guards(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
                 own = _conjuncts(guard(one.rule, ruleset.reading, one.number))
                 outer = 1 + len(_conjuncts(one.rule.guard) if one.rule.guard is not None else ())
                 exact = conjunction([*own[outer:], condition])
-            negated = exact.operand if isinstance(exact, Not) else Not(exact)
+            negated = negation(exact)
             title = f"add to the trigger of rule {quoted(one.rule.label)}: {quoted(_and(ruleset, negated))}"
             edits = strengthened(ruleset, one.rule, negated)
             yield Candidate("trigger-strengthening", title, edits, one.rule.label)
@@ -106,6 +114,18 @@ def exceptions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             for condition in one.conditions:
                 if response:
                     yield _exception(ruleset, one, condition, response)
+
+
+def refinements(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """Defeater refinement: an exception does not apply where the others decide."""
+    for one in yieldings(ruleset, finding):
+        if one.clause.condition is not None:
+            for condition in one.conditions:
+                refined = conjunction([one.clause.condition, negation(condition)])
+                text = quoted(formula_text(ruleset, refined))
+                title = f"refine the condition of {clause_name(one.rule, one.number)}: {text}"
+                edits = with_condition(ruleset, one.clause, refined)
+                yield Candidate("defeater-refinement", title, edits, one.rule.label)
 
 
 def _exception(ruleset: Ruleset, one: Yielding, condition: Formula, response: tuple[Obligation, ...]) -> Candidate:

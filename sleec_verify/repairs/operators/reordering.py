@@ -1,0 +1,23 @@
+"""Defeater reordering: an exception changes places with one next to it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+from sleec_runtime.model import Ruleset
+from sleec_verify.repairs.repair import Candidate
+from sleec_verify.repairs.statement_edits import reordered
+from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import exception, quoted
+
+
+def orders(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """The exceptions of the finding, each in the place of the one before it or after it."""
+    for label, number in finding.clauses:
+        rule = ruleset.by_label[label]
+        clause = list(rule.clauses())[number]
+        for first, second in pairwise(rule.hedges):
+            if clause is first or clause is second:
+                title = f"swap {exception(first)} and {exception(second)} of rule {quoted(label)}"
+                yield Candidate("defeater-reordering", title, reordered(ruleset, first, second), label)
