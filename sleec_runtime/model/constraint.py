@@ -23,12 +23,17 @@ class Exclusive:
 
 @dataclass(frozen=True, slots=True)
 class Never:
-    """``NEVER formula``: a formula over obligations, triggers and conditions that must not become true."""
+    """``NEVER formula``: a formula over obligations, triggers and conditions that must not become true.
+
+    ``NEVER formula UNLESS c`` is ``NEVER formula AND NOT c``: the last operands of `formula`, as many as `exceptions`,
+    are the negated conditions.
+    """
 
     formula: Formula
     domains: tuple[str, ...] | None = None
     span: Span = field(default=NOWHERE, compare=False, repr=False)
     comments: Comments = field(default=NO_COMMENTS, compare=False, repr=False)
+    exceptions: int = 0
 
 
 @dataclass(frozen=True, slots=True)

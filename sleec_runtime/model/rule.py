@@ -20,7 +20,8 @@ class Rule:
     """``WHEN trigger [AND guard] THEN default UNLESS hedges…`` (paper, Section 3.2).
 
     `domains` is None for a rule that applies in every domain. `labelled` is False if the text gives no label; `label`
-    is then the number of the rule in the file (``rule_3``).
+    is then the number of the rule in the file (``rule_3``). `always` is the name of the ALWAYS statement of which this
+    rule is the instance for its trigger (``always_1``).
     """
 
     label: str
@@ -34,6 +35,7 @@ class Rule:
     label_span: Span = field(default=NOWHERE, compare=False, repr=False)
     trigger_span: Span = field(default=NOWHERE, compare=False, repr=False)
     comments: Comments = field(default=NO_COMMENTS, compare=False, repr=False)
+    always: str | None = None
 
     @property
     def heading_span(self) -> Span:

@@ -9,6 +9,7 @@ from functools import partial
 from time import perf_counter
 
 from sleec_runtime.model import Ruleset
+from sleec_verify.checks.always import of_statements
 from sleec_verify.checks.assumptions import ASSUMPTIONS
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.claims import CONCERN, PURPOSE
@@ -213,7 +214,9 @@ class Checking:
         """The verdict of one check. Raises KeyError for an unknown one."""
         check = self._checks[name]
         started = perf_counter()
-        verdict, reason = _verdict(check, {"": self.whole} if check.scope == "text" else self.by_domain, self._seen)
+        verdict, reason = _verdict(
+            check, {"": self.whole} if check.scope == "text" else self.by_domain, self.whole.ruleset, self._seen
+        )
         return CheckResult(check.name, verdict, perf_counter() - started, reason)
 
 
@@ -222,7 +225,10 @@ def _findings(check: Check, index: RulesetIndex) -> Generator[Finding, None, Non
 
 
 def _verdict(
-    check: Check, by_domain: Mapping[str, RulesetIndex], tell: Callable[[Finding], None] | None
+    check: Check,
+    by_domain: Mapping[str, RulesetIndex],
+    ruleset: Ruleset,
+    tell: Callable[[Finding], None] | None,
 ) -> tuple[Verdict, str | None]:
     found: dict[tuple[object, ...], Finding] = {}
     unknown: list[str] = []
@@ -257,6 +263,7 @@ def _verdict(
         for finding in sorted(found.values(), key=lambda f: f.span)
         if check.scope != "every domain" or _everywhere(finding, by_domain)
     )
+    findings = of_statements(findings, ruleset)
     if unknown:
         return Unknown("; ".join(dict.fromkeys(unknown)), findings), None
     return (Refuted(findings) if findings else Proved()), cut

@@ -7,7 +7,7 @@ OPENINGS = frozenset({"WHEN", "IF"})
 RULE_STARTS = OPENINGS | {"RULE"}
 SETTINGS = frozenset({"DOMAIN", "READING"})
 CLAIMS = frozenset({"CONCERN", "PURPOSE"})
-STATEMENTS = DECLARATIONS | RULE_STARTS | SETTINGS | CLAIMS | {"EXCLUSIVE", "NEVER", "ASSUME", "RELATION"}
+STATEMENTS = DECLARATIONS | RULE_STARTS | SETTINGS | CLAIMS | {"ALWAYS", "EXCLUSIVE", "NEVER", "ASSUME", "RELATION"}
 """The keywords that start a statement; the one before it ends there."""
 
 TIMES = frozenset({"WITHIN", "EVENTUALLY"})
@@ -25,7 +25,8 @@ RELATION_WORDS = frozenset(
     {"ALWAYS", "FOR", "WITNESSES", "EQUALS", "EXCLUDES", "PRECEDES", "CAUSES", "INCLUDES", "FORBIDS"}
     | {"IMPLIES", "OPPOSES"}
 )
-"""Keywords in a RELATION, and plain words everywhere else; likewise BY after EVENT and TO after WITHIN."""
+"""Keywords in a RELATION, and plain words everywhere else, except that ALWAYS also starts a statement; likewise BY
+after EVENT and TO after WITHIN."""
 
 OCCASION = "when"
 """The kind of a WHEN or IF inside a concern, purpose or relation, where it starts neither a rule nor a line."""

@@ -46,6 +46,10 @@ class EnglishNames(SymbolTable):
     def is_declared(self, kind: Kind, name: str) -> bool:
         return name in self._declared[kind]
 
+    def declared_triggers(self) -> list[str]:
+        """The names that TRIGGER declares, without those of EVENT, which may be responses only."""
+        return [name for name in self._declared["trigger"] if name not in self._events]
+
     def is_condition(self, name: str) -> bool:
         """Whether a condition or a trigger of this name is declared, or triggers a rule."""
         return self.is_declared("condition", name) or self.is_declared("trigger", name) or name in self.triggers

@@ -6,14 +6,14 @@ wherever they are, and NEVER and ASSUME last: the kind of a name in them depends
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TypeVar
 
 from sleec_runtime.errors import LanguageError, Problem
 from sleec_runtime.language.common.gc_pause import gc_paused
 from sleec_runtime.language.common.problems import first_problems, quoted
 from sleec_runtime.language.common.token_cursor import ClauseError
-from sleec_runtime.language.english.constraints import EnglishConstraintParser
+from sleec_runtime.language.english.always import Always, EnglishAlwaysParser, instances
 from sleec_runtime.language.english.keyword_correction import near_keyword
 from sleec_runtime.language.english.keywords import CLAIMS, DECLARATIONS, OPENINGS, RULE_STARTS, STATEMENTS
 from sleec_runtime.language.english.name_resolution import EnglishNames
@@ -24,6 +24,7 @@ from sleec_runtime.model import (
     Constant,
     Never,
     Reading,
+    Rule,
     Ruleset,
     Source,
     Span,
@@ -61,7 +62,7 @@ def parse_english(source: Source) -> Ruleset:
     )
 
 
-class EnglishParser(EnglishConstraintParser):
+class EnglishParser(EnglishAlwaysParser):
     """Reads a whole text, once."""
 
     def statements(self) -> list[Statement]:
@@ -72,7 +73,7 @@ class EnglishParser(EnglishConstraintParser):
         self.numbered = {}
         self.constants = {}
         self._reading_span: Span | None = None
-        self._found: list[Statement | None] = []
+        self._found: list[Statement | Always | None] = []
         self._postponed: list[tuple[int, int, tuple[str, ...] | None]] = []
         declared = self._declarations()
         self._in_order(declared)
@@ -84,6 +85,7 @@ class EnglishParser(EnglishConstraintParser):
                     self.domains = domains
                     read: Callable[[], Assume | Never] = self.assume if keyword == "ASSUME" else self.never
                     self._found[index] = self._read(read)
+        statements = list(self._expanded())
         self.names.numbered(self.numbered)
         self.names.finish()
         if not self.rules_so_far and not self.problems:
@@ -94,7 +96,21 @@ class EnglishParser(EnglishConstraintParser):
                     "a rule looks like this: WHEN CurtainOpenRequest THEN OpenCurtains",
                 )
             )
-        return [statement for statement in self._found if statement is not None]
+        return statements
+
+    def _expanded(self) -> Iterator[Statement]:
+        """The statements in text order, with the instances of each ALWAYS in its place."""
+        rules = (statement for statement in self._found if isinstance(statement, Rule))
+        triggers = dict.fromkeys([*(rule.trigger for rule in rules), *self.names.declared_triggers()])
+        number = 0
+        for statement in self._found:
+            if isinstance(statement, Always):
+                number += 1
+                for rule in instances(statement, f"always_{number}", triggers):
+                    self.numbered[rule.label] = statement.keyword
+                    yield rule
+            elif statement is not None:
+                yield statement
 
     def _declarations(self) -> dict[int, tuple[Statement | None, int]]:
         """The declarations by the token they start at, each with the token after it."""
@@ -133,6 +149,8 @@ class EnglishParser(EnglishConstraintParser):
                 found.append(None)
                 self.at += 1
                 self.skip(STATEMENTS)
+            elif kind == "ALWAYS":
+                found.append(self._read(self.always))
             elif kind == "EXCLUSIVE":
                 found.append(self._read(self.exclusive))
             elif kind == "DOMAIN":

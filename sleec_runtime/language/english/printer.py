@@ -8,12 +8,14 @@ obligations after IN WHICH CASE, and a guard with OR.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from sleec_runtime.language.common.comment_lines import comment_lines, split_heading, trimmed, with_comment
 from sleec_runtime.language.common.formula_printer import print_formula, print_number
 from sleec_runtime.language.english.statement_printer import EnglishPrinter
 from sleec_runtime.model import (
     NO_COMMENTS,
+    And,
     Assume,
     Claim,
     Constant,
@@ -21,6 +23,7 @@ from sleec_runtime.model import (
     Exclusive,
     Measure,
     Never,
+    Not,
     Rule,
     Ruleset,
     Statement,
@@ -34,7 +37,7 @@ def print_english(ruleset: Ruleset) -> str:
 
 def print_rule(rule: Rule) -> str:
     """One rule as text, without its comments, its domains, and a label that is only its number."""
-    return "\n".join(_Printer(comments=False).rule(rule, rule.labelled))
+    return "\n".join(_Printer(comments=False).rule(replace(rule, always=None), rule.labelled))
 
 
 class _Printer:
@@ -54,7 +57,10 @@ class _Printer:
                 domains = statement.domains
                 settings.append(f"DOMAIN {', '.join(domains) if domains is not None else 'everywhere'}")
             labelled = False
-            if isinstance(statement, Rule):
+            if isinstance(statement, Rule) and statement.always is not None:
+                if isinstance(before, Rule) and before.always == statement.always:
+                    continue
+            elif isinstance(statement, Rule):
                 rules += 1
                 labelled = statement.labelled or statement.label != f"rule_{rules}"
             heading, above = split_heading(_above(statement, labelled), bool(settings))
@@ -88,7 +94,8 @@ class _Printer:
             comment = first.behind if own.behind is None else own.behind
         lines = EnglishPrinter(self._with_comments)
         lines.begin(comment=comment)
-        lines.write(f"WHEN {rule.trigger}{lines.formulas.guard(rule.guard)} THEN ")
+        guard = lines.formulas.guard(rule.guard)
+        lines.write("ALWAYS " if rule.always is not None else f"WHEN {rule.trigger}{guard} THEN ")
         lines.response(rule.default)
         lines.hedges(rule.hedges)
         yield from lines.take_lines()
@@ -117,9 +124,23 @@ def _text(statement: Statement, lines: EnglishPrinter) -> str:
         return f"CONSTANT {statement.name} = {statement.alias or print_number(statement.value)}"
     if isinstance(statement, Exclusive):
         return f"EXCLUSIVE {', '.join(statement.names)}"
-    if isinstance(statement, (Never, Assume)):
-        return f"{'NEVER' if isinstance(statement, Never) else 'ASSUME'} {print_formula(statement.formula)}"
+    if isinstance(statement, Never):
+        return _never(statement)
+    if isinstance(statement, Assume):
+        return f"ASSUME {print_formula(statement.formula)}"
     return f"RELATION {lines.relation(statement)}"
+
+
+def _never(statement: Never) -> str:
+    """A NEVER, with each of its exceptions after UNLESS."""
+    formula = statement.formula
+    if not statement.exceptions:
+        return f"NEVER {print_formula(formula)}"
+    assert isinstance(formula, And), "the exceptions are operands"
+    forbidden, exceptions = formula.operands[: -statement.exceptions], formula.operands[-statement.exceptions :]
+    text = print_formula(forbidden[0] if len(forbidden) == 1 else And(forbidden))
+    negated = (exception.operand for exception in exceptions if isinstance(exception, Not))
+    return " ".join([f"NEVER {text}", *(f"UNLESS {print_formula(condition)}" for condition in negated)])
 
 
 def _is_separate(before: Statement, statement: Statement) -> bool:

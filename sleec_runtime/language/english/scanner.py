@@ -115,7 +115,7 @@ def scan(text: str) -> Tokens:
 
 
 def _mark_occasions(kinds: list[str]) -> None:
-    """Marks each WHEN in a concern, purpose or relation."""
+    """Marks each WHEN in a concern, purpose or relation. The ALWAYS of a relation starts no statement."""
     for keyword in (*CLAIMS, "RELATION", "MEANWHILE"):
         at = -1
         for _ in range(kinds.count(keyword)):
@@ -127,3 +127,5 @@ def _mark_occasions(kinds: list[str]) -> None:
                 behind += 1
             if kinds[behind] in ("WHEN", "IF"):
                 kinds[behind] = OCCASION
+            elif keyword == "RELATION" and kinds[behind] == "ALWAYS":
+                kinds[behind] = "word"

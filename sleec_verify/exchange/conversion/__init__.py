@@ -51,8 +51,8 @@ def of_domain(ruleset: Ruleset, domain: str) -> Ruleset:
     rules = 0
     for statement in ruleset.in_domain(domain).statements:
         if isinstance(statement, Rule):
-            rules += 1
-            labelled = statement.labelled or statement.label != f"rule_{rules}"
+            rules += statement.always is None
+            labelled = statement.labelled or (statement.always is None and statement.label != f"rule_{rules}")
             statements.append(replace(statement, domains=None, labelled=labelled))
         elif isinstance(statement, (Exclusive, Never, Assume)):
             statements.append(replace(statement, domains=None))
@@ -69,7 +69,7 @@ def _declared(part: Ruleset) -> Ruleset:
     """`part` with declarations of the names whose kind would differ without the other rules of the whole ruleset."""
     # If a text declares names of a kind, it must declare all names of that kind.
     undeclared = part.triggers - part.declared["trigger"]
-    if not undeclared <= {rule.trigger for rule in part.rules}:
+    if not undeclared <= {rule.trigger for rule in part.rules if rule.always is None}:
         part = replace(part, statements=(Declaration("trigger", tuple(sorted(undeclared))), *part.statements))
     again = parse(print_ruleset(part))
     kinds: tuple[tuple[DeclaredKind, frozenset[str], frozenset[str]], ...] = (

@@ -101,7 +101,8 @@ def _from_english(ruleset: Ruleset, notes: list[str]) -> Iterator[Statement]:
                 said = f"the DSL has no domains, but rule `{statement.label}` has one"
                 refuse(ruleset, said, statement.span, "choose one with --domain")
             _label(ruleset, statement.label, statement.label_span)
-            yield from split(replace(statement, comments=_comments(statement), labelled=True), labels)
+            rule = replace(statement, comments=_comments(statement), labelled=True, always=None)
+            yield from split(rule, labels)
         elif isinstance(statement, Claim):
             _label(ruleset, statement.label, statement.label_span)
             yield narrow(statement)

@@ -17,7 +17,7 @@ DOCS = ROOT / "docs"
 ENGLISH = (DOCS / "language.md").read_text(encoding="utf-8")
 RELATIONS = re.findall(r"^\| `(RELATION .*?)` \| `(.*?)` \|$", ENGLISH, re.M)
 TIMES = re.findall(r"^\| `((?:NOT )?A (?:WITHIN|EVENTUALLY).*?)` \|", ENGLISH, re.M)
-OPERATORS = re.findall(r"`([<>=!≤≥≠]+)`", ENGLISH)
+OPERATORS = list(dict.fromkeys(re.findall(r"`([<>=!≤≥≠]+)`", ENGLISH)))
 MEANINGS = [
     relation
     for row in (DOCS / "times.md")
