@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, Phase, settings
 from tests.support.action import runner as runner
 from tests.support.checker import proved as proved
 from tests.support.cli import cli as cli
+from tests.support.resolve import answer as answer
 from tests.support.theory_oracle import oracle as oracle
 
 pytest_plugins = ["pytester"]

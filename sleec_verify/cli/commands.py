@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 _SUMMARIES = {
     "check": "Check the rules for contradictions and other mistakes.",
+    "resolve": "Resolve conflicts one by one, and record the decisions.",
     "entail": "Show what the rules require in a situation.",
     "explain": "Explain what the rules require in a situation.",
     "compile": "Translate the rules into formulas or clauses.",

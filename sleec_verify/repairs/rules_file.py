@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from typing import TYPE_CHECKING
@@ -56,18 +57,26 @@ class RulesFile:
             edits = (edit._replace(text=edit.text.replace("\n", "\r")) for edit in edits)
         return replace(self, content=f"{mark}{edited(text, edits)}".encode())
 
-    def write(self) -> None:
-        """Replace the file by the edited one, atomically. A link stays a link, and the permissions do not change.
+    def write(self) -> RulesFile:
+        """Replace the file by the edited one, atomically, and return it with its new digest. A link stays a link, and
+        the permissions do not change.
 
         Raises:
             FileChanged: the file is not the one that was checked.
             ReadOnlyFile, SleecError: it cannot be written.
         """
-        # The owner of a folder can replace a read-only file in it, and root can write every file.
-        if not os.access(self.path, os.W_OK) or not os.stat(self.path).st_mode & 0o222:
-            raise ReadOnlyFile(f"{self.path} is read-only", "the file was not changed; change its permissions first")
+        require_writable(self.path)
         _read(self.path, self.sha256)
         write_whole(self.path, self.content)
+        return replace(self, sha256=sha256(self.content).hexdigest())
+
+
+def require_writable(path: str) -> None:
+    """Raises `ReadOnlyFile` if the file at `path` may not be written."""
+    # The owner of a folder can replace a read-only file in it, and root can write every file.
+    with suppress(FileNotFoundError):
+        if not os.stat(path).st_mode & 0o222 or not os.access(path, os.W_OK):
+            raise ReadOnlyFile(f"{path} is read-only", "the file was not changed; change its permissions first")
 
 
 def _read(path: str, expected: str) -> bytes:
@@ -76,5 +85,5 @@ def _read(path: str, expected: str) -> bytes:
     except OSError as error:
         raise SleecError(f"{path} cannot be read: {error.strerror}", "the file was not changed") from None
     if sha256(content).hexdigest() != expected:
-        raise FileChanged(f"{path} was changed since the check", "nothing was written; run the command again")
+        raise FileChanged(f"{path} was changed since the check", "nothing was written; check it again")
     return content

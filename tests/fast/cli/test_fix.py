@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import json
 import os
 import stat
 from pathlib import Path
@@ -12,29 +11,7 @@ import pytest
 
 from sleec_verify.repairs.search import RepairSearch
 from tests.support.cli import Cli
-
-CONFLICT = """\
-RULE privacy // because
-WHEN CurtainsRequested THEN OpenCurtains
-UNLESS UserUndressed IN WHICH CASE NOT OpenCurtains
-RULE air
-WHEN CurtainsRequested AND RoomStuffy THEN OpenCurtains AND OpenWindow
-"""
-DEAD = "UNLESS Night AND NOT Night IN WHICH CASE Wait\n"
-TWO = f"{CONFLICT}RULE quiet\nWHEN Bell THEN NOT Speak\nRULE call\nWHEN Bell AND Storm THEN Speak\n"
-
-
-SHORTER = "remove `OpenCurtains` from rule `air`"
-"""The title of a repair of `CONFLICT`."""
-
-
-def identifiers(cli: Cli, title: str, text: str) -> list[str]:
-    """The repairs of `text` with this title."""
-    (ruleset,) = json.loads(cli("check", "--fixes", "--format", "json", "a.sleec", files={"a.sleec": text}).out)[
-        "rulesets"
-    ]
-    repairs = [repair for finding in ruleset["findings"] for repair in finding.get("repairs", ())]
-    return [repair["id"] for repair in repairs if repair["title"] == title]
+from tests.support.fixes import CONFLICT, DEAD, SHORTER, TWO, identifiers
 
 
 def test_the_numbered_repair_is_applied_and_the_rest_is_checked_again(cli: Cli, tmp_path: Path) -> None:
@@ -46,53 +23,11 @@ def test_the_numbered_repair_is_applied_and_the_rest_is_checked_again(cli: Cli, 
     assert (tmp_path / "a.sleec").read_text() == CONFLICT.replace("OpenCurtains AND OpenWindow", "OpenWindow")
 
 
-def test_every_listed_repair_can_be_applied(cli: Cli, tmp_path: Path) -> None:
-    listed = cli("check", "--fixes", "--format", "concise", "a.sleec", files={"a.sleec": TWO}).out.count("SLEEC101:")
-    for number in range(1, listed + 1):
-        ran = cli("check", "--fix", f"sleec101:{number}", "a.sleec", files={"a.sleec": TWO})
-        assert ran.out.count("error[SLEEC101]") == 1
-        assert (tmp_path / "a.sleec").read_text() != TWO
-
-
 def test_several_repairs_at_once(cli: Cli) -> None:
     names = [*identifiers(cli, SHORTER, TWO), identifiers(cli, "remove rule `call`", TWO)[0]]
     ran = cli("check", "--fix", names[0], "--fix", names[1], "a.sleec", files={"a.sleec": TWO})
     assert ran.code == 0
     assert ran.err == f"a.sleec: fixed: {SHORTER}; remove rule `call`\n"
-
-
-BYTES = {
-    "byte order mark": "\ufeff" + TWO,
-    "Windows line breaks": TWO.replace("\n", "\r\n"),
-    "old Mac line breaks": TWO.replace("\n", "\r"),
-    "mixed line breaks": TWO.replace("because\n", "because\r\n").replace("Window\n", "Window\r"),
-    "no line break at the end": TWO.rstrip(),
-    "other letters": TWO.replace("because", "weil es so schön ist 🌅"),
-    "all": "\ufeff" + TWO.replace("because", "schön 🌅").replace("\n", "\r\n").rstrip(),
-}
-
-
-@pytest.mark.parametrize("kind", BYTES)
-def test_all_other_bytes_stay(kind: str, cli: Cli, tmp_path: Path) -> None:
-    path = tmp_path / "a.sleec"
-    before = BYTES[kind]
-    path.write_bytes(before.encode())
-    (name,) = identifiers(cli, SHORTER, TWO)
-    path.write_bytes(before.encode())
-    assert cli("check", "--fix", name, "a.sleec").code == 1
-    assert path.read_bytes() == before.replace("OpenCurtains AND OpenWindow", "OpenWindow").encode()
-
-
-@pytest.mark.parametrize(
-    ("kind", "line_break"), [("Windows line breaks", "\r\n"), ("old Mac line breaks", "\r"), ("byte order mark", "\n")]
-)
-def test_new_lines_end_as_the_others(kind: str, line_break: str, cli: Cli, tmp_path: Path) -> None:
-    path = tmp_path / "a.sleec"
-    (name,) = identifiers(cli, "add to rule `air`: `UNLESS UserUndressed IN WHICH CASE OpenWindow`", TWO)
-    path.write_bytes(BYTES[kind].encode())
-    cli("check", "--fix", name, "a.sleec")
-    added = f"AND OpenWindow{line_break}UNLESS UserUndressed IN WHICH CASE OpenWindow{line_break}"
-    assert path.read_bytes().decode() == BYTES[kind].replace(f"AND OpenWindow{line_break}", added)
 
 
 def test_fix_alone_applies_what_changes_no_meaning(cli: Cli, tmp_path: Path) -> None:
