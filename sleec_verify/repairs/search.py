@@ -11,7 +11,7 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.repairs.edit import edited, edits_between
 from sleec_verify.repairs.effect import effect_of
-from sleec_verify.repairs.operators import OPERATORS, REMOVALS, Operation
+from sleec_verify.repairs.operators import CONSEQUENCES, OPERATORS, Operation
 from sleec_verify.repairs.repair import Candidate, Repair
 from sleec_verify.repairs.verification import Rejected, Verification
 from sleec_verify.results.finding import CheckResult, Finding
@@ -104,9 +104,9 @@ _Step = tuple[Ruleset, Candidate]
 def _removal(rejected: Rejected) -> _Step | None:
     """The removal of what a change has made superfluous."""
     changed, appeared = rejected.changed, rejected.appeared
-    if changed is None or appeared is None or appeared.code not in REMOVALS:
+    if changed is None or appeared is None or appeared.code not in CONSEQUENCES:
         return None
-    return changed, next(REMOVALS[appeared.code](changed, appeared))
+    return changed, next(CONSEQUENCES[appeared.code](changed, appeared))
 
 
 def _again(rejected: Rejected, finding: Finding, operator: Operation, gives_way: str | None) -> _Step | None:

@@ -69,6 +69,8 @@ class Verification:
             new = parse(edited(source.text, edits), source.path)
         except LanguageError as error:
             raise Rejected(f"the text is not a ruleset: {error.problems[0].message}") from None
+        if new.dialect != self._ruleset.dialect:
+            raise Rejected("the text is no longer in its dialect of the DSL")
         if self._is_read_otherwise:
             new = new.read_as(self._ruleset.reading)
         places = _Places(self._ruleset, new, OffsetMap(inverse(source.text, edits)))

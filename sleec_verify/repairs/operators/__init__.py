@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from sleec_runtime.model import Ruleset
 from sleec_verify.repairs.operators.concerns import preventions
 from sleec_verify.repairs.operators.corrections import events, labels, values, windows
+from sleec_verify.repairs.operators.deadlines import deadlines
 from sleec_verify.repairs.operators.giving_way import exceptions, guards, refinements, responses
 from sleec_verify.repairs.operators.inputs import agents
 from sleec_verify.repairs.operators.removal import declarations, hedges, redundant_rule, rules
@@ -18,7 +19,7 @@ Operation = Callable[[Ruleset, Finding], Iterator[Candidate]]
 """Proposes candidates for a finding. They need not be repairs. Raises `Unsayable` if the language has no words for
 one."""
 
-_WHO_GIVES_WAY: tuple[Operation, ...] = (guards, exceptions, refinements, orders, responses, hedges, rules)
+_WHO_GIVES_WAY: tuple[Operation, ...] = (guards, exceptions, refinements, orders, responses, deadlines, hedges, rules)
 
 REMOVALS: Mapping[str, Operation] = {
     "SLEEC202": hedges,
@@ -27,6 +28,9 @@ REMOVALS: Mapping[str, Operation] = {
     "SLEEC501": declarations,
 }
 """Removal of what has no effect."""
+
+CONSEQUENCES: Mapping[str, Operation] = {**REMOVALS, "SLEEC107": agents}
+"""What a change may make necessary: if no rule requires an act any more, its declaration says that it is one."""
 
 OPERATORS: Mapping[str, tuple[Operation, ...]] = {
     "SLEEC101": _WHO_GIVES_WAY,

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from sleec_runtime.model import And, Atom, Claim, Formula, Not, Obligation, Rule, Ruleset
-from sleec_verify.encoding.equation import conjunction, guard
+from sleec_runtime.model import Claim, Obligation, Rule, Ruleset
 from sleec_verify.repairs.edit import TextEdit, joined
+from sleec_verify.repairs.operators.claim_cases import giving_way, where
 from sleec_verify.repairs.repair import Candidate
-from sleec_verify.repairs.statement_edits import exception_text, strengthened, with_exception
+from sleec_verify.repairs.statement_edits import exception_text, with_exception
 from sleec_verify.repairs.statement_insertion import new_label, rule_text, with_rule_after
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.phrases import clause_name, listed, quoted
@@ -58,7 +58,7 @@ def _shorter_windows(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> 
 def _exceptions(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> Iterator[Candidate]:
     """Defeater introduction: a clause with the trigger of the concern that requires its response has an exception."""
     for rule, number in _clauses(ruleset, _contrary(opposite)):
-        condition = _where(ruleset, rule, number, concern)
+        condition = where(ruleset, rule, number, concern)
         if rule.trigger == concern.event and condition is not None:
             title = f"add to {clause_name(rule, number)}: {quoted(exception_text(ruleset, condition, [opposite]))}"
             edits = with_exception(ruleset, rule, list(rule.clauses())[number], condition, [opposite])
@@ -77,7 +77,7 @@ def _rules(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> Iterator[C
     if len({rule.label for rule, _ in contrary}) < len(contrary):
         return
     for has_response in (False, True):
-        changed = [_giving_way(ruleset, rule, number, concern, opposite, has_response) for rule, number in contrary]
+        changed = [giving_way(ruleset, rule, number, concern, opposite, has_response) for rule, number in contrary]
         if changed and all(changed):
             names = listed(quoted(rule.label) for rule, _ in contrary)
             how = "an exception" if has_response else "a condition"
@@ -86,40 +86,6 @@ def _rules(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> Iterator[C
                 f"{title}, and {how} to {names} for this case",
                 joined((*(edit for one in changed for edit in one), *edits)),
             )
-
-
-def _giving_way(
-    ruleset: Ruleset, rule: Rule, number: int, concern: Claim, opposite: Obligation, has_response: bool
-) -> tuple[TextEdit, ...]:
-    """The rule with an exception or a guard where the concern applies; no edit if it always does."""
-    condition = _where(ruleset, rule, number, concern)
-    if condition is None:
-        return ()
-    if has_response:
-        return with_exception(ruleset, rule, list(rule.clauses())[number], condition, [opposite])
-    if rule.hedges:
-        # Other clauses of the rule keep their situations.
-        outer = {rule.trigger, *(_parts(rule.guard) if rule.guard is not None else ())}
-        own = [part for part in _parts(guard(rule, ruleset.reading, number))[1:] if part not in outer]
-        condition = conjunction([*own, condition])
-    return strengthened(ruleset, rule, condition.operand if isinstance(condition, Not) else Not(condition))
-
-
-def _where(ruleset: Ruleset, rule: Rule, number: int, concern: Claim) -> Formula | None:
-    """The condition under which the concern applies where a clause decides; None if it always does.
-
-    A check of rules with time cannot decide a condition that names a response. So it leaves out such an event.
-    """
-    own = {Atom("trigger", rule.trigger), *_parts(guard(rule, ruleset.reading, number))}
-    applies = _parts(concern.condition) if concern.condition is not None else ()
-    if not applies or concern.event not in ruleset.obligations:
-        applies = (Atom("trigger", concern.event), *applies)
-    needed = [part for part in applies if part not in own]
-    return conjunction(needed) if needed else None
-
-
-def _parts(formula: Formula) -> tuple[Formula, ...]:
-    return formula.operands if isinstance(formula, And) else (formula,)
 
 
 def _contrary(opposite: Obligation) -> Obligation:

@@ -1,0 +1,44 @@
+"""Rules that give way where a concern or purpose applies."""
+
+from __future__ import annotations
+
+from sleec_runtime.model import And, Atom, Claim, Formula, Not, Obligation, Rule, Ruleset
+from sleec_verify.encoding.equation import conjunction, guard
+from sleec_verify.repairs.edit import TextEdit
+from sleec_verify.repairs.statement_edits import strengthened, with_exception
+
+
+def giving_way(
+    ruleset: Ruleset, rule: Rule, number: int, claim: Claim, response: Obligation, has_response: bool
+) -> tuple[TextEdit, ...]:
+    """The rule with an exception that has this response, or with a guard, where the claim applies; no edit if it
+    always does."""
+    condition = where(ruleset, rule, number, claim)
+    if condition is None:
+        return ()
+    if has_response:
+        return with_exception(ruleset, rule, list(rule.clauses())[number], condition, [response])
+    if rule.hedges:
+        # Other clauses of the rule keep their situations.
+        outer = parts_of(rule.guard) if rule.guard is not None else ()
+        own = [part for part in parts_of(guard(rule, ruleset.reading, number))[1:] if part not in outer]
+        condition = conjunction([*own, condition])
+    return strengthened(ruleset, rule, condition.operand if isinstance(condition, Not) else Not(condition))
+
+
+def where(ruleset: Ruleset, rule: Rule, number: int, claim: Claim) -> Formula | None:
+    """The condition under which the claim applies where a clause decides; None if it always does.
+
+    A check of rules with time cannot decide a condition that names a response. So it leaves out such an event.
+    """
+    own = {Atom("trigger", rule.trigger), *parts_of(guard(rule, ruleset.reading, number))}
+    applies = parts_of(claim.condition) if claim.condition is not None else ()
+    if not applies or claim.event not in ruleset.obligations:
+        applies = (Atom("trigger", claim.event), *applies)
+    needed = [part for part in applies if part not in own]
+    return conjunction(needed) if needed else None
+
+
+def parts_of(formula: Formula) -> tuple[Formula, ...]:
+    """The conjuncts of a formula."""
+    return formula.operands if isinstance(formula, And) else (formula,)
