@@ -76,7 +76,7 @@ class RepairSearch:
             try:
                 repaired = self._verification.repaired(finding, candidate)
             except Rejected as rejected:
-                step = _removal(rejected)
+                step = _consequence(rejected)
                 if step is not None:
                     is_giving_way = False
                 elif is_giving_way:
@@ -101,12 +101,13 @@ _Step = tuple[Ruleset, Candidate]
 """The changed rules, and a further change of these."""
 
 
-def _removal(rejected: Rejected) -> _Step | None:
-    """The removal of what a change has made superfluous."""
+def _consequence(rejected: Rejected) -> _Step | None:
+    """The removal of what a change has made superfluous, or what it makes necessary."""
     changed, appeared = rejected.changed, rejected.appeared
     if changed is None or appeared is None or appeared.code not in CONSEQUENCES:
         return None
-    return changed, next(CONSEQUENCES[appeared.code](changed, appeared))
+    step = next(CONSEQUENCES[appeared.code](changed, appeared), None)
+    return None if step is None else (changed, step)
 
 
 def _again(rejected: Rejected, finding: Finding, operator: Operation, gives_way: str | None) -> _Step | None:
