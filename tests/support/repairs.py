@@ -38,6 +38,7 @@ def assert_is_repair(ruleset: Ruleset, results: Sequence[CheckResult], repair: R
     """A check of the changed text has fewer findings of this code, and not more of any other. Every statement that no
     edit touches is as before, in the same order."""
     edits = repair.candidate.edits
+    text = ruleset.source.text + "\n"
     new = parse(edited(ruleset.source.text, edits))
     assert new.statements == repair.repaired.statements
     before = Counter(finding.code for finding in findings(results))
@@ -47,7 +48,9 @@ def assert_is_repair(ruleset: Ruleset, results: Sequence[CheckResult], repair: R
     kept = [
         _unnumbered(statement)
         for statement in ruleset.statements
-        if not any(edit.start <= statement.span.end and statement.span.start <= edit.end for edit in edits)
+        if not any(
+            edit.start <= text.index("\n", statement.span.end) and statement.span.start <= edit.end for edit in edits
+        )
     ]
     rest = map(_unnumbered, new.statements)
     assert all(any(statement == other for other in rest) for statement in kept), repair.candidate.title

@@ -10,6 +10,7 @@ from sleec_verify.repairs.operators.corrections import events, labels, values, w
 from sleec_verify.repairs.operators.deadlines import deadlines
 from sleec_verify.repairs.operators.giving_way import exceptions, guards, refinements, responses
 from sleec_verify.repairs.operators.inputs import agents
+from sleec_verify.repairs.operators.purposes import relaxations
 from sleec_verify.repairs.operators.removal import declarations, hedges, redundant_rule, rules
 from sleec_verify.repairs.operators.reordering import orders
 from sleec_verify.repairs.repair import Candidate
@@ -36,6 +37,7 @@ OPERATORS: Mapping[str, tuple[Operation, ...]] = {
     "SLEEC101": _WHO_GIVES_WAY,
     "SLEEC102": _WHO_GIVES_WAY,
     "SLEEC104": (preventions,),
+    "SLEEC105": (relaxations, rules),
     "SLEEC107": (agents, responses, hedges, redundant_rule),
     **{code: (removal,) for code, removal in REMOVALS.items()},
     "SLEEC202": (orders, hedges),

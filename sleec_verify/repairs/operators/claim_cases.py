@@ -9,14 +9,14 @@ from sleec_verify.repairs.statement_edits import strengthened, with_exception
 
 
 def giving_way(
-    ruleset: Ruleset, rule: Rule, number: int, claim: Claim, response: Obligation, has_response: bool
+    ruleset: Ruleset, rule: Rule, number: int, claim: Claim, response: Obligation | None = None
 ) -> tuple[TextEdit, ...]:
-    """The rule with an exception that has this response, or with a guard, where the claim applies; no edit if it
-    always does."""
+    """The rule with an exception that has this response where the claim applies; without a response, with a guard. No
+    edit if the claim always applies."""
     condition = where(ruleset, rule, number, claim)
     if condition is None:
         return ()
-    if has_response:
+    if response is not None:
         return with_exception(ruleset, rule, list(rule.clauses())[number], condition, [response])
     if rule.hedges:
         # Other clauses of the rule keep their situations.

@@ -76,11 +76,10 @@ def _rules(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> Iterator[C
     contrary = [one for one in _clauses(ruleset, _contrary(opposite)) if not _may_wait(one, opposite)]
     if len({rule.label for rule, _ in contrary}) < len(contrary):
         return
-    for has_response in (False, True):
-        changed = [giving_way(ruleset, rule, number, concern, opposite, has_response) for rule, number in contrary]
+    for how, response in (("a condition", None), ("an exception", opposite)):
+        changed = [giving_way(ruleset, rule, number, concern, response) for rule, number in contrary]
         if changed and all(changed):
             names = listed(quoted(rule.label) for rule, _ in contrary)
-            how = "an exception" if has_response else "a condition"
             yield Candidate(
                 "rule-addition",
                 f"{title}, and {how} to {names} for this case",

@@ -1,6 +1,6 @@
 """Repairs of a conflict over time: the required response has more time, or an alternative.
 
-This is the operator *deadline refinement* of SLEEC-PATCH (2026). Other lengths of windows are no repairs: a prohibition
+This is the operator *deadline refinement* of SLEEC-PATCH (2026). A window of another length does not help: a prohibition
 can begin at the last instant of every window that ends.
 """
 

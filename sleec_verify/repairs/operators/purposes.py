@@ -1,0 +1,43 @@
+"""Repairs of a purpose that the rules block: a rule gives way where the purpose applies.
+
+This is the operator *relaxation of the rule that blocks a purpose* of SLEEC-PATCH (2026).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sleec_runtime.model import Claim, Obligation, Rule, Ruleset
+from sleec_verify.repairs.operators.claim_cases import giving_way, where
+from sleec_verify.repairs.repair import Candidate
+from sleec_verify.repairs.statement_edits import exception_text, formula_text
+from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import clause_name, quoted
+
+
+def relaxations(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """A condition or an exception with the situation of the purpose in a rule that blocks it."""
+    for purpose in ruleset.statements:
+        if isinstance(purpose, Claim) and purpose.kind == "purpose" and purpose.label in finding.obligations:
+            for label in finding.rules:
+                yield from _of(ruleset, ruleset.by_label[label], purpose)
+
+
+def _of(ruleset: Ruleset, rule: Rule, purpose: Claim) -> Iterator[Candidate]:
+    wanted = [one for response in purpose.responses for one in response.obligations]
+    for number, clause in enumerate(rule.clauses()):
+        condition = where(ruleset, rule, number, purpose)
+        if condition is None:
+            continue
+        blocked = [one for one in wanted if any(_contradicts(one, other) for other in clause.obligations)]
+        for response in blocked:
+            title = f"add to {clause_name(rule, number)}: {quoted(exception_text(ruleset, condition, [response]))}"
+            edits = giving_way(ruleset, rule, number, purpose, response)
+            yield Candidate("defeater-introduction", title, edits, rule.label)
+        if clause.obligations:
+            title = f"let {clause_name(rule, number)} give way where {quoted(formula_text(ruleset, condition))}"
+            yield Candidate("trigger-strengthening", title, giving_way(ruleset, rule, number, purpose), rule.label)
+
+
+def _contradicts(one: Obligation, other: Obligation) -> bool:
+    return one.name == other.name and one.negated != other.negated
