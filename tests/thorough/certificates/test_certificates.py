@@ -173,14 +173,14 @@ def test_the_same_rules_give_the_same_bytes() -> None:
 
 
 @given(small_rulesets(measures=True))
-@settings(max_examples=150)
+@settings(max_examples=80)
 def test_one_formula_for_all_says_what_the_causes_say(ruleset: Ruleset) -> None:
     index = RulesetIndex(ruleset)
     assert conflict_free(index) == (not list(CONFLICT.run(index)))
 
 
 @given(rulesets())
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
+@settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 def test_certificates_of_random_rulesets_hold(tmp_path: Path, ruleset: Ruleset) -> None:
     ruleset = source(print_ruleset(ruleset), tmp_path)
     written(ruleset, tmp_path / "c")
@@ -201,7 +201,7 @@ def test_certificates_of_rulesets_with_times_hold(tmp_path: Path, seed: int) -> 
 
 
 @given(small_rulesets(measures=True))
-@settings(max_examples=100, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 def test_a_formula_without_questions_is_no_proof(ruleset: Ruleset) -> None:
     """Evidence is a proof exactly if the formulas say more than the empty clause."""
     made = certify(ruleset)

@@ -66,7 +66,7 @@ def test_every_two_rules(oracle: Path, hedges: tuple[int, int], names: tuple[str
 
 
 @given(ruleset=rulesets(domains=False), data=st.data())
-@settings(max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 def test_measures_as_conditions(oracle: Path, ruleset: Ruleset, data: st.DataObject) -> None:
     """With comparisons made conditions, what is due is the same, and the order of the cuts is assumed of no more than
     what values do."""

@@ -43,19 +43,19 @@ def test_rulesets_whose_conditions_name_events_are_answered_as_z3_answers_them()
 @pytest.mark.slow
 @pytest.mark.timeout(300)
 def test_conflicts_of_random_rulesets_are_those_that_z3_finds():
-    assert compare_conflicts(0, 80) > 5
+    assert compare_conflicts(0, 50) > 3
 
 
 @pytest.mark.slow
 @pytest.mark.timeout(300)
 def test_windows_whose_lengths_measures_give_are_answered_as_z3_answers_them():
-    assert compare_lengths(0, 60) > 300
-    assert compare_conflicts(0, 40, lengths=True) > 5
+    assert compare_lengths(0, 30) > 150
+    assert compare_conflicts(0, 25, lengths=True) > 3
 
 
 @pytest.mark.long
 @pytest.mark.timeout(3600)
-@pytest.mark.parametrize("first", range(60, 1_060, 100))
+@pytest.mark.parametrize("first", range(30, 1_030, 100))
 def test_many_windows_whose_lengths_measures_give_are_answered_as_z3_answers_them(first):
     compare_lengths(first, first + 100)
     compare_conflicts(first, first + 100, lengths=True)
@@ -63,7 +63,7 @@ def test_many_windows_whose_lengths_measures_give_are_answered_as_z3_answers_the
 
 @pytest.mark.long
 @pytest.mark.timeout(3600)
-@pytest.mark.parametrize("first", range(80, 1_080, 100))
+@pytest.mark.parametrize("first", range(50, 1_050, 100))
 def test_conflicts_of_many_random_rulesets_are_those_that_z3_finds(first):
     compare_conflicts(first, first + 100)
 
@@ -76,26 +76,26 @@ def test_random_rulesets_are_answered_as_z3_answers_them():
     command = [sys.executable, "-m", "tests.support.timed_agreement"]
     runs = [
         subprocess.Popen(
-            [*command, str(first), str(first + 100)],
+            [*command, str(first), str(first + 60)],
             cwd=ROOT,
             env=environment,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
         )
-        for first in (0, 100, 200)
+        for first in (0, 60, 120)
     ]
     answered = 0
     for run in runs:
         output, errors = run.communicate()
         assert (run.returncode, errors) == (0, "")
         answered += int(output)
-    assert answered > 1_470, "few questions are given up"
+    assert answered > 880, "few questions are given up"
 
 
 @pytest.mark.long
 @pytest.mark.timeout(3600)
-@pytest.mark.parametrize("first", range(300, 5_020, 100))
+@pytest.mark.parametrize("first", range(180, 5_020, 100))
 def test_many_random_rulesets_are_answered_as_z3_answers_them(first):
     compare_all(first, min(first + 100, 5_020), large=True)
 

@@ -82,7 +82,7 @@ small = small_rulesets(rules=3, measures=False)
 
 @pytest.mark.parametrize("criterion", sorted(REACHED))
 @given(ruleset=small)
-@settings(max_examples=60)
+@settings(max_examples=40)
 def test_every_goal_that_some_situation_reaches_is_reached(criterion, ruleset) -> None:
     found = choose_cases(ruleset, criterion)
     reached = REACHED[criterion]
@@ -117,7 +117,7 @@ def test_measures_are_valued_so_that_clauses_are_reached(ruleset) -> None:
 
 
 @given(small_rulesets(rules=2, constraints=False))
-@settings(max_examples=60)
+@settings(max_examples=40)
 def test_every_condition_that_can_decide_is_shown_to(ruleset) -> None:
     found = choose_cases(ruleset, "mcdc")
     chosen = [case.context() for case in found.cases]
@@ -125,7 +125,7 @@ def test_every_condition_that_can_decide_is_shown_to(ruleset) -> None:
 
 
 @given(st.data())
-@settings(max_examples=60)
+@settings(max_examples=40)
 def test_what_a_case_expects_is_what_is_due(data) -> None:
     ruleset = data.draw(rulesets(names=2, max_rules=3, domains=True))
     criterion = data.draw(st.sampled_from(sorted(CRITERIA)))
@@ -177,7 +177,7 @@ def test_what_is_not_reached_is_listed_with_the_reason(text, single, why) -> Non
 
 
 @given(data=st.data())
-@settings(max_examples=60)
+@settings(max_examples=40)
 def test_what_is_written_is_read(tmp_path_factory, data) -> None:
     ruleset = data.draw(rulesets(exotic=True, max_rules=3))
     found = choose_cases(ruleset, data.draw(st.sampled_from(sorted(CRITERIA))))
