@@ -7,31 +7,34 @@ English have no findings here. In the DSL, where every name is declared, only va
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 
-from sleec_runtime.model import NOWHERE, Ruleset, Span
+from sleec_runtime.model import NOWHERE, DeclaredKind, Ruleset, Span
 from sleec_verify.checks.base import Check, FindingKind
-from sleec_verify.checks.names.misreading import Misreading
+from sleec_verify.checks.names.misreading import KINDS, Misreading
 from sleec_verify.encoding.name_places import name_places
-from sleec_verify.encoding.name_uses import mentions, names_used
+from sleec_verify.encoding.name_uses import names_used
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
 
 
 def _misread(index: RulesetIndex) -> Iterator[Finding]:
     ruleset = index.ruleset
-    found = misreadings(ruleset)
+    found = misreadings(ruleset, index.names_used)
     if not found:
         return
     places = _places(ruleset, found)
+    starts = [rule.span.start for rule in ruleset.rules]
     for one in found:
         other = places[one.other][:1] if one.other is not None else []
+        around = dict.fromkeys(bisect(starts, span.start) - 1 for span in places[one.name])
         yield MISREAD_NAME.finding(
             one.message,
             next(iter(places[one.name]), NOWHERE),
             kind=one.kind,
-            rules=mentions(ruleset, one.name)[1],
+            rules=tuple(ruleset.rules[at].label for at in around if at >= 0),
             help=one.help,
             related=tuple((span, "the other name") for span in other),
         )
@@ -42,7 +45,7 @@ def replacements(ruleset: Ruleset, finding: Finding) -> tuple[tuple[Span, str], 
 
     Empty if only the author knows what to write.
     """
-    found = misreadings(ruleset)
+    found = misreadings(ruleset, names_used(ruleset))
     places = _places(ruleset, found)
     for one in found:
         if MISREAD_NAME.kinds[one.kind].code == finding.code and places[one.name][:1] == [finding.span]:
@@ -54,38 +57,24 @@ def _places(ruleset: Ruleset, found: list[Misreading]) -> Mapping[str, list[Span
     return defaultdict(list, name_places(ruleset, {name for one in found for name in (one.name, one.other) if name}))
 
 
-def misreadings(ruleset: Ruleset) -> list[Misreading]:
-    """The names that people read differently than the rules do. Each name is in the list at most once."""
+def misreadings(ruleset: Ruleset, used: Mapping[DeclaredKind, Collection[str]]) -> list[Misreading]:
+    """The names among those `used` that people read differently than the rules do, each at most once."""
     from sleec_verify.checks.names.variants import variants
 
-    kinds = _kinds(ruleset)
-    declared = frozenset[str]() if ruleset.syntax == "dsl" else declared_names(ruleset)
+    declared = frozenset[str]()
     found: list[Misreading] = []
-    phrases = sorted(name for name in kinds if " " in name)
-    if phrases:
-        from sleec_verify.checks.names.opposites import negated_conditions, opposites
-        from sleec_verify.checks.names.phrases import misread_phrase
+    if ruleset.syntax != "dsl":
+        declared = declared.union(*ruleset.declared.values(), (n for n, m in ruleset.measures.items() if m.declared))
+        phrases = {kind: sorted(n for n in used[kind] if " " in n and n not in declared) for kind in KINDS}
+        if any(phrases.values()):
+            from sleec_verify.checks.names.opposites import negated_conditions, opposites
+            from sleec_verify.checks.names.phrases import misread_phrases
 
-        found += [one for name in phrases if (one := misread_phrase(ruleset, name)) is not None]
-        conditions = [name for name in phrases if "condition" in kinds[name]]
-        found += negated_conditions(conditions)
-        found += opposites(ruleset, conditions)
-    found += variants(ruleset, kinds, declared)
-    return list({one.name: one for one in reversed(found) if one.name not in declared}.values())
-
-
-def declared_names(ruleset: Ruleset) -> frozenset[str]:
-    return frozenset[str]().union(*ruleset.declared.values(), (n for n, m in ruleset.measures.items() if m.declared))
-
-
-def _kinds(ruleset: Ruleset) -> dict[str, frozenset[str]]:
-    """The kinds of each name that rules or constraints use: trigger, condition or obligation."""
-    used = names_used(ruleset)
-    kinds: dict[str, frozenset[str]] = {}
-    for kind in ("trigger", "condition", "obligation"):
-        for name in used[kind]:
-            kinds[name] = kinds.get(name, frozenset()) | {kind}
-    return kinds
+            found += misread_phrases(ruleset, phrases)
+            found += negated_conditions(phrases["condition"])
+            found += opposites(ruleset, phrases["condition"])
+    found += (one for one in variants(ruleset, used, declared) if one.name not in declared)
+    return list({one.name: one for one in reversed(found)}.values())
 
 
 MISREAD_NAME = Check(

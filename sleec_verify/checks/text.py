@@ -18,7 +18,7 @@ from sleec_runtime.model import (
     literals,
 )
 from sleec_verify.checks.base import Check, FindingKind
-from sleec_verify.encoding.name_uses import constants_used, mentions, names_used
+from sleec_verify.encoding.name_uses import constants_used, mentions
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
 from sleec_verify.results.phrases import clause_name, quoted
@@ -26,7 +26,7 @@ from sleec_verify.results.phrases import clause_name, quoted
 
 def _unused(index: RulesetIndex) -> Iterator[Finding]:
     ruleset = index.ruleset
-    used = names_used(ruleset)
+    used = index.names_used
     constants = constants_used(ruleset)
     for statement in ruleset.statements:
         if isinstance(statement, Declaration):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import NamedTuple
 
@@ -11,6 +11,7 @@ from sleec_runtime.model import (
     Atom,
     Clause,
     Context,
+    DeclaredKind,
     Exclusive,
     Never,
     Obligation,
@@ -18,6 +19,7 @@ from sleec_runtime.model import (
     formulas_of,
     leaves,
 )
+from sleec_verify.encoding.name_uses import names_used
 from sleec_verify.encoding.solver import Recorder
 from sleec_verify.encoding.three_valued import is_true_in_empty_context
 from sleec_verify.encoding.trace_scope import Untimed
@@ -55,6 +57,11 @@ class RulesetIndex(Memo):
     def labelled(self) -> Iterator[tuple[str, int]]:
         """The label of each rule, with its position."""
         return ((rule.label, position) for position, rule in enumerate(self.rules))
+
+    @cached_property
+    def names_used(self) -> Mapping[DeclaredKind, set[str]]:
+        """The names that rules and constraints use, by kind."""
+        return names_used(self.ruleset)
 
     @cached_property
     def by_trigger(self) -> dict[str, list[int]]:

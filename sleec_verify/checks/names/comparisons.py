@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection, Iterable, Iterator
 from typing import NamedTuple
 
 from sleec_runtime.model import Measure, Ruleset
@@ -11,6 +12,7 @@ from sleec_verify.checks.names.word_forms import ARTICLES, stems
 from sleec_verify.checks.names.word_lists import COMPARATORS, NEGATED_OPERATORS, NUMBERS, PEOPLE
 from sleec_verify.results.phrases import quoted
 
+_DIGIT = re.compile("[0-9]")
 _NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]+)?")
 _IS = frozenset({"is", "are", "was", "were"})
 _VERBS = _IS | {"be", "been", "there", "has", "have", "had", "falls", "drops", "rises", "goes", "gets"}
@@ -27,11 +29,19 @@ class _Bound(NamedTuple):
     rest: list[str]
 
 
-def compared(ruleset: Ruleset, name: str) -> Misreading | None:
-    """The comparison that a phrase contains: with a number, a constant, or a value of the scale of a measure."""
-    words = name.split()
+def comparisons(ruleset: Ruleset, names: Iterable[str]) -> Iterator[Misreading]:
+    """The comparisons that phrases contain: with a number, a constant, or a value of the scale of a measure."""
+    values = {value for measure in ruleset.measures.values() for value in measure.values} | ruleset.constants.keys()
+    for name in names:
+        words = name.split()
+        has_value = not (NUMBERS.keys().isdisjoint(map(str.casefold, words)) and values.isdisjoint(words))
+        if (has_value or _DIGIT.search(name)) and (found := _comparison(ruleset, values, name, words)) is not None:
+            yield found
+
+
+def _comparison(ruleset: Ruleset, values: Collection[str], name: str, words: list[str]) -> Misreading | None:
     for at, word in enumerate(words):
-        bound = _bound(ruleset, words, at, word)
+        bound = _bound(values, words, at, word)
         if bound is None:
             continue
         measure = _measure(ruleset, bound)
@@ -44,7 +54,7 @@ def compared(ruleset: Ruleset, name: str) -> Misreading | None:
             advice = f"compare a measure: declare, for example, {quoted(declaration)}, and write {quoted(written)}"
             message = f"{quoted(name)} is read as one name, not as a comparison"
             return Misreading(COMPARISON, name, message, advice, written if subject else None)
-    return _value_before_measure(ruleset, name) if ruleset.measures else None
+    return _value_before_measure(ruleset, name)
 
 
 def _with_measure(name: str, measure: str, operator: str, value: str) -> Misreading:
@@ -53,12 +63,11 @@ def _with_measure(name: str, measure: str, operator: str, value: str) -> Misread
     return Misreading(COMPARISON, name, message, f"write {quoted(instead)}", instead)
 
 
-def _bound(ruleset: Ruleset, words: list[str], at: int, word: str) -> _Bound | None:
+def _bound(values: Collection[str], words: list[str], at: int, word: str) -> _Bound | None:
     """The comparison whose value is the word at this place."""
     value = word if _NUMBER.fullmatch(word) else str(NUMBERS.get(word.casefold(), ""))
     if not value:
-        is_value = word in ruleset.constants or any(word in measure.values for measure in ruleset.measures.values())
-        if not is_value:
+        if word not in values:
             return None
         value = word
     before = [part.casefold() for part in words[:at]]
@@ -80,16 +89,16 @@ def _bound(ruleset: Ruleset, words: list[str], at: int, word: str) -> _Bound | N
 
 def _measure(ruleset: Ruleset, bound: _Bound) -> str | None:
     """The measure that a bound is about: its name begins or ends the subject, or is the rest."""
-    subject = stems(" ".join(bound.subject))
+    subject, rest = stems(" ".join(bound.subject)), " ".join(bound.rest)
     for name, measure in ruleset.measures.items():
         if not _fits(ruleset, measure, bound.value):
             continue
         said = stems(name)
-        if said and said in (subject[: len(said)], subject[-len(said) :], stems(" ".join(bound.rest))):
+        if f"{subject} ".startswith(f"{said} ") or f" {subject}".endswith(f" {said}") or stems(rest) == said:
             return name
     if _subject(bound) != "age":
         return None
-    return next((name for name, m in ruleset.measures.items() if m.kind != "scale" and stems(name) == ("age",)), None)
+    return next((name for name, m in ruleset.measures.items() if m.kind != "scale" and name.casefold() == "age"), None)
 
 
 def _fits(ruleset: Ruleset, measure: Measure, value: str) -> bool:

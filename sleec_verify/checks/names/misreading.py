@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from sleec_runtime.model import DeclaredKind
+
+KINDS: tuple[DeclaredKind, ...] = ("trigger", "condition", "obligation")
+"""What names stand for. Measures count as conditions."""
+
 NEGATION, MODAL, COMPARISON, OPPOSITE, FOREIGN_KEYWORD, SIMILAR = range(6)
 """The kinds of misreading, in the order of their codes."""
 

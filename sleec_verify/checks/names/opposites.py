@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from sleec_runtime.model import RELATIONS, Assume, Atom, Never, Ruleset, leaves
 from sleec_verify.checks.names.misreading import NEGATION, OPPOSITE, Misreading
-from sleec_verify.checks.names.word_forms import stems, words_of
+from sleec_verify.checks.names.word_forms import stems, words_of_each
 from sleec_verify.checks.names.word_lists import AUXILIARIES, CONTRACTIONS, NEGATING_PREFIXES, NEGATIONS, OPPOSITES
 from sleec_verify.encoding.relations import formulas_of_relation
 from sleec_verify.results.phrases import quoted
@@ -14,11 +14,9 @@ from sleec_verify.results.phrases import quoted
 
 def negated_conditions(names: Sequence[str]) -> Iterator[Misreading]:
     """Conditions that differ from another one only by a negation, or that begin with one."""
-    plain = {stems(name): name for name in reversed(names)}
-    for name in names:
-        words = words_of(name)
-        if NEGATIONS.isdisjoint(words):
-            continue
+    negated = [(name, words) for name, words in zip(names, words_of_each(names)) if not NEGATIONS.isdisjoint(words)]
+    plain = {stems(name): name for name in reversed(names)} if negated else {}
+    for name, words in negated:
         left = [CONTRACTIONS.get(word, word) for word in words if word in CONTRACTIONS or word not in NEGATIONS]
         finite = [word for word in left if word not in AUXILIARIES]
         other = plain.get(stems(" ".join(left))) or plain.get(stems(" ".join(finite)))
@@ -34,12 +32,17 @@ def negated_conditions(names: Sequence[str]) -> Iterator[Misreading]:
 
 def opposites(ruleset: Ruleset, names: Sequence[str]) -> Iterator[Misreading]:
     """Conditions that differ only by a word and its opposite, if nothing in the text relates them."""
-    known = {tuple(words_of(name)): name for name in names}
+    known = dict(zip(words_of_each(names), names))
+    vocabulary = {word for words in known for word in words}
+    opposite_of = {
+        word: [o for o in (OPPOSITES.get(word), *(prefix + word for prefix in NEGATING_PREFIXES)) if o in vocabulary]
+        for word in vocabulary
+    }
     pairs = {
         tuple(sorted((name, other)))
         for words, name in known.items()
         for at, word in enumerate(words)
-        for opposite in (OPPOSITES.get(word, ""), *(prefix + word for prefix in NEGATING_PREFIXES))
+        for opposite in opposite_of[word]
         if (other := known.get((*words[:at], opposite, *words[at + 1 :]))) is not None
     }
     related = _related(ruleset) if pairs else []

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator, Mapping
 
-from sleec_runtime.model import Ruleset
-from sleec_verify.checks.names.comparisons import compared
-from sleec_verify.checks.names.misreading import FOREIGN_KEYWORD, MODAL, NEGATION, Misreading
+from sleec_runtime.model import DeclaredKind, Ruleset
+from sleec_verify.checks.names.comparisons import comparisons
+from sleec_verify.checks.names.misreading import FOREIGN_KEYWORD, KINDS, MODAL, NEGATION, Misreading
 from sleec_verify.checks.names.word_lists import (
     AUXILIARIES,
     CONTRACTIONS,
@@ -33,22 +34,28 @@ _SAID = re.compile(
 _OTHER_SUBJECT = re.compile(
     rf"(?:the|a|an|no|any|every|all) (?:[\w'-]+ ){{1,3}}?(?P<verbs>(?:must|shall|should)(?: {_NOT})?) .+", re.IGNORECASE
 )
+_BEFORE_ACTIONS = NEGATIONS | MODALS | {"has", "have", "need", "needs", "is", "are", "be"}
 _IS = re.compile(r"\b(?:is|are)\b", re.IGNORECASE)
 _TO_DO = re.compile(r"\b(?:has|have|needs?|is|are|be) to\b", re.IGNORECASE)
 
 
-def misread_phrase(ruleset: Ruleset, name: str) -> Misreading | None:
-    """What people read in a phrase, if that is not what the rules say."""
-    foreign = next((word for word in name.split() if word in FOREIGN), None)
-    if foreign is not None:
-        return _foreign(ruleset, name, foreign)
-    if name in ruleset.obligations:
-        return _said(name)
-    found = compared(ruleset, name)
-    if found is None or name in ruleset.conditions:
-        return found
+def misread_phrases(ruleset: Ruleset, phrases: Mapping[DeclaredKind, Iterable[str]]) -> Iterator[Misreading]:
+    """What people read in phrases, where that is not what the rules say."""
+    foreign = {name: word for kind in KINDS for name in phrases[kind] if (word := _foreign_keyword(name)) is not None}
+    for name, word in foreign.items():
+        yield _foreign(ruleset, name, word)
+    for name in phrases["obligation"]:
+        plain = name.replace("\u2019", "'")
+        if name not in foreign and not _BEFORE_ACTIONS.isdisjoint(plain.casefold().split()):
+            yield from _said(name, plain)
+    yield from (one for one in comparisons(ruleset, phrases["condition"]) if one.name not in foreign)
     # An event such as `the temperature falls below 20` is what it says.
-    return _in_trigger(found) if _IS.search(name) else None
+    events = [name for name in phrases["trigger"] if name not in foreign and _IS.search(name)]
+    yield from map(_in_trigger, comparisons(ruleset, events))
+
+
+def _foreign_keyword(name: str) -> str | None:
+    return None if name.islower() else next((word for word in name.split() if word in FOREIGN), None)
 
 
 def _in_trigger(found: Misreading) -> Misreading:
@@ -80,28 +87,27 @@ def _foreign(ruleset: Ruleset, name: str, foreign: str) -> Misreading:
     return Misreading(FOREIGN_KEYWORD, name, message, advice, instead or None)
 
 
-def _said(name: str) -> Misreading | None:
-    """A negation or modal verb before the action of an obligation."""
-    plain = name.replace("\u2019", "'")
+def _said(name: str, plain: str) -> Iterator[Misreading]:
+    """A negation or modal verb before the action of an obligation. `plain` is its name with straight apostrophes."""
     found = _SAID.fullmatch(plain)
     if found is None:
         other = _OTHER_SUBJECT.fullmatch(plain)
-        if other is None:
-            return None
-        negated = not NEGATIONS.isdisjoint(other["verbs"].casefold().split())
-        wanted = "what the robot must not do, and write NOT before it" if negated else "what the robot must do"
-        return _in_obligation(name, negated, f"name {wanted}, for example: {'NOT ' * negated}open the door")
+        if other is not None:
+            negated = not NEGATIONS.isdisjoint(other["verbs"].casefold().split())
+            wanted = "what the robot must not do, and write NOT before it" if negated else "what the robot must do"
+            yield _in_obligation(name, negated, f"name {wanted}, for example: {'NOT ' * negated}open the door")
+        return
     action = name[found.start("action") :]
     verbs = found["verbs"].casefold().split()
     negations = sum(verb in NEGATIONS for verb in verbs)
     if negations == 1:
         instead = f"NOT {action}"
-        return _in_obligation(name, True, f"to forbid it, write {quoted(instead)}", instead)
+        yield _in_obligation(name, True, f"to forbid it, write {quoted(instead)}", instead)
+        return
     is_modal = _TO_DO.search(found["verbs"]) or not MODALS.isdisjoint(CONTRACTIONS.get(verb, verb) for verb in verbs)
     # "can" and "will" without a subject may be other words.
     if not negations and is_modal and (found["subject"] or verbs[0] not in ("can", "will", "may", "to")):
-        return _in_obligation(name, False, f"write only the action: {quoted(action)}", action)
-    return None
+        yield _in_obligation(name, False, f"write only the action: {quoted(action)}", action)
 
 
 def _in_obligation(name: str, negated: bool, help: str, instead: str | None = None) -> Misreading:

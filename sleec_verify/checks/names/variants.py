@@ -6,42 +6,42 @@ from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping
 from itertools import combinations
 
-from sleec_runtime.model import Ruleset
+from sleec_runtime.model import DeclaredKind, Ruleset
 from sleec_runtime.support.suggestions import edit_distance
-from sleec_verify.checks.names.misreading import SIMILAR, Misreading
-from sleec_verify.checks.names.word_forms import singulars, stem, stems, words_of
+from sleec_verify.checks.names.misreading import KINDS, SIMILAR, Misreading
+from sleec_verify.checks.names.word_forms import singulars, stems_of_each
 from sleec_verify.checks.names.word_lists import OPPOSITES
 from sleec_verify.encoding.name_places import name_places
 from sleec_verify.results.phrases import quoted
 
-Kinds = Mapping[str, frozenset[str]]
-"""The kinds of each name: trigger, condition, obligation."""
+Used = Mapping[DeclaredKind, Collection[str]]
+"""The names of each kind."""
 
 _SHORTEST = 5
 """The fewest letters of the longer of two words that may be one. Many shorter words differ by one letter."""
 
 
-def variants(ruleset: Ruleset, kinds: Kinds, declared: Collection[str]) -> Iterator[Misreading]:
+def variants(ruleset: Ruleset, used: Used, declared: Collection[str]) -> list[Misreading]:
     """Each name that is a variant of another one: of a declared one, or of the more frequent one."""
-    groups: dict[tuple[str, ...], list[str]] = defaultdict(list)
-    for name in kinds:
-        groups[stems(name)].append(name)
+    names = {name for kind in KINDS for name in used[kind]}
+    stems, stem_of = stems_of_each(names)
+    groups: dict[str, list[str]] = {}
+    for stemmed, name in zip(stems, names):
+        groups.setdefault(stemmed, []).append(name)
+    groups.pop("", None)  # names without letters and digits
     related = [group for group in groups.values() if len(group) > 1]
-    misspelled = [(groups[one], groups[other]) for one, other in _misspelled(groups)]
+    misspelled = [(groups[one], groups[other]) for one, other in _misspelled(groups, stem_of)]
     involved = {name for group in (*related, *(group for pair in misspelled for group in pair)) for name in group}
     if not involved:
-        return
+        return []
     places = name_places(ruleset, involved)
-    rank = {name: (name not in declared, -len(places[name]), places[name]) for name in places}
+    rank = {name: (name not in declared, -len(places.get(name, ())), places.get(name), name) for name in involved}
+    pairs = [sorted((min(group, key=rank.__getitem__) for group in pair), key=rank.__getitem__) for pair in misspelled]
     for group in related:
         group.sort(key=rank.__getitem__)
         for at, name in enumerate(group):
-            kept = next((other for other in group[:at] if _is_variant(name, other, kinds)), None)
-            if kept is not None:
-                yield _misreading(name, kept)
-    for pair in misspelled:
-        kept, name = sorted((group[0] for group in pair), key=rank.__getitem__)
-        yield _misreading(name, kept)
+            pairs += [[kept, name] for kept in group[:at] if _is_variant(name, kept, used)][:1]
+    return [_misreading(name, kept) for kept, name in sorted(pairs)]
 
 
 def _misreading(name: str, kept: str) -> Misreading:
@@ -49,28 +49,22 @@ def _misreading(name: str, kept: str) -> Misreading:
     return Misreading(SIMILAR, name, message, f"if you mean the same, write {quoted(kept)} in both places", kept, kept)
 
 
-def _is_variant(name: str, other: str, kinds: Kinds) -> bool:
+def _is_variant(name: str, other: str, used: Used) -> bool:
     """Names of different kinds, such as the event `the door opens` and the condition `the door opened`, may differ by
     the form of the verb."""
-    return not kinds[name].isdisjoint(kinds[other]) or singulars(name) == singulars(other)
+    return any(name in used[kind] and other in used[kind] for kind in KINDS) or singulars(name) == singulars(other)
 
 
-def _misspelled(groups: Mapping[tuple[str, ...], list[str]]) -> Iterator[tuple[tuple[str, ...], tuple[str, ...]]]:
+def _misspelled(groups: Collection[str], stem_of: Mapping[str, str]) -> Iterator[tuple[str, str]]:
     """Pairs of groups whose names differ by one letter of one long word.
 
     Two words with an edit distance of one have a common part that lacks at most one letter of each (Mor and Fraenkel
     1982). So the pairs are found in linear time. The first letter is rarely wrong (Pollock and Zamora 1984), and often
     distinguishes two words, such as `left light` and `left right`.
     """
-    containing: dict[str, list[tuple[str, ...]]] = defaultdict(list)
-    stem_of: dict[str, str] = {}
-    for group, names in groups.items():
-        for word in words_of(names[0]):
-            if len(word) >= _SHORTEST - 1 and word.isalpha() and word not in OPPOSITES:
-                stem_of.setdefault(word, stem(word))
-                containing[stem(word)].append(group)
+    long_words = [word for word in stem_of if len(word) >= _SHORTEST - 1 and word.isalpha() and word not in OPPOSITES]
     near: dict[str, list[str]] = defaultdict(list)
-    for word in stem_of:
+    for word in long_words:
         for at in range(1, len(word) + 1):
             near[word[:at] + word[at + 1 :]].append(word)
     pairs = {
@@ -82,11 +76,16 @@ def _misspelled(groups: Mapping[tuple[str, ...], list[str]]) -> Iterator[tuple[t
         and edit_distance(one, other, 2) == 1
         and not _look_alike(one, other)
     }
-    for one, other in sorted(pairs):
-        for group in dict.fromkeys(containing[one]):
-            changed = tuple(other if word == one else word for word in group)
+    containing: dict[str, list[list[str]]] = {one: [] for one, _ in pairs}
+    for group in groups if pairs else ():
+        words = group.split()
+        for word in containing.keys() & set(words):
+            containing[word].append(words)
+    for one, other in pairs:
+        for words in containing[one]:
+            changed = " ".join(other if word == one else word for word in words)
             if changed in groups:
-                yield group, changed
+                yield " ".join(words), changed
 
 
 def _look_alike(one: str, other: str) -> bool:

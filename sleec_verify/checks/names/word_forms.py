@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from functools import lru_cache
+from collections.abc import Iterable, Mapping
 
 ARTICLES = frozenset({"the", "a", "an"})
 _IRREGULAR = {
@@ -21,26 +21,47 @@ _IRREGULAR = {
 }
 """Forms of frequent words that do not follow a rule."""
 
-_WORD = re.compile(r"[^\W\d_]+(?:'[^\W\d_]+)*|[0-9]+")
-_CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+_WORD = re.compile(r"[A-Z]+(?![^\W\d_A-Z])|[A-Z]?[^\W\d_A-Z]+(?:'[^\W\d_]+)*|[0-9]+|\n")
 _CONSONANTS = re.compile("v+c+")
 
 
-def words_of(name: str) -> list[str]:
-    """The words of a name in small letters: those of a phrase, or the parts of ``CamelCase`` and ``snake_case``."""
-    return [
-        word.casefold() for part in _WORD.findall(name.replace("\u2019", "'")) for word in _CAMEL.sub(" ", part).split()
-    ]
+def words_of_each(names: Iterable[str]) -> list[tuple[str, ...]]:
+    """The words of each name in small letters: those of a phrase, or the parts of ``CamelCase`` and ``snake_case``."""
+    return [tuple(part.split()) for part in " ".join(_words(names)).split("\n")][1:-1]
 
 
-def stems(name: str) -> tuple[str, ...]:
+def stems(name: str) -> str:
     """What names have in common that differ only by articles, case, number or the form of a verb."""
-    return tuple(stem(word) for word in words_of(name) if word not in ARTICLES)
+    return stems_of_each([name])[0][0]
 
 
-def singulars(name: str) -> tuple[str, ...]:
+def stems_of_each(names: Iterable[str]) -> tuple[list[str], Mapping[str, str]]:
+    """The stems of the words of each name, without articles, as one text for each; and the stem of each word.
+
+    All names are treated at once, so that most of the work is done inside Python's own loops.
+    """
+    stem_of = _Stems({**dict.fromkeys(ARTICLES, ""), "\n": "\n"})
+    found = " ".join(filter(None, map(stem_of.__getitem__, _words(names)))).split("\n")
+    return [text.strip() for text in found[1:-1]], stem_of
+
+
+def singulars(name: str) -> list[str]:
     """What names have in common that differ only by articles, case or a final `s`."""
-    return tuple(singular(word) for word in words_of(name) if word not in ARTICLES)
+    return [singular(word) for word in _words([name]) if word not in ARTICLES]
+
+
+def _words(names: Iterable[str]) -> list[str]:
+    """The words of names in small letters, with a line break before and after each name."""
+    text = "\n".join(["", *names, ""]).replace("\u2019", "'")
+    return " ".join(_WORD.findall(text)).casefold().split(" ")
+
+
+class _Stems(dict[str, str]):
+    """The stem of each word. A stem that is needed is added."""
+
+    def __missing__(self, word: str) -> str:
+        self[word] = found = stem(word)
+        return found
 
 
 def singular(word: str) -> str:
@@ -54,10 +75,11 @@ def singular(word: str) -> str:
     return word.removesuffix("s")
 
 
-@lru_cache(maxsize=1 << 14)
 def stem(word: str) -> str:
     """The stem of an English word without inflection (Porter 1980, steps 1 and 5): `take`, `takes` and `taking` have
     the same one. The stem is for comparison only: it need not be a word."""
+    if word.isdecimal():
+        return word
     word = singular(word)
     if len(word) < 3 or not word.isascii():
         return word

@@ -231,6 +231,7 @@ FINE = [
     "THEN a UNLESS the light is red AND the right is free",
     "THEN a UNLESS danger is near",
     "THEN lower the bed AND power the bed",
+    "THEN _ AND __",
 ]
 
 
