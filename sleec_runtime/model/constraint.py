@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Union
 
 from sleec_runtime.model.comments import NO_COMMENTS, Comments
-from sleec_runtime.model.formula import Formula
+from sleec_runtime.model.formula import And, Formula
 from sleec_runtime.support.spans import NOWHERE, Span
 
 
@@ -34,6 +34,14 @@ class Never:
     span: Span = field(default=NOWHERE, compare=False, repr=False)
     comments: Comments = field(default=NO_COMMENTS, compare=False, repr=False)
     exceptions: int = 0
+
+    @property
+    def forbidden(self) -> Formula:
+        """The formula before the first UNLESS."""
+        if not self.exceptions or not isinstance(self.formula, And):
+            return self.formula
+        rest = self.formula.operands[: -self.exceptions]
+        return rest[0] if len(rest) == 1 else And(rest, self.formula.span)
 
 
 @dataclass(frozen=True, slots=True)

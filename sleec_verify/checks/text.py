@@ -12,7 +12,6 @@ from sleec_runtime.model import (
     Declaration,
     Exclusive,
     Measure,
-    Never,
     Span,
     leaves,
     literals,
@@ -58,11 +57,11 @@ def _unused_finding(kind: str, name: str, span: Span) -> Finding:
 
 
 def _constrained(index: RulesetIndex) -> Iterator[tuple[str, Span]]:
-    """The obligations that EXCLUSIVE and NEVER name."""
+    """The obligations that EXCLUSIVE and NEVER name, except those that NEVER forbids alone: no rule needs them."""
     for constraint in index.constraints:
         if isinstance(constraint, Exclusive):
             yield from zip(constraint.names, constraint.name_spans)
-        elif isinstance(constraint, Never):
+        elif not isinstance(constraint.forbidden, Atom):
             for leaf in leaves(constraint.formula):
                 if isinstance(leaf, Atom) and leaf.kind == "obligation":
                     yield leaf.name, leaf.span

@@ -133,14 +133,12 @@ def _text(statement: Statement, lines: EnglishPrinter) -> str:
 
 def _never(statement: Never) -> str:
     """A NEVER, with each of its exceptions after UNLESS."""
-    formula = statement.formula
-    if not statement.exceptions:
-        return f"NEVER {print_formula(formula)}"
-    assert isinstance(formula, And), "the exceptions are operands"
-    forbidden, exceptions = formula.operands[: -statement.exceptions], formula.operands[-statement.exceptions :]
-    text = print_formula(forbidden[0] if len(forbidden) == 1 else And(forbidden))
-    negated = (exception.operand for exception in exceptions if isinstance(exception, Not))
-    return " ".join([f"NEVER {text}", *(f"UNLESS {print_formula(condition)}" for condition in negated)])
+    text = f"NEVER {print_formula(statement.forbidden)}"
+    if not isinstance(statement.formula, And):
+        return text
+    last = statement.formula.operands[len(statement.formula.operands) - statement.exceptions :]
+    negated = (exception.operand for exception in last if isinstance(exception, Not))
+    return " ".join([text, *(f"UNLESS {print_formula(condition)}" for condition in negated)])
 
 
 def _is_separate(before: Statement, statement: Statement) -> bool:

@@ -139,3 +139,8 @@ def test_the_robot_follows_it_at_every_trigger() -> None:
     executed.clear()
     sleec.trigger("the user calls")
     assert sorted(executed) == ["answer", "hurry"]
+
+
+def test_no_rule_needs_what_never_forbids_alone() -> None:
+    assert not findings(f"NEVER shout UNLESS the alarm rings\n{RULES}", "unused-name")
+    assert len(findings(f"NEVER shout AND answer UNLESS the alarm rings\n{RULES}", "unused-name")) == 1
