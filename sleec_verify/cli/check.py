@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
@@ -13,7 +14,7 @@ from sleec_verify.cli.cached_checks import cache_of_environment
 from sleec_verify.cli.cached_checks import results as kept_or_new
 from sleec_verify.cli.fix_option import FixCommand, identifiers
 from sleec_verify.cli.inputs import files, rulesets
-from sleec_verify.cli.output import complain, report
+from sleec_verify.cli.output import complain, report, tell
 from sleec_verify.encoding.budget import limited
 from sleec_verify.report import FORMATS
 from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput, checked
@@ -130,6 +131,8 @@ def command(
             required = (require_proved, require_tied)
             outcomes = _outcomes(found, scope, realizable, fixes, cache, certificate, required)
         report(outcomes, form, output)
+        if form == "full" and not fixes and sys.stdout.isatty() and any(one.findings for one in checked(outcomes)):
+            tell("To list repairs, add --fixes. To resolve conflicts one by one, use sleec-verify resolve.")
         if any(isinstance(outcome, UnusableInput) for outcome in outcomes):
             return exits.UNUSABLE
         return exits.code((result for outcome in checked(outcomes) for result in outcome.results), fail_level)
@@ -167,7 +170,7 @@ def _outcomes(
                             results = kept_or_new(ruleset, scope, cache, progress.on(path))
                         else:
                             results = _certified(ruleset, scope, certificate, required, progress)
-                        repairs = _repairs(ruleset, results, scope) if fixes else None
+                        repairs = _repairs(ruleset, results, scope, progress) if fixes else None
                         if realizable is not None:
                             # A strategy is no refutation, of which certificates speak.
                             results += _realizability(ruleset, scope, realizable, progress)
@@ -192,12 +195,15 @@ def _certified(
     return made.results
 
 
-def _repairs(ruleset: Ruleset, results: Sequence[CheckResult], scope: Scope) -> tuple[FindingRepairs, ...]:
+def _repairs(
+    ruleset: Ruleset, results: Sequence[CheckResult], scope: Scope, progress: Progress
+) -> tuple[FindingRepairs, ...]:
     from sleec_verify.repairs.numbering import numbered_repairs
     from sleec_verify.repairs.search import RepairSearch
 
     search = RepairSearch(ruleset, results, scope.domain, scope.untimed, scope.chains)
-    return tuple(numbered_repairs(CheckedRuleset(ruleset, tuple(results)).deduplicated, search))
+    findings = CheckedRuleset(ruleset, tuple(results)).deduplicated
+    return tuple(numbered_repairs(findings, search, progress.on(ruleset.source.path)))
 
 
 def _realizability(ruleset: Ruleset, scope: Scope, acts: int, progress: Progress) -> tuple[CheckResult, ...]:

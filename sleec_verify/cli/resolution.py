@@ -98,7 +98,10 @@ class Dialogue:
         for line in finding_lines(finding, conflicts.ruleset.source, self._palette):
             write_line(line)
         write_line("")
-        repairs = conflicts.search.repairs(finding)
+        search = conflicts.search
+        repairs = search.repairs(finding)
+        if search.undecided is not None:
+            write_line(f"{self._palette('unknown', 'unknown')} There may be more repairs: {search.undecided}")
         if not repairs:
             write_line("No repair is found. Skip this conflict, or change the rules by hand.")
         for number, repair in enumerate(repairs, 1):

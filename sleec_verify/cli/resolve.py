@@ -63,10 +63,10 @@ def _plan(conflicts: Conflicts, path: str, palette: Palette) -> Iterator[str]:
     from sleec_verify.repairs.numbering import numbered_repairs
 
     source = conflicts.ruleset.source
-    for finding, repairs in numbered_repairs(conflicts.findings, conflicts.search):
-        yield from finding_lines(finding, source, palette, repairs)
-        if repairs:
-            yield f"proposal: sleec-verify check --fix {repairs[0].identifier} {path}"
+    for found in numbered_repairs(conflicts.findings, conflicts.search):
+        yield from finding_lines(found.finding, source, palette, found)
+        if found.repairs:
+            yield f"proposal: sleec-verify check --fix {found.repairs[0].identifier} {path}"
         yield ""
     if conflicts.undecided is not None:
         yield f"{source.path}: {palette('unknown', 'unknown[conflict]')} {conflicts.undecided}"

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Sequence
 from typing import NamedTuple
 
+from sleec_verify.checks import Progress
 from sleec_verify.repairs.repair import Repair
 from sleec_verify.repairs.search import RepairSearch
 from sleec_verify.results.finding import Finding
@@ -19,20 +20,25 @@ class NumberedRepair(NamedTuple):
 
 
 class FindingRepairs(NamedTuple):
-    """A finding and its repairs, the smallest change first."""
+    """A finding and its repairs, the smallest change first. `undecided` says why there may be more, if there may."""
 
     finding: Finding
     repairs: tuple[NumberedRepair, ...]
+    undecided: str | None = None
 
 
-def numbered_repairs(findings: Iterable[Finding], search: RepairSearch) -> list[FindingRepairs]:
+def numbered_repairs(
+    findings: Sequence[Finding], search: RepairSearch, progress: Progress | None = None
+) -> list[FindingRepairs]:
     """The repairs of `findings`, which are in the order of the report. Costs a search for each of them."""
     counts: Counter[str] = Counter()
     found = []
-    for finding in findings:
+    for done, finding in enumerate(findings):
+        if progress is not None:
+            progress(f"repairs of {finding.code}", done, len(findings))
         repairs = []
         for repair in search.repairs(finding):
             counts[finding.code] += 1
             repairs.append(NumberedRepair(f"{finding.code}:{counts[finding.code]}", repair))
-        found.append(FindingRepairs(finding, tuple(repairs)))
+        found.append(FindingRepairs(finding, tuple(repairs), search.undecided))
     return found

@@ -39,9 +39,12 @@ class RepairSearch:
         self._domain = domain
         self._untimed: Untimed = untimed
         self._verification = Verification(ruleset, results, domain, untimed, chains)
+        self.undecided: str | None = None
+        """Why the last search of repairs may not have found all, if it may not."""
 
     def repairs(self, finding: Finding) -> list[Repair]:
         """The repairs, those that change the fewest situations first, and of these the shortest edits."""
+        self.undecided = None
         found: dict[str, Repair] = {}
         for operator, candidate in self._proposed(self._ruleset, finding):
             repair = self._repair(finding, operator, candidate)
@@ -76,6 +79,8 @@ class RepairSearch:
             try:
                 repaired = self._verification.repaired(finding, candidate)
             except Rejected as rejected:
+                if rejected.undecided:
+                    self.undecided = str(rejected)
                 step = _consequence(rejected)
                 if step is not None:
                     is_giving_way = False

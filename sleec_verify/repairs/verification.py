@@ -23,12 +23,18 @@ that it shows."""
 
 
 class Rejected(Exception):
-    """A candidate is not a repair; the message says why. `appeared` is a finding that the changed rules have."""
+    """A candidate is not a repair; the message says why. `appeared` is a finding that the changed rules have.
 
-    def __init__(self, why: str, changed: Ruleset | None = None, appeared: Finding | None = None) -> None:
+    If it is `undecided`, a check could not tell, and the candidate may be a repair.
+    """
+
+    def __init__(
+        self, why: str, changed: Ruleset | None = None, appeared: Finding | None = None, undecided: bool = False
+    ) -> None:
         super().__init__(why)
         self.changed = changed
         self.appeared = appeared
+        self.undecided = undecided
 
 
 class Verification:
@@ -97,7 +103,8 @@ class Verification:
         for names in ([finding.check], [name for name in self._names if name != finding.check]):
             for result in checking.results(names):
                 if isinstance(result.verdict, Unknown) and result.name not in self._unknown:
-                    raise Rejected(f"the check {result.name} of the changed text is unknown: {result.verdict.why}")
+                    why = f"the check {result.name} of the changed text is unknown: {result.verdict.why}"
+                    raise Rejected(why, undecided=True)
                 more = Counter(places.identity(one) for one in result.findings) - allowed
                 for one in result.findings:
                     examine(one, more)

@@ -10,6 +10,7 @@ from sleec_verify.report.outcome import Outcome, UnusableInput, checked, in_shor
 from sleec_verify.results.phrases import error_summary, in_domains, listed
 
 if TYPE_CHECKING:
+    from sleec_verify.repairs.numbering import FindingRepairs
     from sleec_verify.report.palette import Palette
 
 
@@ -28,11 +29,9 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             message = f"{finding.message}{in_domains(finding.domains)}"
             here = f"{source.path}:{place.line}:{place.column}:"
             yield f"{here} {label} {message}"
-            for identifier, repair in outcome.repairs_of(finding) or ():
-                from sleec_verify.report.repair_phrases import effect_in_words
-
-                said = f"{repair.candidate.title} ({effect_in_words(repair.effect)})"
-                yield f"{here} {palette('help', f'repair[{identifier}]')} {said}"
+            repairs = outcome.repairs_of(finding)
+            if repairs is not None:
+                yield from (f"{here} {line}" for line in _repairs(repairs, palette))
         for name, why in outcome.unlisted:
             yield f"{rules.path}: {palette('note', f'note[{name}]')} {why}"
         for name, why in outcome.undecided:
@@ -40,3 +39,13 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     readings = sorted({outcome.ruleset.reading for outcome in checked(outcomes) if not outcome.settings})
     read_as = f" (reading {listed(readings)})" if readings else ""
     yield f"{in_short(outcomes)}{read_as}"
+
+
+def _repairs(found: FindingRepairs, palette: Palette) -> Iterator[str]:
+    from sleec_verify.report.repair_phrases import effect_in_words
+
+    for identifier, repair in found.repairs:
+        effect = effect_in_words(repair.effect)
+        yield f"{palette('help', f'repair[{identifier}]')} {repair.candidate.title} ({effect})"
+    if found.undecided is not None:
+        yield f"{palette('unknown', 'unknown[repairs]')} there may be more: {found.undecided}"

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Source
     from sleec_verify.encoding.trace_scope import Untimed
-    from sleec_verify.repairs.numbering import NumberedRepair
+    from sleec_verify.repairs.numbering import FindingRepairs
     from sleec_verify.report.palette import Palette
     from sleec_verify.results.finding import Finding
 
@@ -44,7 +44,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
 
 
 def finding_lines(
-    finding: Finding, source: Source, palette: Palette, repairs: Sequence[NumberedRepair] | None = None
+    finding: Finding, source: Source, palette: Palette, repairs: FindingRepairs | None = None
 ) -> Iterator[str]:
     """The lines of one finding, with its repairs if somebody asked for them, without the blank line after it."""
     place = source.place(finding.span)
@@ -59,17 +59,18 @@ def finding_lines(
         yield f"{margin} = {shown}: {text}" if text else f"{margin} = {shown}:"
         yield from (f"{margin}     {line}" for line in lines)
     if repairs is not None:
-        shown = palette("help", "repairs")
-        yield f"{margin} = {shown}:" if repairs else f"{margin} = {shown}: none found"
+        yield f"{margin} = {palette('help', 'repairs')}:{'' if repairs.repairs or repairs.undecided else ' none found'}"
         yield from (f"{margin}     {line}" for line in _repair_lines(repairs, palette))
 
 
-def _repair_lines(repairs: Sequence[NumberedRepair], palette: Palette) -> Iterator[str]:
+def _repair_lines(found: FindingRepairs, palette: Palette) -> Iterator[str]:
     from sleec_verify.report.repair_phrases import effect_in_words
 
-    for identifier, repair in repairs:
+    for identifier, repair in found.repairs:
         yield f"{palette('strong', identifier)} {repair.candidate.title}"
         yield f"{' ' * len(identifier)} {palette('faint', effect_in_words(repair.effect))}"
+    if found.undecided is not None:
+        yield f"{palette('unknown', 'unknown')} There may be more: {found.undecided}"
 
 
 def error_lines(error: SleecError, palette: Palette) -> Iterator[str]:

@@ -52,7 +52,10 @@ def _finding(finding: Finding, outcome: CheckedRuleset) -> Json:
     source = outcome.ruleset.source
     shown = finding_json(finding, finding.source or source)
     repairs = outcome.repairs_of(finding)
-    return shown if repairs is None else {**shown, "repairs": [_repair(one, source) for one in repairs]}
+    if repairs is None:
+        return shown
+    unknown: dict[str, Json] = {} if repairs.undecided is None else {"repairs_unknown": repairs.undecided}
+    return {**shown, "repairs": [_repair(one, source) for one in repairs.repairs], **unknown}
 
 
 def _repair(one: NumberedRepair, source: Source) -> Json:

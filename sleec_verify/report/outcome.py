@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Ruleset
     from sleec_verify.encoding.trace_scope import Untimed
-    from sleec_verify.repairs.numbering import FindingRepairs, NumberedRepair
+    from sleec_verify.repairs.numbering import FindingRepairs
     from sleec_verify.results.finding import CheckResult, Finding, Severity
 
 
@@ -28,10 +28,9 @@ class CheckedRuleset(NamedTuple):
     settings: bool = False
     repairs: tuple[FindingRepairs, ...] | None = None
 
-    def repairs_of(self, finding: Finding) -> tuple[NumberedRepair, ...] | None:
+    def repairs_of(self, finding: Finding) -> FindingRepairs | None:
         """The repairs of a finding; None if nobody asked for them, or if another finding stands for this one."""
-        same = (f for f in self.repairs or () if _identity(f.finding) == _identity(finding))
-        return next((one.repairs for one in same), None)
+        return next((one for one in self.repairs or () if _identity(one.finding) == _identity(finding)), None)
 
     @property
     def findings(self) -> list[Finding]:

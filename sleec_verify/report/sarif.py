@@ -112,8 +112,8 @@ def _result(outcome: CheckedRuleset, one: Located, index: Mapping[str, int]) -> 
             {"id": number, **_location(source, span, word)} for number, (span, word) in enumerate(finding.related, 1)
         ]
     repairs = outcome.repairs_of(finding)
-    if repairs:
-        result["fixes"] = [_fix(one, source) for one in repairs]
+    if repairs is not None and repairs.repairs:
+        result["fixes"] = [_fix(one, source) for one in repairs.repairs]
     flow: list[Json] = [
         {
             "location": _location(step.source, step.span, step.words),

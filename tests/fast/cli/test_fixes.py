@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from sleec_verify.repairs.verification import Rejected, Verification
+from sleec_verify.report import FORMATS
 from tests.support.cli import Cli
 from tests.support.fixes import CONFLICT, DEAD, changed, findings
 from tests.support.formats import VALIDATOR
+from tests.support.schemas import validator
 
 RULES = CONFLICT + DEAD
 
@@ -67,3 +71,21 @@ def test_sarif_has_fixes(cli: Cli) -> None:
 
 def test_a_finding_without_a_repair_says_so(cli: Cli) -> None:
     assert "= repairs: none found" in cli("check", "--fixes", "a.sleec", files={"a.sleec": "WHEN Bell THEN Bell"}).out
+
+
+def test_repairs_that_cannot_be_verified_are_unknown(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    checked = Verification.repaired
+
+    def gives_up(verification: Verification, *arguments: Any) -> Any:
+        checked(verification, *arguments)
+        raise Rejected("the solver gave up", undecided=True)
+
+    monkeypatch.setattr(Verification, "repaired", gives_up)
+    shown = {
+        form: cli("check", "--fixes", "--format", form, "a.sleec", files={"a.sleec": CONFLICT}).out for form in FORMATS
+    }
+    assert "     unknown There may be more: the solver gave up\n" in shown["full"]
+    assert "none found" not in shown["full"]
+    assert "a.sleec:3:1: unknown[repairs] there may be more: the solver gave up\n" in shown["concise"]
+    validator("check").validate(json.loads(shown["json"]))
+    assert '"repairs_unknown": "the solver gave up"' in shown["json"]
