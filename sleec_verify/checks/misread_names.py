@@ -2,7 +2,8 @@
 
 A phrase is one name, unless the language reads it as a form of plain English: `the robot is not allowed to leave` is an
 obligation of that name. A declaration says that a name is meant as it is written, so declared names of structured
-English have no findings here. In the DSL, where every name is declared, only variants of one name are reported.
+English have no findings here. In the DSL, where every name is declared, only variants of one name are reported. In
+both languages, a comment can allow a finding: ``// sleec: allow SLEEC525 because …``.
 """
 
 from __future__ import annotations
@@ -18,13 +19,21 @@ from sleec_verify.encoding.name_places import name_places
 from sleec_verify.encoding.name_uses import names_used
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
+from sleec_verify.results.suppressions import suppressions
 
 
 def _misread(index: RulesetIndex) -> Iterator[Finding]:
+    """The findings, except those that a comment in the text allows."""
     ruleset = index.ruleset
     found = misreadings(ruleset, index.names_used)
-    if not found:
-        return
+    if found:
+        allowing = suppressions(ruleset, ALLOWED_BY_COMMENTS)[0]
+        for finding in _findings(ruleset, found):
+            if not any(one.covers(ruleset, finding) for one in allowing):
+                yield finding
+
+
+def _findings(ruleset: Ruleset, found: list[Misreading]) -> Iterator[Finding]:
     places = _places(ruleset, found)
     starts = [rule.span.start for rule in ruleset.rules]
     for one in found:
@@ -77,6 +86,10 @@ def misreadings(ruleset: Ruleset, used: Mapping[DeclaredKind, Collection[str]]) 
     return list({one.name: one for one in reversed(found)}.values())
 
 
+_MEANT = (
+    "If the name is meant as it is written, declare it, or allow it with a comment that has the code and a reason: "
+    "// sleec: allow SLEEC520 because REASON."
+)
 MISREAD_NAME = Check(
     "misread-name",
     "Does every name mean what its words say?",
@@ -87,8 +100,7 @@ MISREAD_NAME = Check(
             "a negation inside a name",
             "A name contains a word such as `not` or `never`. It is one name. An obligation with such a name requires "
             "what its words deny. A condition with such a name is independent of the condition without the negation.",
-            "Write the keyword NOT before the name without the negation. If the name is meant as it is written, "
-            "declare it.",
+            f"Write the keyword NOT before the name without the negation. {_MEANT}",
             "WHEN the user sleeps THEN the robot is not allowed to play music\n",
             "WHEN the user sleeps THEN NOT play music\n",
         ),
@@ -98,8 +110,7 @@ MISREAD_NAME = Check(
             "a modal verb inside an obligation",
             "An obligation contains a word such as `must` or `should`. The words are part of its name, so the same "
             "action without them is a different obligation.",
-            "Write only the action: THEN says that the robot must do it. If the name is meant as it is written, "
-            "declare it.",
+            f"Write only the action: THEN says that the robot must do it. {_MEANT}",
             "WHEN the user falls THEN the robot has to call the nurse\n",
             "WHEN the user falls THEN call the nurse\n",
         ),
@@ -109,7 +120,7 @@ MISREAD_NAME = Check(
             "a comparison inside a name",
             "A condition contains words such as `under 6`, or a measure and its value. It is one name, so it is "
             "independent of the measure and of other bounds.",
-            "Declare a measure, and compare it with an operator. If the name is meant as it is written, declare it.",
+            f"Declare a measure, and compare it with an operator. {_MEANT}",
             "WHEN the door opens THEN greet\nUNLESS the age is under 6 IN WHICH CASE wave\n",
             "MEASURE age: number\nWHEN the door opens THEN greet\nUNLESS age < 6 IN WHICH CASE wave\n",
         ),
@@ -132,7 +143,7 @@ MISREAD_NAME = Check(
             "a word in capitals that is not a keyword",
             "A name contains a word in capitals that looks like a keyword, such as BUT or IMMEDIATELY. Structured "
             "English has no such keyword. The word is part of the name.",
-            "Use the keyword of structured English, or leave the word out.",
+            f"Use the keyword of structured English, or leave the word out. {_MEANT}",
             "WHEN the user falls THEN call the nurse IMMEDIATELY\n",
             "WHEN the user falls THEN call the nurse\n",
         ),
@@ -142,7 +153,8 @@ MISREAD_NAME = Check(
             "two names that differ only slightly",
             "Two names differ only by an article, by capitals, by singular and plural, by the form of a verb, or by "
             "one letter. They are two different names. A rule about one does not conflict with a rule about the other.",
-            "Use one spelling everywhere. If you mean two different things, choose names that differ more.",
+            "Use one spelling everywhere. If you mean two different things, choose names that differ more, or allow "
+            "one with a comment: // sleec: allow SLEEC525 because REASON.",
             "WHEN the user falls THEN call the nurse\nWHEN the user sleeps THEN NOT call nurse\n",
             "WHEN the user falls THEN call the nurse\nWHEN the user sleeps THEN NOT play music\n",
         ),
@@ -150,3 +162,6 @@ MISREAD_NAME = Check(
     _misread,
     scope="text",
 )
+
+ALLOWED_BY_COMMENTS = frozenset({MISREAD_NAME.name, *(kind.code for kind in MISREAD_NAME.kinds)})
+"""The codes, and the name of the check, that a comment in the text allows for every command, not only for the gate."""

@@ -16,7 +16,6 @@ from sleec_runtime.language.common.source import decode_source
 from sleec_runtime.language.dsl.scanner import scan as scan_dsl
 from sleec_runtime.language.english.scanner import scan
 from sleec_runtime.model import Context
-from sleec_verify.changes.gate.suppressions import suppressions
 from sleec_verify.checks import CHECKS, run_checks
 from sleec_verify.encoding.budget import for_file
 from sleec_verify.encoding.trace_scope import speaks_of_traces
@@ -27,6 +26,7 @@ from sleec_verify.report import FORMATS, renderer
 from sleec_verify.report.outcome import CheckedRuleset
 from sleec_verify.report.palette import PLAIN
 from sleec_verify.results.finding import Unknown
+from sleec_verify.results.suppressions import suppressions
 from tests.fuzz.property import unless_refused
 
 if TYPE_CHECKING:

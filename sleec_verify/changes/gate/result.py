@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from sleec_verify.changes.assertions.assertion import AssertionResult
     from sleec_verify.changes.compare import Difference
     from sleec_verify.changes.gate.keys import Target
-    from sleec_verify.changes.gate.suppressions import Suppression
     from sleec_verify.results.finding import CheckResult, Finding
+    from sleec_verify.results.suppressions import Suppression
 
 POLICY_CHANGES = "policy-changes"
 NEW_SUPPRESSIONS = "new-suppressions"

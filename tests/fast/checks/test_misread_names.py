@@ -195,6 +195,29 @@ def test_declared_names_are_meant_as_they_are_written() -> None:
     assert not codes(DECLARED + text)
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "WHEN the bell rings THEN not leave // sleec: allow SLEEC520 because it is a dance\n",
+        "# sleec: allow SLEEC523, SLEEC520 because it is a dance\nWHEN the bell rings\nTHEN not leave\n",
+        "// sleec: allow misread-name because it is a dance\nRULE dance WHEN the bell rings THEN not leave\n",
+    ],
+)
+def test_a_comment_allows_a_finding_with_a_reason(text: str) -> None:
+    assert not misread(text)
+    assert codes(text.replace(" because it is a dance", "")) == [NEGATION]
+    assert codes(text.replace("SLEEC520", "SLEEC521").replace("misread-name", "reading")) == [NEGATION]
+
+
+def test_a_comment_at_a_definition_allows_a_variant_in_the_dsl() -> None:
+    text = (
+        "def_start\nevent Called\nevent TakePhoto\nevent TakePhotos{}\ndef_end\nrule_start\n"
+        "R1 when Called then TakePhoto\nR2 when Called then not TakePhotos\nrule_end\n"
+    )
+    assert codes(text.format("")) == [SIMILAR]
+    assert not codes(text.format(" // sleec: allow SLEEC525 because one photo is for the file"))
+
+
 def test_a_name_is_corrected_to_the_declared_one() -> None:
     text = "TRIGGER a guest waits\nWHEN a guest waits THEN greet UNLESS a guest wait AND (asleep OR a guest wait)\n"
     assert corrected(text) == text.replace("a guest wait ", "a guest waits ").replace("a guest wait)", "a guest waits)")

@@ -41,6 +41,18 @@ def test_a_suppression_elsewhere_allows_nothing_and_is_reported(cli: Cli, reposi
     assert "unused suppression: line 5 allows SLEEC202" in cli("gate", "--base", "main").out
 
 
+def test_the_suppression_of_a_name_is_not_unused(cli: Cli, repository: Repository) -> None:
+    """The check of names heeds it, so that the gate sees no finding."""
+    rule = "RULE b\nWHEN u THEN it has to wait"
+    repository.write(a_sleec=f"{OLD}{rule} // sleec: allow SLEEC521 because the button says so\n")
+    config(repository, block="unused-suppressions = true\nnew-suppressions = false")
+    code, said = gated(cli)
+    assert (code, said["rulesets"][0]["unused_suppressions"]) == (0, [])
+    assert cli("check", "a.sleec", "--fail-level", "warning").code == 0
+    repository.write(a_sleec=f"{OLD}{rule}\n")
+    assert "SLEEC521" in cli("check", "a.sleec", "--fail-level", "warning").out
+
+
 def test_each_code_of_a_suppression_counts(cli: Cli, repository: Repository) -> None:
     repository.write(a_sleec="# sleec: allow SLEEC202, SLEEC501, dead-rule because it comes next year\n" + DEAD)
     config(repository, block="dead-hedges = true\nunused-suppressions = true\nnew-suppressions = false")
