@@ -69,7 +69,7 @@ CHECKS: Mapping[str, Check] = {
     )
 }
 
-_COSTLY = (
+COSTLY = (
     CONSTANT_CONDITION.name,
     ASSUMPTIONS.name,
     DEAD_RULE.name,
@@ -185,7 +185,7 @@ class Checking:
         had: dict[str, float] = {}
         with for_file(len(self.whole.ruleset.source.text)):
             self._ask_what_is_possible()
-            waiting = sorted(names, key=lambda name: _COSTLY.index(name) if name in _COSTLY else -1)
+            waiting = sorted(names, key=lambda name: COSTLY.index(name) if name in COSTLY else -1)
             for again in range(_ROUNDS):
                 short = []
                 for done, name in enumerate(waiting):

@@ -9,7 +9,7 @@ from dataclasses import replace
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, parse_source
 from sleec_runtime.model import Rule, Ruleset
-from sleec_verify.checks import Checking
+from sleec_verify.checks import COSTLY, Checking
 from sleec_verify.checks.conflict import CONFLICT
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.repairs.edit import OffsetMap, edited, in_order, inverse
@@ -99,8 +99,10 @@ class Verification:
                 if places.identity(one) == target:
                     examine(one)
         checking = self._checking(new, examine)
-        # The question of the finding first: it rejects most candidates.
-        for names in ([finding.check], [name for name in self._names if name != finding.check]):
+        # The cheap questions first, and of the others that of the finding: they reject most candidates.
+        others = [name for name in self._names if name != finding.check]
+        cheap = [name for name in others if name not in COSTLY]
+        for names in (cheap, [finding.check], [name for name in others if name in COSTLY]):
             for result in checking.results(names):
                 if isinstance(result.verdict, Unknown) and result.name not in self._unknown:
                     why = f"the check {result.name} of the changed text is unknown: {result.verdict.why}"
