@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 
 from sleec_runtime.model import Ruleset
+from sleec_verify.repairs.operators.assumptions import assumptions
+from sleec_verify.repairs.operators.bounds import bounds
 from sleec_verify.repairs.operators.concerns import preventions
 from sleec_verify.repairs.operators.corrections import events, labels, values, windows
 from sleec_verify.repairs.operators.deadlines import deadlines
+from sleec_verify.repairs.operators.decomposition import decompositions
 from sleec_verify.repairs.operators.giving_way import exceptions, guards, refinements, responses
 from sleec_verify.repairs.operators.inputs import agents
 from sleec_verify.repairs.operators.purposes import relaxations
@@ -20,7 +23,19 @@ Operation = Callable[[Ruleset, Finding], Iterator[Candidate]]
 """Proposes candidates for a finding. They need not be repairs. Raises `Unsayable` if the language has no words for
 one."""
 
-_WHO_GIVES_WAY: tuple[Operation, ...] = (guards, exceptions, refinements, orders, responses, deadlines, hedges, rules)
+_WHO_GIVES_WAY: tuple[Operation, ...] = (
+    bounds,
+    guards,
+    exceptions,
+    refinements,
+    orders,
+    responses,
+    decompositions,
+    deadlines,
+    assumptions,
+    hedges,
+    rules,
+)
 
 REMOVALS: Mapping[str, Operation] = {
     "SLEEC202": hedges,

@@ -1,7 +1,7 @@
 """Repairs of a conflict over time: the required response has more time, or an alternative.
 
-This is the operator *deadline refinement* of SLEEC-PATCH (2026). A window of another length does not help: a prohibition
-can begin at the last instant of every window that ends.
+This is the operator *deadline refinement* of SLEEC-PATCH (2026). A window of another length does not help, because a
+prohibition can begin at the last instant of every window that ends.
 """
 
 from __future__ import annotations

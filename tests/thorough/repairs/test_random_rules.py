@@ -15,11 +15,13 @@ CODES = ("SLEEC101", "SLEEC102", "SLEEC202", "SLEEC301", "SLEEC302")
 
 
 def differing(old: Ruleset, new: Ruleset) -> int:
-    """The situations without a conflict in which the rules oblige something else, as the first rules name them."""
+    """The situations without a conflict in which the rules oblige something else, as the first rules name them, and
+    those that an assumption excludes."""
+    assumed = [constraint for constraint in new.constraints if constraint not in old.constraints]
     return sum(
-        brute_force.due(old, context) != brute_force.due(new, context)
+        not all(brute_force.value(one.formula, context, measures=new.measures) for one in assumed)
+        or (brute_force.due(old, context) != brute_force.due(new, context) and not brute_force.conflicts(old, context))
         for context in brute_force.contexts(old)
-        if not brute_force.conflicts(old, context)
     )
 
 

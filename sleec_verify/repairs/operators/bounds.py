@@ -1,0 +1,62 @@
+"""Repairs of a conflict by another bound or operator: two comparisons of one measure no longer overlap.
+
+``x <= 10`` becomes ``x < 10`` beside ``x >= 10``, and ``x > 50`` becomes ``x >= 60`` beside ``x < 60``: the negation of
+the other comparison.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+from sleec_runtime.model import Comparison, MeasureRef, Operator, Rule, Ruleset
+from sleec_verify.encoding.equation import guard
+from sleec_verify.repairs.operators.claim_cases import parts_of
+from sleec_verify.repairs.repair import Candidate
+from sleec_verify.repairs.statement_edits import as_read, printer_of, replaced
+from sleec_verify.results.finding import Finding
+from sleec_verify.results.phrases import quoted
+
+_NEGATION: Mapping[Operator, Operator] = {"<": ">=", "<=": ">", ">=": "<", ">": "<="}
+
+
+class _Bound(NamedTuple):
+    """A comparison of a measure with a bound, in the guard of a clause of a rule."""
+
+    rule: Rule
+    comparison: Comparison
+
+    def is_opposite(self, other: _Bound) -> bool:
+        """Whether the other one bounds the same measure from the other side."""
+        one, two = self.comparison, other.comparison
+        return one.left == two.left and one.operator[0] != two.operator[0]
+
+
+def bounds(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """One comparison is the negation of another one of the conflict."""
+    found = list(_bounds(ruleset, finding))
+    for changed in found:
+        for kept in found:
+            if changed.rule is not kept.rule and changed.is_opposite(kept):
+                negated = replace(kept.comparison, operator=_NEGATION[kept.comparison.operator])
+                text, old = _text(ruleset, negated), _text(ruleset, changed.comparison)
+                title = f"write {quoted(text)} for {quoted(old)} in rule {quoted(changed.rule.label)}"
+                edits = replaced(changed.comparison.span, text)
+                yield Candidate("correction", title, edits, changed.rule.label)
+
+
+def _bounds(ruleset: Ruleset, finding: Finding) -> Iterator[_Bound]:
+    for label, number in finding.clauses:
+        rule = ruleset.by_label[label]
+        for part in parts_of(guard(rule, ruleset.reading, number)):
+            if isinstance(part, Comparison) and part.operator in _NEGATION and isinstance(part.left, MeasureRef):
+                yield _Bound(rule, part)
+
+
+def _text(ruleset: Ruleset, comparison: Comparison) -> str:
+    """A comparison without parentheses, in the language of a ruleset."""
+    read = as_read(ruleset, comparison)
+    assert isinstance(read, Comparison), "a comparison is read as one"
+    formulas = printer_of(ruleset).formulas
+    return f"{formulas.term(read.left)} {formulas.operator(read.operator)} {formulas.term(read.right)}"
