@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 
 from sleec_runtime.model import Ruleset
+from sleec_verify.checks.misread_names import MISREAD_NAME
 from sleec_verify.repairs.operators.assumptions import assumptions
 from sleec_verify.repairs.operators.bounds import bounds
 from sleec_verify.repairs.operators.concerns import preventions
@@ -16,6 +17,7 @@ from sleec_verify.repairs.operators.inputs import agents
 from sleec_verify.repairs.operators.purposes import relaxations
 from sleec_verify.repairs.operators.removal import declarations, hedges, redundant_rule, rules
 from sleec_verify.repairs.operators.reordering import orders
+from sleec_verify.repairs.operators.wording import names
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.results.finding import Finding
 
@@ -62,4 +64,5 @@ OPERATORS: Mapping[str, tuple[Operation, ...]] = {
     "SLEEC509": (rules,),
     "SLEEC510": (preventions, events),
     "SLEEC513": (windows,),
+    **{kind.code: (names,) for kind in MISREAD_NAME.kinds},
 }

@@ -1,0 +1,48 @@
+"""Names that read like something else are replaced by what they say."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.support.repairs import repairs_of, texts_after
+
+CHANGES = {
+    "SLEEC520": ("the robot is not allowed to leave", "NOT leave"),
+    "SLEEC521": ("the robot has to leave", "leave"),
+    "SLEEC524": ("leave IMMEDIATELY", "leave"),
+}
+TEXT = "WHEN the bell rings THEN {} // at last\n\nWHEN a guest comes THEN greet\nUNLESS it rains IN WHICH CASE {}\n"
+
+
+@pytest.mark.parametrize("code", CHANGES)
+def test_an_obligation_changes_at_all_its_places(code: str) -> None:
+    wrong, right = CHANGES[code]
+    text = TEXT.format(wrong, wrong)
+    (repair,) = repairs_of(text, code)
+    assert repair.candidate.operator == "correction"
+    assert repair.candidate.title == f"write `{right}` for `{wrong}` in 2 places"
+    assert texts_after(text, [repair]) == [TEXT.format(right, right)]
+
+
+def test_a_condition_becomes_a_comparison() -> None:
+    text = "WHEN a guest comes THEN greet\nUNLESS the guest is under 6 IN WHICH CASE wave\n"
+    assert texts_after(text, repairs_of(text, "SLEEC522")) == [text.replace("the guest is under 6", "age < 6")]
+
+
+def test_one_of_two_opposites_is_a_negation() -> None:
+    text = "WHEN a guest comes THEN greet UNLESS the door is open\nWHEN it rains THEN wait UNLESS the door is closed\n"
+    (new,) = texts_after(text, repairs_of(text, "SLEEC523"))
+    assert new.count("NOT the door is") == 1
+
+
+def test_one_of_two_similar_names_is_used_everywhere() -> None:
+    text = TEXT.format("take photos", "take photo") + "WHEN it snows THEN take photo\n"
+    (repair,) = repairs_of(text, "SLEEC525")
+    assert repair.candidate.operator == "renaming"
+    assert texts_after(text, [repair]) == [text.replace("photos", "photo")]
+
+
+def test_a_name_that_hides_a_conflict_stays_for_the_author() -> None:
+    text = "WHEN the user falls THEN call the nurse\nWHEN the user sleeps THEN NOT call nurse\n"
+    assert not repairs_of(text, "SLEEC525")
+    assert not repairs_of("WHEN the bell rings THEN greet UNLESS is less than 10 IN WHICH CASE wave\n", "SLEEC522")
