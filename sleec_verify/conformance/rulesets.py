@@ -10,7 +10,10 @@ from collections.abc import Sequence
 
 from hypothesis import strategies as st
 
+from sleec_runtime.language.english.always import Always, instances
 from sleec_runtime.model import (
+    NO_COMMENTS,
+    NOWHERE,
     READINGS,
     And,
     Assume,
@@ -23,6 +26,7 @@ from sleec_runtime.model import (
     Kind,
     Measure,
     Never,
+    Not,
     Obligation,
     Reading,
     Rule,
@@ -59,13 +63,14 @@ def rulesets(
     exotic: bool = False,
     comments: bool = False,
     readings: Sequence[Reading] = READINGS,
+    always: bool = False,
 ) -> Ruleset:
     """Valid rulesets of `min_rules` to `max_rules` rules with up to `max_hedges` hedges in each chain.
 
     Formulas are up to `max_depth` operators deep, over `names` names of each kind. `nested` allows chains in
     parentheses, `negations` prohibitions, `overlap` names that are both trigger and obligation, `events` conditions
     that name triggers of rules, `labels` rules with labels of their own, `exotic` names in other scripts, `comments`
-    comments everywhere.
+    comments everywhere, `always` a rule for every trigger.
     """
     known = Vocabulary(names, overlap, exotic)
     statements: list[Statement] = []
@@ -80,12 +85,20 @@ def rulesets(
         draw(_rules(known, trigger, leaf, max_hedges, max_depth, nested, guards, negations, domains, labels, number))
         for number, trigger in enumerate(triggers, 1)
     ]
+    every: list[Rule] = []
+    if always and draw(st.booleans()):
+        every.append(
+            draw(_rules(known, triggers[0], leaf, max_hedges, max_depth, nested, False, negations, domains, False, 0))
+        )
     others: list[Statement] = []
     if constraints and draw(st.booleans()):
-        others += draw(_constraints(rules, known, leaf, max_depth, domains))
+        others += draw(_constraints([*rules, *every], known, leaf, max_depth, domains))
     if declarations:
-        statements += draw(_declarations([*rules, *others]))
+        statements += draw(_declarations([*rules, *every, *others]))
     statements = _merged(draw, draw(st.permutations([*statements, *others])), rules)
+    if every:
+        at = draw(st.integers(0, len(statements)))
+        statements[at:at] = _instances(every[0], statements)
     if comments:
         statements = [draw(with_comments(statement)) for statement in statements]
     return Ruleset(
@@ -104,6 +117,16 @@ def _merged(draw: st.DrawFn, others: list[Statement], rules: list[Rule]) -> list
         merged += [other for other, place in zip(others, places) if place == index]
         merged += rules[index : index + 1]
     return merged
+
+
+def _instances(rule: Rule, statements: list[Statement]) -> list[Rule]:
+    """`rule` for each trigger of the statements."""
+    triggers = [statement.trigger for statement in statements if isinstance(statement, Rule)]
+    for statement in statements:
+        if isinstance(statement, Declaration) and statement.kind == "trigger":
+            triggers += statement.names
+    every = Always(rule.default, rule.hedges, rule.domains, NOWHERE, NOWHERE, NO_COMMENTS)
+    return instances(every, "always_1", dict.fromkeys(triggers))
 
 
 @st.composite
@@ -194,9 +217,11 @@ def _constraints(
     only_triggers = [name for name in triggers if name not in obligations]
     conditions = [st.builds(Atom, st.just("condition"), st.sampled_from(sorted(used)))] if used else []
     situations = [st.builds(Atom, st.just("trigger"), st.sampled_from(only_triggers))] if only_triggers else []
+    exception = formulas(st.one_of(*conditions, *situations), max_depth) if conditions or situations else st.nothing()
     for _ in range(draw(st.integers(0, 2))):
         rest = draw(formulas(st.one_of(obligation, *conditions, *situations), max_depth))
-        found.append(Never(And((draw(obligation), rest)), draw(where)))
+        exceptions = draw(st.lists(st.builds(Not, exception), max_size=2)) if draw(st.booleans()) else []
+        found.append(Never(And((draw(obligation), rest, *exceptions)), draw(where), exceptions=len(exceptions)))
     if draw(st.booleans()):
         found.append(Assume(draw(formulas(st.one_of(trigger, leaf), max_depth)), draw(where)))
     return found

@@ -31,10 +31,12 @@ def _in_dsl(ruleset: Ruleset, names: Collection[str]) -> Mapping[str, list[Span]
 
 def _in_english(ruleset: Ruleset, names: Collection[str]) -> Mapping[str, list[Span]]:
     from sleec_runtime.language.english.keywords import CLAIMS, PHRASE, RELATION_WORDS, STATEMENTS
+    from sleec_runtime.language.english.modal_verbs import modal_verb, small_word
     from sleec_runtime.language.english.scanner import scan
 
     tokens = scan(ruleset.source.text)
     kinds = tokens.kinds
+    used = ruleset.triggers | ruleset.conditions | ruleset.obligations
     separators = {"RELATION": RELATION_WORDS, "EVENT": frozenset({"BY"})}
     places: dict[str, list[Span]] = defaultdict(list)
     statement = ""
@@ -47,7 +49,12 @@ def _in_english(ruleset: Ruleset, names: Collection[str]) -> Mapping[str, list[S
                 at += 1
             is_name = statement != "DOMAIN" and kinds[first - 1] not in CLAIMS | {"RULE"}
             if at > first and is_name:
-                name = composed(" ".join(map(tokens.text_of, range(first, at))))
+                words = [tokens.text_of(token) for token in range(first, at)]
+                name = composed(" ".join(words))
+                modal = None if name in used else modal_verb(list(map(small_word, words)))
+                if modal is not None:
+                    first += modal.words
+                    name = composed(" ".join(words[modal.words :]))
                 if name in names:
                     places[name].append(Span(tokens.starts[first], tokens.ends[at - 1]))
         elif kinds[at] in STATEMENTS:

@@ -35,9 +35,14 @@ class ModalVerb(NamedTuple):
     forbids: bool
 
 
+def small_word(word: str) -> str:
+    """A word in lowercase with a straight apostrophe, to compare it with words of English."""
+    return word.casefold().replace("\u2019", "'")
+
+
 def modal_verb(words: Sequence[str]) -> ModalVerb | None:
-    """The modal verb at the start of a phrase, in lowercase; None if there is none, or if its meaning is unclear, as in
-    ``must never not``."""
+    """The modal verb at the start of a phrase of these `small_word`s; None if there is none, or if its meaning is
+    unclear, as in ``must never not``."""
     first = len(_SUBJECT) if tuple(words[:2]) == _SUBJECT else 0
     for form, forbids in _FORMS:
         end = first + len(form)

@@ -10,6 +10,7 @@ from sleec_runtime.language.common.token_cursor import MAX_NAME, composed
 from sleec_runtime.language.common.units import UNITS
 from sleec_runtime.language.english.keyword_correction import near_keyword
 from sleec_runtime.language.english.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
+from sleec_runtime.language.english.modal_verbs import small_word
 from sleec_runtime.language.english.token_cursor import EnglishCursor
 from sleec_runtime.model import Span
 
@@ -48,8 +49,8 @@ class EnglishPhraseParser(EnglishCursor):
         return self.joined_name(token, last)
 
     def small_word(self, token: int) -> str:
-        """The token in lowercase, with a straight apostrophe, to compare it with words of English."""
-        return self.token_text(token).casefold().replace("\u2019", "'")
+        """The token, to compare it with words of English."""
+        return small_word(self.token_text(token))
 
     def refuse_name(self, what: str, hint: str | None) -> NoReturn:
         """Gives up because `what` cannot start with the token at hand."""

@@ -265,3 +265,9 @@ def test_plain_names_are_fine(text: str) -> None:
 
 def test_letters_that_look_alike_are_left_to_another_check() -> None:
     assert not codes("WHEN the bell rings THEN \u041epen the door AND Open the door\n")
+
+
+def test_the_place_of_a_name_after_a_modal_verb() -> None:
+    text = "WHEN a THEN call the nurse\nWHEN b THEN the robot mustn\u2019t call nurse\n"
+    (finding,) = misread(text)
+    assert text[finding.span.start : finding.span.end] == "call nurse"

@@ -19,7 +19,7 @@ from tests.support.strategies import contexts, rulesets
 
 @given(st.data())
 def test_decisions_and_conflicts_are_those_of_brute_force(data: st.DataObject) -> None:
-    ruleset = data.draw(rulesets())
+    ruleset = data.draw(rulesets(always=True))
     context = data.draw(contexts(ruleset))
     for reading in READINGS:
         for rule in ruleset.rules:
@@ -31,7 +31,7 @@ def test_decisions_and_conflicts_are_those_of_brute_force(data: st.DataObject) -
 
 @given(st.data())
 def test_a_robot_executes_what_is_due_whatever_the_changes_before(data: st.DataObject) -> None:
-    ruleset = data.draw(rulesets(labels=False))
+    ruleset = data.draw(rulesets(labels=False, always=True))
     sleec = Sleec(ruleset)
     robot = listing_2(sleec)
     composed = Sleec(ruleset)

@@ -9,13 +9,13 @@ from sleec_runtime.model import Ruleset
 from tests.support.strategies import rulesets
 
 
-@given(rulesets(exotic=True, max_depth=3))
+@given(rulesets(exotic=True, max_depth=3, always=True))
 def test_parsing_undoes_printing(ruleset: Ruleset) -> None:
     assert parse(print_ruleset(ruleset)) == ruleset
 
 
 @settings(max_examples=200)
-@given(rulesets(comments=True, max_rules=3, max_hedges=2))
+@given(rulesets(comments=True, max_rules=3, max_hedges=2, always=True))
 def test_printing_again_changes_nothing_and_loses_no_comment(ruleset: Ruleset) -> None:
     text = print_ruleset(ruleset)
     again = parse(text)
