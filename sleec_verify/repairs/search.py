@@ -99,7 +99,9 @@ class RepairSearch:
         text = edited(changed.source.text, second.edits)
         title = f"{first.title}; then {second.title}"
         edits = edits_between(self._ruleset.source.text, text)
-        return replace(first, title=title, edits=edits)
+        merges = first.operator == "defeater-introduction" and second.operator == "rule-removal"
+        operator = "rule-merging" if merges else first.operator
+        return replace(first, operator=operator, title=title, edits=edits)
 
 
 _Step = tuple[Ruleset, Candidate]

@@ -1,0 +1,40 @@
+"""Repairs of names that people read differently than the rules do."""
+
+from __future__ import annotations
+
+import pytest
+
+from sleec_runtime.language import parse
+from sleec_verify.checks import run_checks
+from sleec_verify.repairs.simplification import simplifications
+from tests.support.repairs import repairs_of, texts_after
+
+
+@pytest.mark.parametrize(
+    ("code", "wrong", "right"),
+    [
+        ("SLEEC520", "WHEN t THEN the robot is not allowed to leave\n", "WHEN t THEN NOT leave\n"),
+        ("SLEEC522", "WHEN t AND the child is under 6 THEN stop\n", "WHEN t AND age < 6 THEN stop\n"),
+        ("SLEEC524", "WHEN t THEN BUT call the office\n", "WHEN t THEN call the office\n"),
+        (
+            "SLEEC525",
+            (
+                "WHEN s THEN take photos\nWHEN v THEN take photos\nWHEN w THEN take photos\n"
+                "WHEN t THEN take photo // twice\nWHEN u THEN take photo AND wait\n"
+            ),
+            (
+                "WHEN s THEN take photos\nWHEN v THEN take photos\nWHEN w THEN take photos\n"
+                "WHEN t THEN take photos // twice\nWHEN u THEN take photos AND wait\n"
+            ),
+        ),
+    ],
+)
+def test_the_text_to_write_is_written(code: str, wrong: str, right: str) -> None:
+    assert right in texts_after(wrong, repairs_of(wrong, code))
+
+
+def test_variants_need_no_decision_but_the_meaning_of_words_does() -> None:
+    text = "WHEN s THEN take photos\nWHEN t THEN take photo AND the robot is not allowed to leave\n"
+    ruleset = parse(text)
+    *_, last = simplifications(ruleset, run_checks(ruleset))
+    assert last.repaired.source.text == text.replace("photo AND", "photos AND")
