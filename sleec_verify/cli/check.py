@@ -132,7 +132,7 @@ def command(
             outcomes = _outcomes(found, scope, realizable, fixes, cache, certificate, required)
         report(outcomes, form, output)
         if form == "full" and not fixes and sys.stdout.isatty() and any(one.findings for one in checked(outcomes)):
-            tell("To list repairs, add --fixes. To resolve conflicts one by one, use sleec-verify resolve.")
+            tell("add --fixes to list repairs, or run sleec-verify resolve to decide conflict by conflict")
         if any(isinstance(outcome, UnusableInput) for outcome in outcomes):
             return exits.UNUSABLE
         return exits.code((result for outcome in checked(outcomes) for result in outcome.results), fail_level)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from sleec_verify.repairs.edit import OffsetMap, TextEdit, in_order
-from sleec_verify.repairs.statement_edits import indent_at, line_break_of
+from sleec_verify.repairs.statement_edits import indent_at, line_break_of, printer_of
 from sleec_verify.results.phrases import listed, quoted
 
 if TYPE_CHECKING:
     from datetime import date
 
-    from sleec_runtime.model import Rule, Ruleset
+    from sleec_runtime.model import Ruleset
     from sleec_verify.repairs.repair import Repair
 
 
@@ -21,15 +21,19 @@ def decision(ruleset: Ruleset, repair: Repair, day: date, reason: str) -> str:
     candidate = repair.candidate
     said = candidate.title
     if candidate.gives_way is not None:
-        others = [_name(ruleset.by_label[label]) for label in repair.finding.rules if label != candidate.gives_way]
-        said = f"{_name(ruleset.by_label[candidate.gives_way])} gives way to {listed(others)}"
+        others = [_name(ruleset, label) for label in repair.finding.rules if label != candidate.gives_way]
+        said = f"{_name(ruleset, candidate.gives_way)} gives way to {listed(others)}" if others else said
     why = " ".join("".join(c if c.isprintable() else " " for c in reason).split())
     return f"decision {day.isoformat()}: {said}{f': {why}' if why else ''}"
 
 
-def _name(rule: Rule) -> str:
-    """The label of a rule. A rule without a label has a number, which changes, so its trigger names it."""
-    return quoted(rule.label if rule.labelled else f"WHEN {rule.trigger}")
+def _name(ruleset: Ruleset, label: str) -> str:
+    """The label of a rule. A rule without a label has a number, which changes, so its trigger and guard name it."""
+    rule = ruleset.by_label[label]
+    if rule.labelled:
+        return quoted(label)
+    guard = "" if rule.guard is None else printer_of(ruleset).formulas.guard(rule.guard)
+    return quoted(f"WHEN {rule.trigger}{guard}")
 
 
 def comment_edit(ruleset: Ruleset, repair: Repair, comment: str) -> TextEdit:

@@ -97,6 +97,11 @@ def test_a_reason_is_one_line_of_text(answer: Answer, tmp_path: Path) -> None:
     assert ": Würde [31m zuerst und immer\n" in left(tmp_path)
 
 
+def test_rules_without_labels_are_named_by_their_triggers(answer: Answer, tmp_path: Path) -> None:
+    answer("1", "", "q", text="WHEN Bell THEN Speak\nWHEN Bell AND Late THEN NOT Speak\n")
+    assert left(tmp_path).startswith(f"{TODAY}`WHEN Bell` gives way to `WHEN Bell AND Late`\n")
+
+
 def test_a_change_by_somebody_else_is_kept(answer: Answer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "a.sleec"
     asked: list[str] = []
