@@ -50,8 +50,8 @@ if TYPE_CHECKING:
     "fix",
     metavar="[CODE:N]",
     multiple=True,
-    help="Apply the repair that --fixes lists as CODE:N, or without a value all removals that change no meaning, "
-    "and check again. The file is replaced atomically.",
+    help="Apply the repair that --fixes lists as CODE:N, or without a value all repairs that need no decision, "
+    "because the rules mean the same. Then check again.",
 )
 @click.option("--diff", "only_show", is_flag=True, help="With --fix: show the changes, and write nothing.")
 @options.fail_level

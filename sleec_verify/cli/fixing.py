@@ -69,7 +69,7 @@ def _fix_one(
     path = ruleset.source.path
     repairs = list(_repairs(ruleset, chosen, scope, cache))
     if not repairs:
-        tell(f"{path}: nothing to fix without a change of meaning")
+        tell(f"{path}: nothing to fix without a decision")
         return False
     if only_show:
         show_diff(path, ruleset.source.text, repairs[-1].repaired.source.text)

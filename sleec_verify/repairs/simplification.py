@@ -16,7 +16,7 @@ _CODES = frozenset((*REMOVALS, "SLEEC507", "SLEEC508", "SLEEC509", "SLEEC513"))
 """The findings that are repaired without a question, if the repair keeps the meaning."""
 
 _ONE_NAME = "SLEEC525"
-"""A variant of another name is a slip: whoever means two names declares both."""
+"""A variant of another name is a slip, because an author who means two names declares both."""
 
 
 def simplifications(

@@ -49,7 +49,7 @@ def test_one_of_two_equal_rules_stays(cli: Cli, tmp_path: Path) -> None:
 def test_fix_alone_stops_when_nothing_is_left(cli: Cli, tmp_path: Path) -> None:
     path = tmp_path / "a.sleec"
     ran = cli("check", "--fix", "a.sleec", files={"a.sleec": CONFLICT})
-    assert ran.err == "a.sleec: nothing to fix without a change of meaning\n"
+    assert ran.err == "a.sleec: nothing to fix without a decision\n"
     assert ran.code == 1
     assert path.read_text() == CONFLICT
 
