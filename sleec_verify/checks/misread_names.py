@@ -12,11 +12,11 @@ from bisect import bisect
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping
 
-from sleec_runtime.model import NOWHERE, DeclaredKind, Ruleset, Span
+from sleec_runtime.model import DeclaredKind, Ruleset, Span
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.names.misreading import KINDS, Misreading
 from sleec_verify.encoding.name_places import name_places
-from sleec_verify.encoding.name_uses import names_used
+from sleec_verify.encoding.name_uses import mentions, names_used
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.suppressions import suppressions
@@ -41,7 +41,7 @@ def _findings(ruleset: Ruleset, found: list[Misreading]) -> Iterator[Finding]:
         around = dict.fromkeys(bisect(starts, span.start) - 1 for span in places[one.name])
         yield MISREAD_NAME.finding(
             one.message,
-            next(iter(places[one.name]), NOWHERE),
+            next(iter(places[one.name]), None) or mentions(ruleset, one.name)[0],
             kind=one.kind,
             rules=tuple(ruleset.rules[at].label for at in around if at >= 0),
             help=one.help,

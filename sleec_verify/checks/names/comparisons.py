@@ -9,7 +9,7 @@ from typing import NamedTuple
 from sleec_runtime.model import Measure, Ruleset
 from sleec_verify.checks.names.misreading import COMPARISON, Misreading
 from sleec_verify.checks.names.word_forms import ARTICLES, stems
-from sleec_verify.checks.names.word_lists import COMPARATORS, NEGATED_OPERATORS, NUMBERS, PEOPLE
+from sleec_verify.checks.names.word_lists import COMPARATORS, NEGATED_OPERATORS, NUMBERS, PEOPLE, UNITS
 from sleec_verify.results.phrases import quoted
 
 _DIGIT = re.compile("[0-9]")
@@ -21,27 +21,33 @@ _NOT = frozenset({"not", "never"})
 
 
 class _Bound(NamedTuple):
-    """`subject operator value`; `rest` are the words after it."""
+    """`subject operator value`. `rest` are the words after it, and `has_is` says that `is` is after the subject."""
 
     subject: list[str]
     operator: str
     value: str
     rest: list[str]
+    has_is: bool
 
 
-def comparisons(ruleset: Ruleset, names: Iterable[str]) -> Iterator[Misreading]:
-    """The comparisons that phrases contain: with a number, a constant, or a value of the scale of a measure."""
+def comparisons(ruleset: Ruleset, names: Iterable[str], with_is: bool = True) -> Iterator[Misreading]:
+    """The comparisons that phrases contain: with a number, a constant, or a value of the scale of a measure. `with_is`
+    also finds `is` and a number, without a word that compares."""
     values = {value for measure in ruleset.measures.values() for value in measure.values} | ruleset.constants.keys()
     for name in names:
         words = name.split()
         has_value = not (NUMBERS.keys().isdisjoint(map(str.casefold, words)) and values.isdisjoint(words))
-        if (has_value or _DIGIT.search(name)) and (found := _comparison(ruleset, values, name, words)) is not None:
+        if (has_value or _DIGIT.search(name)) and (
+            found := _comparison(ruleset, values, name, words, with_is)
+        ) is not None:
             yield found
 
 
-def _comparison(ruleset: Ruleset, values: Collection[str], name: str, words: list[str]) -> Misreading | None:
-    for at, word in enumerate(words):
-        bound = _bound(values, words, at, word)
+def _comparison(
+    ruleset: Ruleset, values: Collection[str], name: str, words: list[str], with_is: bool
+) -> Misreading | None:
+    for at in range(len(words)):
+        bound = _bound(values, words, at, with_is)
         if bound is None:
             continue
         measure = _measure(ruleset, bound)
@@ -63,8 +69,9 @@ def _with_measure(name: str, measure: str, operator: str, value: str) -> Misread
     return Misreading(COMPARISON, name, message, f"write {quoted(instead)}", instead)
 
 
-def _bound(values: Collection[str], words: list[str], at: int, word: str) -> _Bound | None:
+def _bound(values: Collection[str], words: list[str], at: int, with_is: bool) -> _Bound | None:
     """The comparison whose value is the word at this place."""
+    word = words[at]
     value = word if _NUMBER.fullmatch(word) else str(NUMBERS.get(word.casefold(), ""))
     if not value:
         if word not in values:
@@ -76,15 +83,16 @@ def _bound(values: Collection[str], words: list[str], at: int, word: str) -> _Bo
     length = next((n for n in (3, 2, 1) if " ".join(before[-n:]) in COMPARATORS and n <= len(before)), 0)
     if length:
         operator = COMPARATORS[" ".join(before[-length:])]
-    elif word.casefold() not in NUMBERS and (before and (before[-1] in _IS | _NOT)):
+    elif with_is and word.casefold() not in NUMBERS and before and before[-1] in _IS | _NOT:
         operator = "="
     else:
         return None
     before = before[: len(before) - length]
+    has_is = not _IS.isdisjoint(before[-2:])
     while before and before[-1] in _VERBS | _NOT:
         if before.pop() in _NOT:
             operator = NEGATED_OPERATORS[operator]
-    return _Bound(words[: len(before)], operator, value, words[at + 1 :])
+    return _Bound(words[: len(before)], operator, value, words[at + 1 :], has_is)
 
 
 def _measure(ruleset: Ruleset, bound: _Bound) -> str | None:
@@ -106,14 +114,17 @@ def _fits(ruleset: Ruleset, measure: Measure, value: str) -> bool:
 
 
 def _subject(bound: _Bound) -> str:
-    """A name for a measure that is not declared: `age` for people, otherwise the words before or after, if any."""
+    """A name for a measure that is not declared, or an empty text: `age` of people, what is counted, or the subject."""
     words, rest = (
-        [word for word in map(str.casefold, part) if word not in ARTICLES | _VERBS | _PRONOUNS]
+        [word.removesuffix("'s") for word in map(str.casefold, part) if word not in ARTICLES | _VERBS | _PRONOUNS]
         for part in (bound.subject, bound.rest)
     )
-    if (words and words[-1] in PEOPLE) or rest[:1] in (["years"], ["year"]):
+    counted = next((word for word in rest[:1] if word not in UNITS), None)
+    if counted is None and words and words[-1] in PEOPLE | {"age"}:
         return "age"
-    return "_".join(words or rest[:1])
+    if counted is not None and (not words or words[-1] in PEOPLE or not bound.has_is):
+        return counted
+    return "_".join(words) or {"year": "age", "years": "age", "o'clock": "hour"}.get("".join(rest[:1]), "")
 
 
 def _value_before_measure(ruleset: Ruleset, name: str) -> Misreading | None:

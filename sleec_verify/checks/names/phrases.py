@@ -15,6 +15,7 @@ from sleec_verify.checks.names.word_lists import (
     MODALS,
     NEGATIONS,
     OUTSIDE_OBLIGATIONS,
+    PERMISSIONS,
     ROBOTS,
     SUPERFLUOUS,
 )
@@ -32,9 +33,12 @@ _SAID = re.compile(
     re.IGNORECASE,
 )
 _OTHER_SUBJECT = re.compile(
-    rf"(?:the|a|an|no|any|every|all) (?:[\w'-]+ ){{1,3}}?(?P<verbs>(?:must|shall|should)(?: {_NOT})?) .+", re.IGNORECASE
+    rf"(?:(?:the|a|an|no|any|every|all) (?:[\w'-]+ ){{1,3}}?|[\w'-]+ )(?P<verbs>(?:must|shall|should)(?: {_NOT})?) .+",
+    re.IGNORECASE,
 )
 _BEFORE_ACTIONS = NEGATIONS | MODALS | {"has", "have", "need", "needs", "is", "are", "be"}
+_FORBIDDEN = "name what the robot must not do, and write NOT before it, for example: NOT open the door"
+_REQUIRED = "name what the robot must do, for example: open the door"
 _IS = re.compile(r"\b(?:is|are)\b", re.IGNORECASE)
 _TO_DO = re.compile(r"\b(?:has|have|needs?|is|are|be) to\b", re.IGNORECASE)
 
@@ -51,7 +55,7 @@ def misread_phrases(ruleset: Ruleset, phrases: Mapping[DeclaredKind, Iterable[st
     yield from (one for one in comparisons(ruleset, phrases["condition"]) if one.name not in foreign)
     # An event such as `the temperature falls below 20` is what it says.
     events = [name for name in phrases["trigger"] if name not in foreign and _IS.search(name)]
-    yield from map(_in_trigger, comparisons(ruleset, events))
+    yield from map(_in_trigger, comparisons(ruleset, events, with_is=False))
 
 
 def _foreign_keyword(name: str) -> str | None:
@@ -59,7 +63,8 @@ def _foreign_keyword(name: str) -> str | None:
 
 
 def _in_trigger(found: Misreading) -> Misreading:
-    advice = "name an event, and write the comparison after AND, for example: WHEN the user calls AND age < 6"
+    comparison = found.instead or "age < 6"
+    advice = f"name an event, and write the comparison after AND, for example: WHEN the user calls AND {comparison}"
     return found._replace(help=advice, instead=None)
 
 
@@ -94,19 +99,27 @@ def _said(name: str, plain: str) -> Iterator[Misreading]:
         other = _OTHER_SUBJECT.fullmatch(plain)
         if other is not None:
             negated = not NEGATIONS.isdisjoint(other["verbs"].casefold().split())
-            wanted = "what the robot must not do, and write NOT before it" if negated else "what the robot must do"
-            yield _in_obligation(name, negated, f"name {wanted}, for example: {'NOT ' * negated}open the door")
+            yield _in_obligation(name, negated, _FORBIDDEN if negated else _REQUIRED)
         return
     action = name[found.start("action") :]
     verbs = found["verbs"].casefold().split()
     negations = sum(verb in NEGATIONS for verb in verbs)
-    if negations == 1:
+    if negations == 1 and verbs[-1] != "no":
         instead = f"NOT {action}"
         yield _in_obligation(name, True, f"to forbid it, write {quoted(instead)}", instead)
         return
-    is_modal = _TO_DO.search(found["verbs"]) or not MODALS.isdisjoint(CONTRACTIONS.get(verb, verb) for verb in verbs)
-    # "can" and "will" without a subject may be other words.
-    if not negations and is_modal and (found["subject"] or verbs[0] not in ("can", "will", "may", "to")):
+    if negations:
+        if negations == 1:
+            yield _in_obligation(name, True, _FORBIDDEN)
+        return
+    modals = {CONTRACTIONS.get(verb, verb) for verb in verbs}
+    # "can" without a subject may be another word.
+    if not (found["subject"] or verbs[0] not in ("can", "to")):
+        return
+    if not PERMISSIONS.isdisjoint(modals):
+        advice = f"a rule permits nothing: write {quoted(action)} if the robot must do it, or leave it out"
+        yield _in_obligation(name, False, advice)
+    elif _TO_DO.search(found["verbs"]) or not MODALS.isdisjoint(modals):
         yield _in_obligation(name, False, f"write only the action: {quoted(action)}", action)
 
 

@@ -22,6 +22,8 @@ CONTRACTIONS = {
 
 NEGATIONS = frozenset({"not", "never", "no", *CONTRACTIONS})
 MODALS = frozenset({"must", "shall", "should", "may", "might", "can", "could", "will", "would", "ought"})
+PERMISSIONS = frozenset({"may", "might", "can", "could", "allowed", "permitted", "able", "free"})
+"""Words that say what the robot need not do."""
 AUXILIARIES = frozenset({"do", "does", "did"})
 ROBOTS = ("robot", "system", "agent", "machine", "it", "he", "she", "they", "you", "we")
 """The subjects of a sentence about what the robot does."""
@@ -68,6 +70,13 @@ driver passenger
 PEOPLE = frozenset(_PEOPLE.split())
 """Whom a bound on a number most likely says the age of."""
 
+_UNITS = """
+year years old month months week weeks day days hour hours minute minutes second seconds o'clock degrees degree percent
+metres meters metre meter centimetres cm m km kg kilograms grams g litres liters
+"""
+UNITS = frozenset(_UNITS.split())
+"""What follows a number and is not counted."""
+
 FOREIGN = {
     **dict.fromkeys(("BUT", "ALTHOUGH"), "leave it out, write AND, or write UNLESS before an exception"),
     **dict.fromkeys(
@@ -93,7 +102,7 @@ FOREIGN = {
     **dict.fromkeys(("PROVIDED", "ASSUMING"), "write AND and the condition before THEN, or UNLESS NOT after it"),
     "NEVER": "write NOT before the obligation",
     "ALWAYS": "leave it out: a rule applies whenever its trigger occurs",
-    **dict.fromkeys(("EQUALS", "IS"), "write = to compare a measure"),
+    "EQUALS": "write = to compare a measure",
     **dict.fromkeys(
         ("WITNESSES", "EXCLUDES", "PRECEDES", "CAUSES", "INCLUDES", "FORBIDS", "OPPOSES"),
         "it is a keyword only in a RELATION",

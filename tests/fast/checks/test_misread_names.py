@@ -54,6 +54,10 @@ CONDITIONS = [
     ("the temperature is above 38.5", COMPARISON, "temperature > 38.5"),
     ("the bath temperature is 38", COMPARISON, "bath_temperature = 38"),
     ("at least 3 people are here", COMPARISON, "people >= 3"),
+    ("the user has taken more than 3 tablets", COMPARISON, "tablets > 3"),
+    ("the robot's battery is below 20 percent", COMPARISON, "robot_battery < 20"),
+    ("the child is more than 3 steps away", COMPARISON, "steps > 3"),
+    ("it is 8 o'clock", COMPARISON, "hour = 8"),
     ("there are 3 people", COMPARISON, "people = 3"),
     ("danger is high", COMPARISON, "danger = high"),
     ("the danger is not high", COMPARISON, "danger != high"),
@@ -92,6 +96,11 @@ def test_words_in_a_condition(written: str, code: str, instead: str, frame: str)
         ("it rains AFTER noon", KEYWORD),
         ("the door must not open", NEGATION),
         ("the light should be on", MODAL),
+        ("visitors should be asked to wait", MODAL),
+        ("the robot may leave", MODAL),
+        ("may open the window", MODAL),
+        ("it is allowed to leave", MODAL),
+        ("no entry for guests", NEGATION),
     ],
 )
 def test_a_finding_without_a_replacement_says_what_to_do(written: str, code: str) -> None:
@@ -114,8 +123,9 @@ def test_the_trigger_is_an_event_and_no_comparison() -> None:
     (finding,) = misread("WHEN the temperature is above 38 THEN open the window\n")
     assert finding.code == COMPARISON
     assert finding.help is not None
-    assert "after AND" in finding.help
+    assert finding.help.endswith("AND temperature > 38")
     assert not codes("WHEN the temperature falls below 20 THEN open the window\n")
+    assert not codes("WHEN it is 8 o'clock THEN open the window\n")
 
 
 OPPOSITE = "WHEN the bell rings THEN go in UNLESS {} IN WHICH CASE knock\nWHEN a guest goes THEN stay UNLESS {}\n"
@@ -242,6 +252,8 @@ FINE = [
     "THEN make sure that the user is not alone",
     "THEN keep the volume below 50",
     "THEN can the tomatoes",
+    "THEN explain what visitors must do",
+    "THEN a UNLESS quiet IS needed",
     "THEN call the ICU",
     "THEN open the left door AND open the right door",
     "THEN switch the light on AND switch the light off",
