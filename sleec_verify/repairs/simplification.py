@@ -12,7 +12,7 @@ from sleec_verify.repairs.repair import Repair
 from sleec_verify.repairs.search import RepairSearch
 from sleec_verify.results.finding import CheckResult
 
-_CODES = frozenset((*REMOVALS, "SLEEC507", "SLEEC508", "SLEEC509", "SLEEC513"))
+_CODES = frozenset((*REMOVALS, "SLEEC507", "SLEEC508", "SLEEC513"))
 """The findings that are repaired without a question, if the repair keeps the meaning."""
 
 _ONE_NAME = "SLEEC525"

@@ -44,6 +44,7 @@ REMOVALS: Mapping[str, Operation] = {
     "SLEEC301": redundant_rule,
     "SLEEC302": hedges,
     "SLEEC501": declarations,
+    "SLEEC509": redundant_rule,
 }
 """Removal of what has no effect."""
 
@@ -61,7 +62,6 @@ OPERATORS: Mapping[str, tuple[Operation, ...]] = {
     "SLEEC506": (labels,),
     "SLEEC507": (values,),
     "SLEEC508": (values,),
-    "SLEEC509": (rules,),
     "SLEEC510": (preventions, events),
     "SLEEC513": (windows,),
     **{kind.code: (names,) for kind in MISREAD_NAME.kinds},
