@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cached_property
 from typing import NoReturn
 
 from sleec_runtime.language.common.problems import quoted
@@ -11,6 +12,7 @@ from sleec_runtime.language.common.units import UNITS
 from sleec_runtime.language.english.keyword_correction import near_keyword
 from sleec_runtime.language.english.keywords import IN_WHICH_CASE, PHRASE, STATEMENTS
 from sleec_runtime.language.english.modal_verbs import small_word
+from sleec_runtime.language.english.phrase_positions import PhrasePositions, phrase_positions
 from sleec_runtime.language.english.token_cursor import EnglishCursor
 from sleec_runtime.model import Span
 
@@ -47,6 +49,11 @@ class EnglishPhraseParser(EnglishCursor):
         while self.kinds[last] in PHRASE:
             last += 1
         return self.joined_name(token, last)
+
+    @cached_property
+    def positions(self) -> PhrasePositions:
+        """Where the names and phrases of the text are."""
+        return phrase_positions(self.tokens)
 
     def small_word(self, token: int) -> str:
         """The token, to compare it with words of English."""

@@ -158,10 +158,10 @@ class EnglishResponseParser(EnglishTimeParser):
         return timed or Obligation(name, negated, self.span(first) if negated else span)
 
     def _modal_verb(self) -> bool:
-        """Skips a modal verb before the name, unless the phrase is a declared name. Whether it forbids the
-        obligation."""
+        """Skips a modal verb before the name, unless the text has the whole phrase as a name outside responses, such
+        as in a declaration. Whether it forbids the obligation."""
         first = self.at
-        if self.names.is_declared("obligation", self.name_at(first)):
+        if self.name_at(first) in self.positions.outside_responses:
             return False
         end = first
         while self.kinds[end] in PHRASE or self.kinds[end] == "NOT":

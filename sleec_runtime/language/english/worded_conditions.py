@@ -13,15 +13,11 @@ from sleec_runtime.language.common.comparisons import Side
 from sleec_runtime.language.common.formula_parser import FormulaParser
 from sleec_runtime.language.common.token_cursor import composed
 from sleec_runtime.language.english.comparison_words import comparison_words
-from sleec_runtime.language.english.keywords import IN_WHICH_CASE, KEYWORDS, OCCASION, PHRASE
+from sleec_runtime.language.english.keywords import PHRASE
 from sleec_runtime.language.english.name_resolution import EnglishNames
 from sleec_runtime.language.english.phrases import EnglishPhraseParser
 from sleec_runtime.model import And, Atom, Comparison, Formula, Not, Operator, Rational, Span, Truth
 
-_BEFORE_CONDITIONS = frozenset(
-    {"WHEN", "IF", OCCASION, "UNLESS", "ASSUME", "CONDITION", "TRIGGER", "EVENT", "EXISTS", "UNTIL"}
-)
-_IN_CONDITIONS = frozenset({"AND", "OR", "NOT"})
 _NEGATION = re.compile(r"not\b|n['\u2019]t\b", re.IGNORECASE)
 _CONTRACTIONS = {"isn't": "is", "aren't": "are", "hasn't": "has", "haven't": "have", "cannot": "can", "can't": "can"}
 
@@ -32,7 +28,6 @@ class EnglishWordedConditionParser(EnglishPhraseParser, FormulaParser):
     names: EnglishNames
     resolve: Callable[[str, Span], Atom]
     compare: Callable[[Side, Operator, Side, Span], Comparison]
-    _stated: set[str] | None = None
     _measure_heads: set[str] | None = None
 
     def number(self) -> Rational:
@@ -118,25 +113,13 @@ class EnglishWordedConditionParser(EnglishPhraseParser, FormulaParser):
     def _negation(self, first: int, end: int, words: list[str]) -> Formula | None:
         """The negation that the phrase from `first` to before `end` states, if the text has the positive phrase."""
         positive = _positive(words, [self.token_text(token) for token in range(first, end)])
-        if positive is None or composed(positive) not in self._conditions():
+        if positive is None or composed(positive) not in self.positions.conditions:
             return None
         self.descend()
         self.depth -= 1
         self.at = end
         span = self.span(first)
         return Not(self.resolve(composed(positive), span), span)
-
-    def _conditions(self) -> set[str]:
-        """The phrases and names where a condition or a trigger is, in the whole text."""
-        if self._stated is None:
-            self._stated = set()
-            is_condition = False
-            for token, kind in enumerate(self.kinds):
-                if kind in KEYWORDS or kind in (OCCASION, IN_WHICH_CASE):
-                    is_condition = kind in _BEFORE_CONDITIONS or (is_condition and kind in _IN_CONDITIONS)
-                elif is_condition and kind == "word" and self.kinds[token - 1] not in PHRASE:
-                    self._stated.add(self.name_at(token))
-        return self._stated
 
 
 def _positive(small: list[str], words: list[str]) -> str | None:

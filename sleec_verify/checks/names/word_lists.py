@@ -101,7 +101,6 @@ FOREIGN = {
     **dict.fromkeys(("ONCE", "UPON", "GIVEN"), "write WHEN before the trigger, and AND before a condition"),
     **dict.fromkeys(("PROVIDED", "ASSUMING"), "write AND and the condition before THEN, or UNLESS NOT after it"),
     "NEVER": "write NOT before the obligation",
-    "ALWAYS": "leave it out: a rule applies whenever its trigger occurs",
     "EQUALS": "write = to compare a measure",
     **dict.fromkeys(
         ("WITNESSES", "EXCLUDES", "PRECEDES", "CAUSES", "INCLUDES", "FORBIDS", "OPPOSES"),
@@ -115,7 +114,7 @@ OUTSIDE_OBLIGATIONS = {
         ("FOR", "AFTER", "BEFORE", "BY"),
         "leave the time out, or declare a measure for it and compare it, for example: minutes_asleep > 5",
     ),
-    **dict.fromkeys(("MUST", "SHALL", "SHOULD", "WILL", "MAY", "NOW", "IMMEDIATELY", "ASAP", "ALWAYS"), "leave it out"),
+    **dict.fromkeys(("MUST", "SHALL", "SHOULD", "WILL", "MAY", "NOW", "IMMEDIATELY", "ASAP"), "leave it out"),
     "NEVER": "write NOT before the condition",
 }
 """What to write instead in a trigger or condition, where it is something else."""

@@ -73,9 +73,15 @@ def test_what_is_not_certain_stays_a_name(part: str) -> None:
         "MEASURE age: number\n\nCONDITION age is under 6\n\nWHEN a THEN x\nUNLESS age is under 6\n",
         "MEASURE age: number\n\nWHEN age is under 6 THEN x\n\nWHEN b THEN y\nUNLESS age is under 6\n",
         "WHEN it is not night THEN it is night\n",
+        "EXCLUSIVE must leave, stay\n\nWHEN a THEN must leave AND stay\n",
+        "NEVER must leave AND stay\n\nWHEN a THEN must leave AND stay\n",
+        "WHEN a THEN must leave\n\nWHEN must leave THEN close the door\n",
+        "RELATION must leave EXCLUDES stay\n\nWHEN a THEN must leave\n",
+        "RELATION stay EXCLUDES never mind\n\nWHEN a THEN never mind WITHIN 5 minutes AND stay\n",
+        "CONCERN c EXISTS never mind\n\nWHEN a THEN never mind WITHIN 5 minutes\n",
     ],
 )
-def test_a_declared_name_and_a_trigger_stay_names(text: str) -> None:
+def test_what_is_a_name_outside_responses_stays_a_name(text: str) -> None:
     assert print_ruleset(parse(text)) == text
 
 
