@@ -49,7 +49,8 @@ def assert_is_repair(ruleset: Ruleset, results: Sequence[CheckResult], repair: R
         _unnumbered(statement)
         for statement in ruleset.statements
         if not any(
-            edit.start <= text.index("\n", statement.span.end) and statement.span.start <= edit.end for edit in edits
+            edit.start <= text.index("\n", statement.span.end) + 1 and statement.span.start <= edit.end
+            for edit in edits
         )
     ]
     rest = map(_unnumbered, new.statements)

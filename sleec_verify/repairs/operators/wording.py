@@ -20,5 +20,5 @@ def names(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     if edits:
         written = ruleset.source.text[slice(*finding.span)]
         places = f" in {counted(len(edits), 'place')}" if len(edits) > 1 else ""
-        operator: Operator = "renaming" if finding.code == _SIMILAR else "correction"
+        operator: Operator = "renaming" if finding.code == _SIMILAR else "canonical-form"
         yield Candidate(operator, f"write {quoted(edits[0].text)} for {quoted(written)}{places}", edits)

@@ -19,7 +19,7 @@ def test_an_obligation_changes_at_all_its_places(code: str) -> None:
     wrong, right = CHANGES[code]
     text = TEXT.format(wrong, wrong)
     (repair,) = repairs_of(text, code)
-    assert repair.candidate.operator == "correction"
+    assert repair.candidate.operator == "canonical-form"
     assert repair.candidate.title == f"write `{right}` for `{wrong}` in 2 places"
     assert texts_after(text, [repair]) == [TEXT.format(right, right)]
 
