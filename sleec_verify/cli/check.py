@@ -131,8 +131,8 @@ def command(
             required = (require_proved, require_tied)
             outcomes = _outcomes(found, scope, realizable, fixes, cache, certificate, required)
         report(outcomes, form, output)
-        if form == "full" and not fixes and sys.stdout.isatty() and any(one.findings for one in checked(outcomes)):
-            tell("add --fixes to list repairs, or run sleec-verify resolve to decide conflict by conflict")
+        if form == "full" and output is None and sys.stdout.isatty():
+            _hint(list(checked(outcomes)))
         if any(isinstance(outcome, UnusableInput) for outcome in outcomes):
             return exits.UNUSABLE
         return exits.code((result for outcome in checked(outcomes) for result in outcome.results), fail_level)
@@ -142,6 +142,15 @@ def command(
     from sleec_verify.cli.watch import watch
 
     return watch(paths, once)
+
+
+def _hint(outcomes: Sequence[CheckedRuleset]) -> None:
+    """Tell a person at a terminal what to do about the findings."""
+    found = [repair for outcome in outcomes for one in outcome.repairs or () for repair in one.repairs]
+    if found:
+        tell(f"to apply a repair, add --fix and its name, for example --fix {found[0].identifier}")
+    elif any(outcome.findings and outcome.repairs is None for outcome in outcomes):
+        tell("to list repairs, add --fixes; to decide conflict by conflict, use sleec-verify resolve")
 
 
 def _outcomes(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import click
@@ -12,6 +12,7 @@ from sleec_verify.cli import exits
 from sleec_verify.cli.cached_checks import results as kept_or_new
 from sleec_verify.cli.inputs import rulesets
 from sleec_verify.cli.output import complain, tell
+from sleec_verify.cli.progress import Progress
 from sleec_verify.cli.text_diff import show_diff
 from sleec_verify.repairs.choice import chosen_repairs, combined
 from sleec_verify.repairs.rules_file import RulesFile
@@ -67,7 +68,8 @@ def _fix_one(
 ) -> bool:
     """Whether there was something to change."""
     path = ruleset.source.path
-    repairs = list(_repairs(ruleset, chosen, scope, cache))
+    with Progress() as progress:
+        repairs = list(_repairs(ruleset, chosen, scope, cache, progress.on(path)))
     if not repairs:
         tell(f"{path}: nothing to fix without a decision")
         return False
@@ -77,6 +79,8 @@ def _fix_one(
     file = RulesFile.of(ruleset.source)
     for repair in repairs:
         file = file.edited(repair.candidate.edits)
+    if file.text != repairs[-1].repaired.source.text:
+        raise AssertionError(f"the change of {path} is not the one that was verified")
     file.write()
     for repair in repairs:
         tell(f"{path}: fixed: {repair.candidate.title}")
@@ -84,14 +88,19 @@ def _fix_one(
 
 
 def _repairs(
-    ruleset: Ruleset, chosen: Sequence[tuple[str, int]], scope: Scope, cache: Cache | None
+    ruleset: Ruleset,
+    chosen: Sequence[tuple[str, int]],
+    scope: Scope,
+    cache: Cache | None,
+    progress: Callable[[str, int, int], None] | None,
 ) -> Iterator[Repair]:
     """The repairs, each of the text after the one before it."""
-    results = kept_or_new(ruleset, scope, cache)
+    results = kept_or_new(ruleset, scope, cache, progress)
     how = scope.domain, scope.untimed, scope.chains
     if not chosen:
         yield from simplifications(ruleset, results, *how)
         return
     findings = CheckedRuleset(ruleset, results).deduplicated
     search = RepairSearch(ruleset, results, *how)
-    yield combined(chosen_repairs(chosen, findings, search, ruleset.source.path), ruleset, results, *how)
+    repairs = chosen_repairs(chosen, findings, search, ruleset.source.path, progress)
+    yield combined(repairs, ruleset, results, *how)

@@ -15,7 +15,6 @@ from sleec_verify.cli.inputs import one_ruleset
 from sleec_verify.cli.output import complain, write_line
 from sleec_verify.encoding.budget import limited
 from sleec_verify.repairs.decision import comment_edit, decision
-from sleec_verify.repairs.edit import edited
 from sleec_verify.repairs.rules_file import FileChanged, RulesFile, require_writable
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.palette import Palette
@@ -98,6 +97,7 @@ class Dialogue:
         for line in finding_lines(finding, conflicts.ruleset.source, self._palette):
             write_line(line)
         write_line("")
+        write_line(self._palette("faint", "searching for repairs"))
         search = conflicts.search
         repairs = search.repairs(finding)
         if search.undecided is not None:
@@ -126,12 +126,11 @@ class Dialogue:
     def _apply(self, ruleset: Ruleset, repair: Repair) -> None:
         reason = input("Why? A reason for reviewers, or Enter for none> ")
         record = decision(ruleset, repair, date.today(), reason)
-        comment = comment_edit(ruleset, repair, record)
-        repaired = repair.repaired
-        if parse(edited(repaired.source.text, [comment])).statements != repaired.statements:
-            raise AssertionError("the comment would change what the rules say")
         before = RulesFile.of(ruleset.source)
-        after = before.edited(repair.candidate.edits).edited([comment]).write()
+        after = before.edited(repair.candidate.edits).edited([comment_edit(ruleset, repair, record)])
+        if parse(after.text).statements != repair.repaired.statements:
+            raise AssertionError("the rules with the comment are not those that were verified")
+        after = after.write()
         self._steps.append(_Step(self._skipped, replace(before, sha256=after.sha256)))
         write_line(f"{self._path}: fixed: {repair.candidate.title}")
         write_line(f"{self._path}: recorded: {record}")

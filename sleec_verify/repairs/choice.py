@@ -8,7 +8,8 @@ from itertools import combinations
 
 from sleec_runtime.errors import SleecError
 from sleec_runtime.model import Ruleset
-from sleec_verify.checks import CHECKS
+from sleec_verify.checks import CHECKS, Progress
+from sleec_verify.encoding.budget import current
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.repairs.edit import OverlappingEdits, in_order
 from sleec_verify.repairs.effect import effect_of
@@ -31,20 +32,31 @@ class IncompatibleRepairs(SleecError):
 
 
 def chosen_repairs(
-    identifiers: Sequence[tuple[str, int]], findings: Sequence[Finding], search: RepairSearch, path: str
+    identifiers: Sequence[tuple[str, int]],
+    findings: Sequence[Finding],
+    search: RepairSearch,
+    path: str,
+    progress: Progress | None = None,
 ) -> list[NumberedRepair]:
     """The repairs with these codes and numbers, each once. `findings` are in the order of the report.
 
     Raises:
-        UnknownRepair: there is no such repair.
+        UnknownRepair: there is no such repair, or a timeout makes the numbers uncertain.
     """
     chosen = []
     for code in dict.fromkeys(code for code, _ in identifiers):
         of_code = [finding for finding in findings if finding.code == code]
         if not of_code:
             raise _unknown_code(code, path)
-        repairs = [one for found in numbered_repairs(of_code, search) for one in found.repairs]
-        for number in dict.fromkeys(number for named, number in identifiers if named == code):
+        numbers = dict.fromkeys(number for named, number in identifiers if named == code)
+        repairs: list[NumberedRepair] = []
+        for found in numbered_repairs(of_code, search, progress):
+            repairs += found.repairs
+            if found.undecided is not None and _ends_by_time():
+                raise UnknownRepair(f"the repairs for {code} are not complete: {found.undecided}", "raise --timeout")
+            if len(repairs) >= max(numbers):
+                break
+        for number in numbers:
             if number > len(repairs):
                 raise UnknownRepair(
                     f"there is no repair {code}:{number}: {path} has {counted(len(repairs), 'repair')} for {code}",
@@ -52,6 +64,12 @@ def chosen_repairs(
                 )
             chosen.append(repairs[number - 1])
     return chosen
+
+
+def _ends_by_time() -> bool:
+    """Whether another run may find other repairs, and number them in another way."""
+    budget = current()
+    return budget is not None and budget.is_timed
 
 
 def _unknown_code(code: str, path: str) -> UnknownRepair:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from sleec_verify.checks import Progress
@@ -29,10 +29,9 @@ class FindingRepairs(NamedTuple):
 
 def numbered_repairs(
     findings: Sequence[Finding], search: RepairSearch, progress: Progress | None = None
-) -> list[FindingRepairs]:
+) -> Iterator[FindingRepairs]:
     """The repairs of `findings`, which are in the order of the report. Costs a search for each of them."""
     counts: Counter[str] = Counter()
-    found = []
     for done, finding in enumerate(findings):
         if progress is not None:
             progress(f"repairs of {finding.code}", done, len(findings))
@@ -40,5 +39,4 @@ def numbered_repairs(
         for repair in search.repairs(finding):
             counts[finding.code] += 1
             repairs.append(NumberedRepair(f"{finding.code}:{counts[finding.code]}", repair))
-        found.append(FindingRepairs(finding, tuple(repairs), search.undecided))
-    return found
+        yield FindingRepairs(finding, tuple(repairs), search.undecided)

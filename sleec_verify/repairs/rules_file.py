@@ -10,6 +10,7 @@ from hashlib import sha256
 from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import SleecError
+from sleec_runtime.language.common.source import decode_source
 from sleec_runtime.support.files import read_file
 from sleec_verify.files.placement import write_whole
 from sleec_verify.repairs.edit import TextEdit, edited
@@ -47,9 +48,13 @@ class RulesFile:
         assert source.sha256 is not None, "the text is from a file"
         return cls(source.path, source.sha256, _read(source.path, source.sha256))
 
+    @property
+    def text(self) -> str:
+        """The text as the parser reads it: without a byte order mark, and with ``\\n`` for every lone ``\\r``."""
+        return decode_source(self.path, self.content).text
+
     def edited(self, edits: Iterable[TextEdit]) -> RulesFile:
-        """The file with edits of its text as the parser reads it: without a byte order mark, and with a line feed for
-        a lone carriage return. Both stay in the bytes."""
+        """The file with edits of its `text`. All other bytes stay."""
         text = self.content.decode("utf-8")
         mark = _BYTE_ORDER_MARK if text.startswith(_BYTE_ORDER_MARK) else ""
         text = text[len(mark) :]

@@ -9,7 +9,7 @@ from sleec_verify.report.difference_phrases import effect_text, extent_text
 from sleec_verify.results.phrases import counted, in_short, listed, quoted
 
 if TYPE_CHECKING:
-    from sleec_verify.changes.compare import ConflictChange, Difference
+    from sleec_verify.changes.compare import ConflictChange, Difference, Extent
     from sleec_verify.repairs.effect import Effect
 
 _MOST_CHANGES = 2
@@ -50,8 +50,13 @@ def _required(conflict: ConflictChange) -> str:
 def _changes(found: Difference) -> Iterator[str]:
     for change in found.changes:
         rule = quoted(change.old_rule or change.new_rule or "")
-        yield f"rule {rule}: {effect_text(change)} {extent_text(change.extent._replace(over=()))}"
+        yield f"rule {rule}, {extent_text(change.extent._replace(over=()))}: {effect_text(change)}"
     for situation in found.situations:
-        count = "" if situation.extent is None else f" {extent_text(situation.extent._replace(over=()))}"
-        allowed = "allowed" if situation.way == "added" else "excluded"
-        yield f"situations are now {allowed}{count}"
+        word = "allowed again" if situation.way == "added" else "assumed not to occur"
+        yield f"{_number(situation.extent)} {word}"
+
+
+def _number(extent: Extent | None) -> str:
+    if extent is None or extent.affected is None or extent.possible is None:
+        return "an unknown number of situations is"
+    return f"{extent.affected:,} of {extent.possible:,} situations {'is' if extent.affected == 1 else 'are'}"

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from sleec_verify.repairs.search import RepairSearch
+from sleec_verify.repairs.verification import Rejected
 from tests.support.cli import Cli
 from tests.support.fixes import CONFLICT, DEAD, SHORTER, TWO, identifiers
 
@@ -81,6 +82,17 @@ def test_a_link_stays_and_rights_stay(cli: Cli, tmp_path: Path) -> None:
     assert target.read_text() == CONFLICT
     assert stat.S_IMODE(target.stat().st_mode) == 0o640
     assert os.listdir(target.parent) == ["a.sleec"]
+
+
+def test_numbers_under_a_timeout_are_certain(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def times_out(*_: object) -> None:
+        raise Rejected("the timeout has passed", undecided=True)
+
+    monkeypatch.setattr("sleec_verify.repairs.verification.Verification.repaired", times_out)
+    ran = cli("check", "--timeout", "100", "--fix", "SLEEC101:1", "a.sleec", files={"a.sleec": CONFLICT})
+    assert ran.code == 2
+    assert "the repairs for SLEEC101 are not complete: the timeout has passed" in ran.err
+    assert (tmp_path / "a.sleec").read_text() == CONFLICT
 
 
 def test_standard_input_is_only_shown(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:

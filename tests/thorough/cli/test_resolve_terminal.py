@@ -1,4 +1,4 @@
-"""`resolve` in a terminal, in a process of its own, until Ctrl-C."""
+"""`resolve` and the hints of `check` in a terminal, each in a process of its own."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -21,9 +21,9 @@ PATIENCE = 60.0
 class Terminal:
     """The process, and what its terminal shows."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, *arguments: str) -> None:
         self._master, slave = pty.openpty()
-        line = [sys.executable, "-m", "sleec_verify", "resolve", "a.sleec"]
+        line = [sys.executable, "-m", "sleec_verify", *arguments, "a.sleec"]
         environment = {**os.environ, "TERM": "xterm"}
         environment.pop("NO_COLOR", None)
         self.process = subprocess.Popen(
@@ -52,29 +52,45 @@ class Terminal:
 
 
 @pytest.fixture
-def terminal(tmp_path: Path) -> Iterator[Terminal]:
+def terminal(tmp_path: Path) -> Iterator[Callable[..., Terminal]]:
+    """Runs a command on a file with two conflicts."""
     (tmp_path / "a.sleec").write_text(TWO)
+    # What a shell starts in the background ignores Ctrl-C, and so would all that the tests start.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    opened = Terminal(tmp_path)
-    yield opened
-    opened.close()
+    opened: list[Terminal] = []
+
+    def run(*arguments: str) -> Terminal:
+        opened.append(Terminal(tmp_path, *arguments))
+        return opened[-1]
+
+    yield run
+    for one in opened:
+        one.close()
     signal.signal(signal.SIGINT, before)
 
 
-def test_ctrl_c_keeps_the_file_as_it_was_after_the_last_choice(terminal: Terminal, tmp_path: Path) -> None:
-    terminal.until("Choose: ")
-    assert "\x1b[1;31merror[SLEEC101]" in terminal.shown
+def test_check_says_how_to_go_on(terminal: Callable[..., Terminal]) -> None:
+    terminal("check").until("to list repairs, add --fixes; to decide conflict by conflict, use sleec-verify resolve")
+    terminal("check", "--fixes").until("to apply a repair, add --fix and its name, for example --fix SLEEC101:1")
+
+
+def test_ctrl_c_keeps_the_file_as_it_was_after_the_last_choice(
+    terminal: Callable[..., Terminal], tmp_path: Path
+) -> None:
+    person = terminal("resolve")
+    person.until("Choose: ")
+    assert "\x1b[1;31merror[SLEEC101]" in person.shown
     assert (tmp_path / "a.sleec").read_text() == TWO
-    terminal.type("1\n")
-    terminal.until("Why? ")
-    terminal.type("Schlaf geht vor\n")
-    terminal.until("Choose: ", 2)
+    person.type("1\n")
+    person.until("Why? ")
+    person.type("Schlaf geht vor\n")
+    person.until("Choose: ", 2)
     after = (tmp_path / "a.sleec").read_text()
     assert after != TWO
     assert ": Schlaf geht vor\n" in after
-    terminal.type("1\n")
-    terminal.until("Why? ", 2)
-    terminal.process.send_signal(signal.SIGINT)
-    assert terminal.process.wait(PATIENCE) == 130
+    person.type("1\n")
+    person.until("Why? ", 2)
+    person.process.send_signal(signal.SIGINT)
+    assert person.process.wait(PATIENCE) == 130
     assert (tmp_path / "a.sleec").read_text() == after
     assert os.listdir(tmp_path) == ["a.sleec"]
