@@ -9,7 +9,7 @@ from typing import NamedTuple
 from sleec_runtime.model import Measure, Ruleset
 from sleec_verify.checks.names.misreading import COMPARISON, Misreading
 from sleec_verify.checks.names.word_forms import ARTICLES, stems
-from sleec_verify.checks.names.word_lists import COMPARATORS, NEGATED_OPERATORS, NUMBERS, PEOPLE, UNITS
+from sleec_verify.checks.names.word_lists import COMPARATORS, DEGREES, NEGATED_OPERATORS, NUMBERS, PEOPLE, UNITS
 from sleec_verify.results.phrases import quoted
 
 _DIGIT = re.compile("[0-9]")
@@ -37,9 +37,10 @@ def comparisons(ruleset: Ruleset, names: Iterable[str], with_is: bool = True) ->
     for name in names:
         words = name.split()
         has_value = not (NUMBERS.keys().isdisjoint(map(str.casefold, words)) and values.isdisjoint(words))
-        if (has_value or _DIGIT.search(name)) and (
-            found := _comparison(ruleset, values, name, words, with_is)
-        ) is not None:
+        if (
+            (has_value or _DIGIT.search(name))
+            and (found := _comparison(ruleset, values, name, words, with_is)) is not None
+        ) or (with_is and (found := _degree_of_measure(ruleset, name, words)) is not None):
             yield found
 
 
@@ -61,6 +62,20 @@ def _comparison(
             message = f"{quoted(name)} is read as one name, not as a comparison"
             return Misreading(COMPARISON, name, message, advice, written if subject else None)
     return _value_before_measure(ruleset, name)
+
+
+def _degree_of_measure(ruleset: Ruleset, name: str, words: list[str]) -> Misreading | None:
+    """`danger is high`, if `danger` is a declared measure that has no value `high`."""
+    if words[-1].casefold() not in DEGREES:
+        return None
+    at = next((at for at, word in enumerate(words) if word in _IS), 0)
+    named = (" ".join(words[first:at]) for first in (0, 1) if first < at and (not first or words[0] in ARTICLES))
+    measure = next((m for each in named if (m := ruleset.measures.get(each)) is not None and m.declared), None)
+    if measure is None:
+        return None
+    example = f"{measure.name} = {measure.values[-1]}" if measure.kind == "scale" else f"{measure.name} > 5"
+    message = f"{quoted(name)} is read as one name, not as a comparison of the measure {quoted(measure.name)}"
+    return Misreading(COMPARISON, name, message, f"compare the measure, for example: {quoted(example)}")
 
 
 def _with_measure(name: str, measure: str, operator: str, value: str) -> Misreading:

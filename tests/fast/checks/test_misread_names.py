@@ -283,3 +283,15 @@ def test_the_place_of_a_name_after_a_modal_verb() -> None:
     text = "WHEN a THEN call the nurse\nWHEN b THEN the robot mustn\u2019t call nurse\n"
     (finding,) = misread(text)
     assert text[finding.span.start : finding.span.end] == "call nurse"
+
+
+@pytest.mark.parametrize("measure", ["number", "integer", "low < middle"])
+@pytest.mark.parametrize("written", ["danger is high", "the danger is not very high"])
+def test_a_measure_and_a_word_that_is_no_value(measure: str, written: str) -> None:
+    text = f"MEASURE danger: {measure}\nWHEN the bell rings THEN greet UNLESS {written}\n"
+    (finding,) = misread(text)
+    assert finding.code == COMPARISON
+    assert text[finding.span.start : finding.span.end] == written
+    assert corrected(text) == text
+    assert not codes(f"CONDITION {written}\n{text}")
+    assert not codes(text.replace(written, "the danger light is on"))
