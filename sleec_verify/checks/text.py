@@ -108,13 +108,13 @@ _TOLD = re.compile(rf".\b(?:before|after|in|by) [0-9]+ (?:{'|'.join(sorted(UNITS
 
 def _lower_case_keywords(index: RulesetIndex) -> Iterator[Finding]:
     ruleset = index.ruleset
-    measures = set(ruleset.measures)
-    for name in sorted(ruleset.triggers | ruleset.conditions | ruleset.obligations | measures):
+    names = ruleset.triggers | ruleset.conditions | ruleset.obligations | ruleset.measures.keys()
+    for name in sorted(name for name in names if " " in name):
         words = name.split()
         # "call someone else" is fine, too: a time, or what is due instead, would follow.
         times = _TIMES if name in ruleset.obligations and words[-1].lower() not in _TIMES else frozenset[str]()
         found = [word for word in words if word.lower() in _KEYWORDS | times]
-        if len(words) > 1 and found:
+        if found:
             span, rules = mentions(ruleset, name)
             yield PHRASE_KEYWORD.finding(
                 f"{quoted(name)} is read as one name, including the word {quoted(found[0])}",

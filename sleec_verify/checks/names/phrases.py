@@ -53,6 +53,10 @@ def misread_phrases(ruleset: Ruleset, phrases: Mapping[DeclaredKind, Iterable[st
         if name not in foreign and not _BEFORE_ACTIONS.isdisjoint(plain.casefold().split()):
             yield from _said(name, plain)
     yield from (one for one in comparisons(ruleset, phrases["condition"]) if one.name not in foreign)
+    for name in phrases["trigger"]:
+        if name not in foreign and name.casefold().startswith("not "):
+            message = f"{quoted(name)} is read as one name, including the word `{name[:3]}`"
+            yield Misreading(NEGATION, name, message, "name an event, and write AND NOT and a condition after it")
     # An event such as `the temperature falls below 20` is what it says.
     events = [name for name in phrases["trigger"] if name not in foreign and _IS.search(name)]
     yield from map(_in_trigger, comparisons(ruleset, events, with_is=False))

@@ -21,7 +21,7 @@ _IRREGULAR = {
 }
 """Forms of frequent words that do not follow a rule."""
 
-_WORD = re.compile(r"[A-Z]+(?![^\W\d_A-Z])|[A-Z]?[^\W\d_A-Z]+(?:'[^\W\d_]+)*|[0-9]+|\n")
+_WORD = re.compile(r"[A-Z]?[^\W\d_A-Z]+(?:'[^\W\d_]+)*|[A-Z]+(?![^\W\d_A-Z])|[0-9]+|\n")
 _CONSONANTS = re.compile("v+c+")
 
 

@@ -119,6 +119,13 @@ def test_the_parser_reports_some_words_in_capitals(written: str) -> None:
         parse(f"WHEN the bell rings THEN {written}\n")
 
 
+def test_a_trigger_is_not_negated() -> None:
+    (finding,) = misread("WHEN not asleep THEN greet\n")
+    assert finding.code == NEGATION
+    assert finding.help is not None
+    assert "AND NOT" in finding.help
+
+
 def test_the_trigger_is_an_event_and_no_comparison() -> None:
     (finding,) = misread("WHEN the temperature is above 38 THEN open the window\n")
     assert finding.code == COMPARISON
