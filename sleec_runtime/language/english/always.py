@@ -12,7 +12,7 @@ from typing import NamedTuple
 from sleec_runtime.language.english.constraints import EnglishConstraintParser
 from sleec_runtime.model import NO_COMMENTS, NOWHERE, Clause, Comments, Rule, Span
 
-_NO_LABEL = re.compile(r"[^\w]+")
+_NO_LABEL = re.compile(r"\W+")
 
 
 class Always(NamedTuple):

@@ -26,9 +26,9 @@ _RELATIONS: dict[tuple[str, ...], Relation] = {
     ("exactly",): "=",
     ("between",): "between",
 }
+_LONGEST_FIRST = sorted(_RELATIONS.items(), key=lambda entry: -len(entry[0]))
 _VERBS: dict[str, Relation] = {"exceeds": ">", "equals": "="}
-_OPPOSITES: dict[Relation, Operator] = {"<": ">=", "<=": ">", "=": "!=", "!=": "=", ">=": "<", ">": "<="}
-_LONGEST = max(map(len, _RELATIONS))
+_OPPOSITES: dict[Relation, Operator] = {"<": ">=", "<=": ">", "=": "!=", ">=": "<", ">": "<="}
 
 
 class ComparisonWords(NamedTuple):
@@ -43,20 +43,16 @@ def comparison_words(words: Sequence[str], lasting: bool) -> ComparisonWords | N
     that ``is never`` negates it."""
     if words[0] in _VERBS:
         return ComparisonWords(_VERBS[words[0]], 1)
-    at = 1 if words[0] in ("is", "are") else 0
-    has_verb = at > 0
-    negations = ("not", "never") if lasting else ("not",)
-    is_negated = has_verb and words[at : at + 1] != [] and words[at] in negations
-    at += is_negated or (has_verb and lasting and list(words[at : at + 1]) == ["always"])
-    for length in range(_LONGEST, 0, -1):
-        relation = _RELATIONS.get(tuple(words[at : at + length]))
-        if relation is not None and len(words) >= at + length:
-            return _negated(relation, at + length) if is_negated else ComparisonWords(relation, at + length)
-    if not has_verb:
+    has_verb = words[0] in ("is", "are")
+    at = int(has_verb)
+    adverb = words[at] if has_verb and at < len(words) else ""
+    is_negated = adverb == "not" or (lasting and adverb == "never")
+    at += is_negated or (lasting and adverb == "always")
+    form, relation = next(
+        (entry for entry in _LONGEST_FIRST if tuple(words[at : at + len(entry[0])]) == entry[0]), ((), "=")
+    )
+    if not (form or has_verb):
         return None
-    return _negated("=", at) if is_negated else ComparisonWords("=", at)
-
-
-def _negated(relation: Relation, words: int) -> ComparisonWords | None:
-    opposite = _OPPOSITES.get(relation)
-    return ComparisonWords(opposite, words) if opposite is not None else None
+    if not is_negated:
+        return ComparisonWords(relation, at + len(form))
+    return ComparisonWords(_OPPOSITES[relation], at + len(form)) if relation in _OPPOSITES else None
