@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Collection, Mapping
 
 from sleec_runtime.language.common.token_cursor import composed
-from sleec_runtime.model import Ruleset, Span
+from sleec_runtime.model import Claim, Rule, Ruleset, Span
 
 
 def name_places(ruleset: Ruleset, names: Collection[str]) -> Mapping[str, list[Span]]:
@@ -21,11 +21,12 @@ def _in_dsl(ruleset: Ruleset, names: Collection[str]) -> Mapping[str, list[Span]
     from sleec_runtime.language.dsl.scanner import scan
 
     tokens = scan(ruleset.source.text)
+    labels = {statement.label_span for statement in ruleset.statements if isinstance(statement, (Rule, Claim))}
     places: dict[str, list[Span]] = defaultdict(list)
-    for start, end in zip(tokens.starts, tokens.ends):
-        word = tokens.text[start:end]
-        if word in names:
-            places[word].append(Span(start, end))
+    for place in map(Span, tokens.starts, tokens.ends):
+        word = tokens.text[slice(*place)]
+        if word in names and place not in labels:
+            places[word].append(place)
     return places
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sleec_runtime.model import Ruleset
+from sleec_runtime.model import Declaration, Measure, Ruleset, Span
 from sleec_verify.checks.misread_names import replacements
 from sleec_verify.repairs.edit import TextEdit
 from sleec_verify.repairs.repair import Candidate, Operator
+from sleec_verify.repairs.statement_edits import replaced, without
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.phrases import counted, quoted
 
@@ -16,9 +17,18 @@ _SIMILAR = "SLEEC525"
 
 def names(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     """The text to write instead of a name, at all of its places."""
-    edits = tuple(TextEdit(*span, text) for span, text in replacements(ruleset, finding))
-    if edits:
+    changes = replacements(ruleset, finding)
+    if changes:
+        edits = tuple(edit for span, text in changes for edit in _edits(ruleset, span, text))
         written = ruleset.source.text[slice(*finding.span)]
-        places = f" in {counted(len(edits), 'place')}" if len(edits) > 1 else ""
+        places = f" in {counted(len(changes), 'place')}" if len(changes) > 1 else ""
         operator: Operator = "renaming" if finding.code == _SIMILAR else "canonical-form"
-        yield Candidate(operator, f"write {quoted(edits[0].text)} for {quoted(written)}{places}", edits)
+        yield Candidate(operator, f"write {quoted(changes[0][1])} for {quoted(written)}{places}", edits)
+
+
+def _edits(ruleset: Ruleset, place: Span, text: str) -> tuple[TextEdit, ...]:
+    """The name at a place is replaced. Its declaration is removed, because the other name has one."""
+    for statement in ruleset.statements:
+        if isinstance(statement, (Declaration, Measure)) and statement.span.start <= place.start < statement.span.end:
+            return without(ruleset, statement.span)
+    return replaced(place, text)

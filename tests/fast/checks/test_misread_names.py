@@ -240,6 +240,17 @@ def test_a_name_is_corrected_to_the_declared_one() -> None:
     assert corrected(text) == text.replace("a guest wait ", "a guest waits ").replace("a guest wait)", "a guest waits)")
 
 
+def test_a_label_of_the_dsl_is_no_place_of_a_name() -> None:
+    text = (
+        "def_start\nevent Called\nevent TakePhoto\nevent TakePhotos\ndef_end\nrule_start\n"
+        "TakePhotos when Called then TakePhotos\nR2 when TakePhotos then TakePhoto\n"
+        "R3 when TakePhotos then TakePhotos within 1 minutes otherwise TakePhoto\nrule_end\n"
+        "purpose_start\nTakePhoto exists TakePhotos\npurpose_end\n"
+    )
+    changed = text.replace("TakePhoto\n", "TakePhotos\n")
+    assert corrected(text) == changed
+
+
 def test_the_dsl_has_similar_names_only() -> None:
     text = (
         "def_start\nevent Called\nevent TakePhoto\nevent TakePhotos\nmeasure notAsleep: boolean\n"

@@ -42,6 +42,16 @@ def test_one_of_two_similar_names_is_used_everywhere() -> None:
     assert texts_after(text, [repair]) == [text.replace("photos", "photo")]
 
 
+def test_the_definition_of_a_variant_is_removed_from_the_dsl() -> None:
+    text = (
+        "def_start\n  event Called\n  event Photo\n  event Bell\n  event TakePhoto as system // once\n  event TakePhotos\ndef_end\n"
+        "rule_start\n  R1 when Called then TakePhotos\n  TakePhoto when Photo then TakePhoto\n"
+        "  R3 when Bell then TakePhotos\nrule_end\n"
+    )
+    defined = text.replace("  event TakePhoto as system // once\n", "")
+    assert texts_after(text, repairs_of(text, "SLEEC525")) == [defined.replace("then TakePhoto\n", "then TakePhotos\n")]
+
+
 def test_a_name_that_hides_a_conflict_stays_for_the_author() -> None:
     text = "WHEN the user falls THEN call the nurse\nWHEN the user sleeps THEN NOT call nurse\n"
     assert not repairs_of(text, "SLEEC525")
