@@ -106,7 +106,7 @@ class Dialogue:
             write_line("No repair is found. Skip this conflict, or change the rules by hand.")
         for number, repair in enumerate(repairs, 1):
             write_line(f"{self._palette('strong', f'{number:>3}')}  {repair.candidate.title}")
-            write_line(f"     {self._palette('faint', effect_in_words(repair.effect))}")
+            write_line(f"     {self._palette('faint', effect_in_words(repair))}")
         return repairs
 
     def _ask(self, repairs: int, is_waiting: bool) -> str:

@@ -45,7 +45,7 @@ def _repairs(found: FindingRepairs, palette: Palette) -> Iterator[str]:
     from sleec_verify.report.repair_phrases import effect_in_words
 
     for identifier, repair in found.repairs:
-        effect = effect_in_words(repair.effect)
+        effect = effect_in_words(repair)
         yield f"{palette('help', f'repair[{identifier}]')} {repair.candidate.title} ({effect})"
     if found.undecided is not None:
         yield f"{palette('unknown', 'unknown[repairs]')} there may be more: {found.undecided}"

@@ -68,7 +68,7 @@ def _repair_lines(found: FindingRepairs, palette: Palette) -> Iterator[str]:
 
     for identifier, repair in found.repairs:
         yield f"{palette('strong', identifier)} {repair.candidate.title}"
-        yield f"{' ' * len(identifier)} {palette('faint', effect_in_words(repair.effect))}"
+        yield f"{' ' * len(identifier)} {palette('faint', effect_in_words(repair))}"
     if found.undecided is not None:
         yield f"{palette('unknown', 'unknown')} There may be more: {found.undecided}"
 

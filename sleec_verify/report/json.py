@@ -69,7 +69,7 @@ def _repair(one: NumberedRepair, source: Source) -> Json:
         "edits": [
             {"span": span_json(Span(edit.start, edit.end), source), "text": edit.text} for edit in candidate.edits
         ],
-        "effect": effect_in_words(effect),
+        "effect": effect_in_words(one.repair),
         "situations": effect.situations,
         "keeps_meaning": effect.keeps_meaning,
     }

@@ -10,19 +10,22 @@ from sleec_verify.results.phrases import counted, in_short, listed, quoted
 
 if TYPE_CHECKING:
     from sleec_verify.changes.compare import ConflictChange, Difference, Extent
-    from sleec_verify.repairs.effect import Effect
+    from sleec_verify.repairs.repair import Repair
 
 _MOST_CHANGES = 2
 """The changes that one line names."""
 
 
-def effect_in_words(effect: Effect) -> str:
+def effect_in_words(repair: Repair) -> str:
     """``instead of the conflict: `NOT Speak`; nothing else changes``"""
-    found = effect.difference
-    if effect.keeps_meaning:
+    found = repair.effect.difference
+    is_conflict = repair.finding.check in ("conflict", "vacuous-conflict")
+    if repair.effect.keeps_meaning and not is_conflict:
         return "the rules mean the same"
-    parts = list(dict.fromkeys(_resolved(found)))
+    parts = list(_resolved(repair))
     changes = list(_changes(found))
+    if is_conflict and not parts and not changes:
+        parts.append("the conflict is resolved")
     parts += changes[:_MOST_CHANGES]
     if len(changes) > _MOST_CHANGES:
         parts.append(counted(len(changes) - _MOST_CHANGES, "more change"))
@@ -33,10 +36,15 @@ def effect_in_words(effect: Effect) -> str:
     return "; ".join(parts)
 
 
-def _resolved(found: Difference) -> Iterator[str]:
-    for conflict in found.conflicts:
-        if conflict.way == "removed":
-            yield f"instead of the conflict: {_required(conflict)}"
+def _resolved(repair: Repair) -> Iterator[str]:
+    """What holds in the situation of the conflict of the finding, and the number of other conflicts that are gone."""
+    found = repair.effect.difference
+    gone = [conflict for conflict in found.conflicts if conflict.way == "removed"]
+    if gone:
+        own = next((one for one in gone if set(one.rules) == set(repair.finding.rules)), gone[0])
+        yield f"instead of the conflict: {_required(own)}"
+        if len(gone) > 1:
+            yield f"{counted(len(gone) - 1, 'other conflict')} {'is' if len(gone) == 2 else 'are'} resolved"
     if any(conflict.way == "removed" for conflict in found.timed_conflicts):
         yield "the conflict over time is resolved"
 

@@ -140,7 +140,7 @@ def _fix(one: NumberedRepair, source: Source) -> _Object:
         for edit in candidate.edits
     ]
     return {
-        "description": _message(f"{one.identifier}: {candidate.title}\n{effect_in_words(one.repair.effect)}"),
+        "description": _message(f"{one.identifier}: {candidate.title}\n{effect_in_words(one.repair)}"),
         "artifactChanges": [{"artifactLocation": {"uri": _uri(source.path)}, "replacements": replacements}],
     }
 
