@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 
 from sleec_runtime.model import RELATIONS, Assume, Atom, Never, Ruleset, leaves
 from sleec_verify.checks.names.misreading import NEGATION, OPPOSITE, Misreading
@@ -45,9 +46,9 @@ def opposites(ruleset: Ruleset, names: Sequence[str]) -> Iterator[Misreading]:
         for opposite in opposite_of[word]
         if (other := known.get((*words[:at], opposite, *words[at + 1 :]))) is not None
     }
-    related = _related(ruleset) if pairs else []
+    related = _related(ruleset) if pairs else {}
     for one, other in sorted(pairs):
-        if not any({one, other} <= together for together in related):
+        if related.get(one, frozenset()).isdisjoint(related.get(other, ())):
             message = f"{quoted(other)} and {quoted(one)} are two independent conditions"
             advice = (
                 f"write {quoted(f'NOT {one}')} instead, "
@@ -56,10 +57,13 @@ def opposites(ruleset: Ruleset, names: Sequence[str]) -> Iterator[Misreading]:
             yield Misreading(OPPOSITE, other, message, advice, f"NOT {one}", one)
 
 
-def _related(ruleset: Ruleset) -> list[set[str]]:
-    """The conditions in each constraint or relation."""
-    return [
-        {leaf.name for formula in formulas_of_relation(s) for leaf in leaves(formula) if isinstance(leaf, Atom)}
-        for s in ruleset.statements
-        if isinstance(s, (Never, Assume, *RELATIONS))
-    ]
+def _related(ruleset: Ruleset) -> Mapping[str, set[int]]:
+    """The constraints and relations that name each condition, by their positions."""
+    related: dict[str, set[int]] = defaultdict(set)
+    for position, statement in enumerate(ruleset.statements):
+        if isinstance(statement, (Never, Assume, *RELATIONS)):
+            for formula in formulas_of_relation(statement):
+                for leaf in leaves(formula):
+                    if isinstance(leaf, Atom):
+                        related[leaf.name].add(position)
+    return related

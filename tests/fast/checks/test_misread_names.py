@@ -313,3 +313,39 @@ def test_a_measure_and_a_word_that_is_no_value(measure: str, written: str) -> No
     assert corrected(text) == text
     assert not codes(f"CONDITION {written}\n{text}")
     assert not codes(text.replace(written, "the danger light is on"))
+
+
+SCHOOL = """MEASURE danger: low < high
+MEASURE age: number
+WHEN the bell rings THEN the robot must not leave
+WHEN the bell rings twice THEN do not leave
+UNLESS the child is under 6 IN WHICH CASE never leave
+UNLESS is less than 10 IN WHICH CASE take photo
+UNLESS the age is under 6 IN WHICH CASE take photos
+WHEN it is dark THEN BUT call the office
+UNLESS it is night IN WHICH CASE call the office IMMEDIATELY
+UNLESS it is not night IN WHICH CASE call the nurse
+UNLESS the door is open IN WHICH CASE Call the nurse
+UNLESS the door is closed IN WHICH CASE call nurse
+UNLESS danger is high IN WHICH CASE the robot must call the teacher
+"""
+READ_AS = """MEASURE danger: low < high
+MEASURE age: number
+WHEN the bell rings THEN NOT leave
+WHEN the bell rings twice THEN NOT leave
+UNLESS age < 6 IN WHICH CASE NOT leave
+UNLESS is less than 10 IN WHICH CASE take photo
+UNLESS age < 6 IN WHICH CASE take photo
+WHEN it is dark THEN call the office
+UNLESS it is night IN WHICH CASE call the office
+UNLESS NOT it is night IN WHICH CASE call the nurse
+UNLESS NOT the door is closed IN WHICH CASE call the nurse
+UNLESS the door is closed IN WHICH CASE call the nurse
+UNLESS danger = high IN WHICH CASE call the teacher
+"""
+
+
+def test_the_rules_of_a_school_say_what_people_read() -> None:
+    """The language accepts a form, or the check finds the name and says what to write, but for one comparison."""
+    assert parse(corrected(SCHOOL)).statements == parse(READ_AS).statements
+    assert codes(corrected(SCHOOL)) == [COMPARISON]
