@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from sleec_runtime.errors import Unsayable
-from sleec_runtime.model import Ruleset, Statement
+from sleec_runtime.model import Reading, Ruleset, Statement
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.repairs.edit import edited, edits_between
 from sleec_verify.repairs.effect import effect_of
@@ -45,11 +45,11 @@ class RepairSearch:
     def repairs(self, finding: Finding) -> list[Repair]:
         """The repairs, those that change the fewest situations first, and of these the shortest edits."""
         self.undecided = None
-        found: dict[tuple[Statement, ...], Repair] = {}
+        found: dict[tuple[Reading, tuple[Statement, ...]], Repair] = {}
         for operator, candidate in self._proposed(self._ruleset, finding):
             repair = self._repair(finding, operator, candidate)
             if repair is not None:
-                found.setdefault(repair.repaired.statements, repair)
+                found.setdefault((repair.repaired.reading, repair.repaired.statements), repair)
         return sorted(found.values(), key=_size)
 
     def candidates(self, finding: Finding) -> list[Candidate]:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, parse_source
 from sleec_runtime.model import Rule, Ruleset
-from sleec_verify.checks import COSTLY, Checking
+from sleec_verify.checks import COSTLY, Checking, checks_for
 from sleec_verify.checks.conflict import CONFLICT
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.repairs.edit import OffsetMap, edited, in_order, inverse
@@ -99,10 +99,13 @@ class Verification:
                 if places.identity(one) == target:
                     examine(one)
         checking = self._checking(new, examine)
+        # Some texts leave no question open: one that states its reading can be read in one way only.
+        settled = set(checks_for(self._ruleset)) - set(checks_for(new))
         # The cheap questions first, and of the others that of the finding: they reject most candidates.
-        others = [name for name in self._names if name != finding.check]
+        others = [name for name in self._names if name not in (finding.check, *settled)]
         cheap = [name for name in others if name not in COSTLY]
-        for names in (cheap, [finding.check], [name for name in others if name in COSTLY]):
+        own = [name for name in (finding.check,) if name not in settled]
+        for names in (cheap, own, [name for name in others if name in COSTLY]):
             for result in checking.results(names):
                 if isinstance(result.verdict, Unknown) and result.name not in self._unknown:
                     why = f"the check {result.name} of the changed text is unknown: {result.verdict.why}"

@@ -8,6 +8,7 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.checks.misread_names import MISREAD_NAME
 from sleec_verify.repairs.operators.assumptions import assumptions
 from sleec_verify.repairs.operators.bounds import bounds
+from sleec_verify.repairs.operators.chains import readings, silences
 from sleec_verify.repairs.operators.concerns import preventions
 from sleec_verify.repairs.operators.corrections import events, labels, values, windows
 from sleec_verify.repairs.operators.deadlines import deadlines
@@ -48,8 +49,9 @@ REMOVALS: Mapping[str, Operation] = {
 }
 """Removal of what has no effect."""
 
-CONSEQUENCES: Mapping[str, Operation] = {**REMOVALS, "SLEEC107": agents}
-"""What a change may make necessary: if no rule requires an act any more, its declaration says that it is one."""
+CONSEQUENCES: Mapping[str, Operation] = {**REMOVALS, "SLEEC107": agents, "SLEEC509": rules}
+"""What a change may make necessary: if no rule requires an act any more, its declaration says that it is one. Of two
+rules that are equal now, one goes."""
 
 OPERATORS: Mapping[str, tuple[Operation, ...]] = {
     "SLEEC101": _WHO_GIVES_WAY,
@@ -59,6 +61,8 @@ OPERATORS: Mapping[str, tuple[Operation, ...]] = {
     "SLEEC107": (agents, responses, hedges, redundant_rule),
     **{code: (removal,) for code, removal in REMOVALS.items()},
     "SLEEC202": (orders, hedges),
+    "SLEEC401": (readings,),
+    "SLEEC503": (silences,),
     "SLEEC506": (labels,),
     "SLEEC507": (values,),
     "SLEEC508": (values,),

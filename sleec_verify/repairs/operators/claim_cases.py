@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from sleec_runtime.model import And, Atom, Claim, Formula, Not, Obligation, Rule, Ruleset
+from sleec_runtime.model import And, Atom, Claim, Formula, Obligation, Rule, Ruleset
 from sleec_verify.encoding.equation import conjunction, guard
 from sleec_verify.repairs.edit import TextEdit
+from sleec_verify.repairs.operators.giving_way import negation
 from sleec_verify.repairs.statement_edits import strengthened, with_exception
 
 
@@ -23,7 +24,7 @@ def giving_way(
         outer = parts_of(rule.guard) if rule.guard is not None else ()
         own = [part for part in parts_of(guard(rule, ruleset.reading, number))[1:] if part not in outer]
         condition = conjunction([*own, condition])
-    return strengthened(ruleset, rule, condition.operand if isinstance(condition, Not) else Not(condition))
+    return strengthened(ruleset, rule, negation(condition))
 
 
 def where(ruleset: Ruleset, rule: Rule, number: int, claim: Claim) -> Formula | None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sleec_runtime.model import Not, Ruleset
+from sleec_runtime.model import Ruleset
 from sleec_verify.encoding.equation import conjunction
 from sleec_verify.repairs.edit import joined
-from sleec_verify.repairs.operators.giving_way import yieldings
+from sleec_verify.repairs.operators.giving_way import negation, yieldings
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import without_obligations
 from sleec_verify.repairs.statement_insertion import new_label, rule_text, with_rule_after
@@ -23,7 +23,7 @@ def decompositions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         if one.rule.hedges or len(contradicted) != 1 or rest is None:
             continue
         for condition in one.conditions[:1]:
-            negated = condition.operand if isinstance(condition, Not) else Not(condition)
+            negated = negation(condition)
             guard = negated if one.rule.guard is None else conjunction([one.rule.guard, negated])
             label = new_label(ruleset, f"{one.rule.label}_part")
             lines = rule_text(ruleset, label, one.rule.trigger, guard, contradicted[0])

@@ -11,7 +11,7 @@ from tests.support import brute_force
 from tests.support.repairs import found_repairs
 from tests.support.small_rulesets import small_rulesets
 
-CODES = ("SLEEC101", "SLEEC102", "SLEEC202", "SLEEC301", "SLEEC302")
+CODES = ("SLEEC101", "SLEEC102", "SLEEC202", "SLEEC301", "SLEEC302", "SLEEC401", "SLEEC503")
 
 
 def differing(old: Ruleset, new: Ruleset) -> int:
