@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from datetime import date
+from io import TextIOWrapper
 from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.language import parse
@@ -55,6 +56,8 @@ class Dialogue:
             SleecError: the file cannot be read or written. It is as it was after the last choice.
         """
         require_writable(self._path)
+        if isinstance(sys.stdin, TextIOWrapper):
+            sys.stdin.reconfigure(errors="replace")  # a terminal may send other bytes than UTF-8
         while True:
             with nullcontext() if self._timeout is None else limited(self._timeout):
                 conflicts = Conflicts.of(self._load(), self._scope)

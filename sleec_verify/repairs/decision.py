@@ -22,7 +22,8 @@ def decision(ruleset: Ruleset, repair: Repair, day: date, reason: str) -> str:
     said = candidate.title
     if candidate.gives_way is not None:
         others = [_name(ruleset, label) for label in repair.finding.rules if label != candidate.gives_way]
-        said = f"{_name(ruleset, candidate.gives_way)} gives way to {listed(others)}" if others else said
+        removed = " and is removed" if candidate.operator == "rule-removal" else ""
+        said = f"{_name(ruleset, candidate.gives_way)} gives way to {listed(others)}{removed}" if others else said
     why = " ".join("".join(c if c.isprintable() else " " for c in reason).split())
     return f"decision {day.isoformat()}: {said}{f': {why}' if why else ''}"
 
@@ -37,7 +38,7 @@ def _name(ruleset: Ruleset, label: str) -> str:
 
 
 def comment_edit(ruleset: Ruleset, repair: Repair, comment: str) -> TextEdit:
-    """The edit of the repaired text that writes a comment above the changed rule, or where a removed rule was.
+    """The edit of the repaired text that writes a comment above the changed statement, or where a removed rule was.
 
     `ruleset` is that before the repair.
     """
@@ -47,8 +48,9 @@ def comment_edit(ruleset: Ruleset, repair: Repair, comment: str) -> TextEdit:
     if repair.candidate.gives_way is not None:
         at = OffsetMap(edits).after(ruleset.by_label[repair.candidate.gives_way].span.start)
     if at is None:
-        changed = edits[0].start
-        spans = (rule.span for rule in repair.repaired.rules)
+        after = text[edits[0].start :]
+        changed = edits[0].start + len(after) - len(after.lstrip())
+        spans = (statement.span for statement in repair.repaired.statements)
         at = next((span.start for span in spans if span.start <= changed < span.end), changed)
     start = text.rfind("\n", 0, at) + 1
     if at == len(text) and start < at:  # the last rule was removed with its line break
