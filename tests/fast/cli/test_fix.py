@@ -106,7 +106,7 @@ REFUSED = [
     (("--fix", "SLEEC101:99"), "there is no repair SLEEC101:99: a.sleec has "),
     (("--fix", "SLEEC301:1"), "a.sleec has no finding with the code SLEEC301"),
     (("--fix", "SLEEC999:1"), "no finding has the code SLEEC999"),
-    (("--fix", "SLEEC503:1"), "there is no repair SLEEC503:1: a.sleec has no repairs for SLEEC503"),
+    (("--fix", "SLEEC504:1"), "there is no repair SLEEC504:1: a.sleec has no repairs for SLEEC504"),
     (("--fix", "SLEEC101"), "--fix SLEEC101: write the code and the number of a repair, such as SLEEC101:1"),
     (("--fix", "SLEEC101:0"), "--fix SLEEC101:0: write the code"),
     (("--fix=3",), "--fix 3: write the code"),
@@ -124,7 +124,7 @@ REFUSED = [
     ("options", "message"), REFUSED, ids=lambda one: " ".join(one) if isinstance(one, tuple) else ""
 )
 def test_what_is_refused_writes_nothing(options: tuple[str, ...], message: str, cli: Cli, tmp_path: Path) -> None:
-    text = f"{CONFLICT}UNLESS Storm\n"
+    text = f"{CONFLICT}RULE first\nWHEN Bell THEN Ring\nRULE second\nWHEN Ring THEN Speak\n"
     ran = cli("check", *options, "a.sleec", files={"a.sleec": text, "b.sleec": text})
     assert ran.code == 2
     assert message in ran.err
