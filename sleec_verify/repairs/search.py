@@ -12,9 +12,11 @@ from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.repairs.edit import edited, edits_between
 from sleec_verify.repairs.effect import effect_of
 from sleec_verify.repairs.operators import CONSEQUENCES, OPERATORS, Operation
+from sleec_verify.repairs.operators.removal import DECLARATION
 from sleec_verify.repairs.repair import Candidate, Repair
 from sleec_verify.repairs.verification import Rejected, Verification
 from sleec_verify.results.finding import CheckResult, Finding
+from sleec_verify.results.phrases import listed
 
 _MOST_STEPS = 6
 """The changes in one repair, at most."""
@@ -75,6 +77,7 @@ class RepairSearch:
         names that the change makes superfluous are removed.
         """
         is_giving_way = True
+        titles = [candidate.title]
         for _ in range(_MOST_STEPS):
             try:
                 repaired = self._verification.repaired(finding, candidate)
@@ -88,7 +91,8 @@ class RepairSearch:
                     step = _again(rejected, finding, operator, candidate.gives_way)
                 if step is None:
                     return None
-                candidate = self._joined(candidate, *step)
+                titles.append(step[1].title)
+                candidate = replace(self._joined(candidate, *step), title=_in_steps(titles))
             else:
                 effect = effect_of(self._ruleset, repaired, self._domain, self._untimed)
                 return Repair(finding, candidate, effect, repaired)
@@ -97,11 +101,21 @@ class RepairSearch:
     def _joined(self, first: Candidate, changed: Ruleset, second: Candidate) -> Candidate:
         """Both changes, one after the other, as one."""
         text = edited(changed.source.text, second.edits)
-        title = f"{first.title}; then {second.title}"
         edits = edits_between(self._ruleset.source.text, text)
         merges = first.operator == "defeater-introduction" and second.operator == "rule-removal"
         operator = "rule-merging" if merges else first.operator
-        return replace(first, operator=operator, title=title, edits=edits)
+        return replace(first, operator=operator, edits=edits)
+
+
+def _in_steps(titles: Sequence[str]) -> str:
+    """The titles of changes, one after the other, as one. The removed declarations are one list at the end."""
+    names = [title.removeprefix(DECLARATION) for title in titles if title.startswith(DECLARATION)]
+    steps = [title for title in titles if not title.startswith(DECLARATION)]
+    if len(names) == 1:
+        steps.append(f"{DECLARATION}{names[0]}")
+    elif names:
+        steps.append(f"remove the declarations of {listed(names)}")
+    return "; then ".join(steps)
 
 
 _Step = tuple[Ruleset, Candidate]

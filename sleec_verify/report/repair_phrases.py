@@ -17,7 +17,7 @@ _MOST_CHANGES = 2
 
 
 def effect_in_words(repair: Repair) -> str:
-    """``instead of the conflict: `NOT Speak`; nothing else changes``"""
+    """``in the situation of the conflict, the rules then require `NOT Speak`; nothing else changes``"""
     found = repair.effect.difference
     is_conflict = repair.finding.check in ("conflict", "vacuous-conflict")
     if repair.effect.keeps_meaning and not is_conflict:
@@ -42,17 +42,15 @@ def _resolved(repair: Repair) -> Iterator[str]:
     gone = [conflict for conflict in found.conflicts if conflict.way == "removed"]
     if gone:
         own = next((one for one in gone if set(one.rules) == set(repair.finding.rules)), gone[0])
-        yield f"instead of the conflict: {_required(own)}"
+        yield f"in the situation of the conflict, the rules then require {_required(own)}"
         if len(gone) > 1:
             yield f"{counted(len(gone) - 1, 'other conflict')} {'is' if len(gone) == 2 else 'are'} resolved"
-    if any(conflict.way == "removed" for conflict in found.timed_conflicts):
-        yield "the conflict over time is resolved"
 
 
 def _required(conflict: ConflictChange) -> str:
     """What the new rules require in the situation of a former conflict."""
     names = dict.fromkeys(quoted(in_short(o)) for one in conflict.after for o in one.obligations)
-    return listed(names) if names else "no obligation"
+    return listed(names) if names else "nothing"
 
 
 def _changes(found: Difference) -> Iterator[str]:

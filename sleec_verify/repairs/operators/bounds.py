@@ -41,7 +41,7 @@ def bounds(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             if changed.rule is not kept.rule and changed.is_opposite(kept):
                 negated = replace(kept.comparison, operator=_NEGATION[kept.comparison.operator])
                 text, old = _text(ruleset, negated), _text(ruleset, changed.comparison)
-                title = f"write {quoted(text)} for {quoted(old)} in rule {quoted(changed.rule.label)}"
+                title = f"replace {quoted(old)} with {quoted(text)} in rule {quoted(changed.rule.label)}"
                 edits = replaced(changed.comparison.span, text)
                 yield Candidate("correction", title, edits, changed.rule.label)
 

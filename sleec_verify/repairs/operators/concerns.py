@@ -51,7 +51,7 @@ def _shorter_windows(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> 
         for own in list(rule.clauses())[number].obligations:
             window = own.timing.window if own.timing is not None else None
             if own.name == opposite.name and window is not None and window != wanted:
-                title = f"write {quoted(text)} for {quoted(own.name)} in {clause_name(rule, number)}"
+                title = f"require {quoted(own.name)} {quoted(text)} in {clause_name(rule, number)}"
                 yield Candidate("deadline-refinement", title, (TextEdit(*window.span, text),))
 
 

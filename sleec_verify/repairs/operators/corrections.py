@@ -22,7 +22,7 @@ def labels(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             stem = ruleset.source.text[slice(*finding.span)]
             label = new_label(ruleset, stem)
             edit = TextEdit(finding.span.end, finding.span.end, label[len(stem) :])
-            yield Candidate("renaming", f"call the second {quoted(stem)} {quoted(label)}", (edit,))
+            yield Candidate("renaming", f"rename the second {quoted(stem)} to {quoted(label)}", (edit,))
 
 
 def values(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -34,7 +34,7 @@ def values(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
                 meant = _value(ruleset, leaf)
                 if meant is not None:
                     written = ruleset.source.text[slice(*finding.span)]
-                    title = f"write {quoted(meant)} for {quoted(written)}"
+                    title = f"replace {quoted(written)} with {quoted(meant)}"
                     yield Candidate("correction", title, replaced(finding.span, meant))
                     return
 
@@ -54,7 +54,7 @@ def events(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     written = ruleset.source.text[slice(*finding.span)]
     meant = nearest(written, sorted(events_of_rules(ruleset)))
     if meant is not None:
-        yield Candidate("renaming", f"write {quoted(meant)} for {quoted(written)}", replaced(finding.span, meant))
+        yield Candidate("renaming", f"replace {quoted(written)} with {quoted(meant)}", replaced(finding.span, meant))
     for claim in ruleset.statements:
         if isinstance(claim, Claim) and claim.kind == "purpose" and claim.label in finding.obligations:
             title = f"remove the purpose {quoted(claim.label)}"

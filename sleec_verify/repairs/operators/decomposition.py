@@ -28,7 +28,7 @@ def decompositions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             label = new_label(ruleset, f"{one.rule.label}_part")
             lines = rule_text(ruleset, label, one.rule.trigger, guard, contradicted[0])
             title = (
-                f"split rule {quoted(one.rule.label)}: {quoted(str(contradicted[0]))} goes to {quoted(' '.join(lines))}"
+                f"split rule {quoted(one.rule.label)}: move {quoted(str(contradicted[0]))} to {quoted(' '.join(lines))}"
             )
             edits = joined((*rest, *with_rule_after(ruleset, one.rule, lines)))
             yield Candidate("rule-decomposition", title, edits, one.rule.label)

@@ -11,6 +11,9 @@ from sleec_verify.repairs.statement_edits import removed_rule, without
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.phrases import clause_name, quoted
 
+DECLARATION = "remove the declaration of "
+"""How the title of the removal of a declaration begins."""
+
 
 def rules(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     """Rule removal: without one of the rules of the finding."""
@@ -47,7 +50,7 @@ def declarations(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
 
 
 def _declaration(name: str, edits: tuple[TextEdit, ...]) -> Candidate:
-    return Candidate("declaration-removal", f"remove the declaration of {quoted(name)}", edits)
+    return Candidate("declaration-removal", f"{DECLARATION}{quoted(name)}", edits)
 
 
 def without_name(ruleset: Ruleset, declaration: Declaration, at: int) -> tuple[TextEdit, ...]:

@@ -23,7 +23,7 @@ def names(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         written = ruleset.source.text[slice(*finding.span)]
         places = f" in {counted(len(changes), 'place')}" if len(changes) > 1 else ""
         operator: Operator = "renaming" if finding.code == _SIMILAR else "canonical-form"
-        yield Candidate(operator, f"write {quoted(changes[0][1])} for {quoted(written)}{places}", edits)
+        yield Candidate(operator, f"replace {quoted(written)} with {quoted(changes[0][1])}{places}", edits)
 
 
 def _edits(ruleset: Ruleset, place: Span, text: str) -> tuple[TextEdit, ...]:

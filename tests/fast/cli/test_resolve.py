@@ -48,7 +48,8 @@ def test_each_conflict_is_resolved_and_recorded(answer: Answer, tmp_path: Path) 
 def test_the_situation_and_the_effects_are_shown(answer: Answer) -> None:
     shown = answer("quit").output
     assert "situation: When `CurtainsRequested` occurs, `RoomStuffy` is true and `UserUndressed` is true" in shown
-    assert f"  {AIR}\n     instead of the conflict: `NOT OpenCurtains`; nothing else changes\n" in shown
+    effect = "in the situation of the conflict, the rules then require `NOT OpenCurtains`; nothing else changes"
+    assert f"  {AIR}\n     {effect}\n" in shown
 
 
 def test_skip_goes_to_the_next_conflict(answer: Answer, tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ def test_an_obligation_changes_at_all_its_places(code: str) -> None:
     text = TEXT.format(wrong, wrong)
     (repair,) = repairs_of(text, code)
     assert repair.candidate.operator == "canonical-form"
-    assert repair.candidate.title == f"write `{right}` for `{wrong}` in 2 places"
+    assert repair.candidate.title == f"replace `{wrong}` with `{right}` in 2 places"
     assert texts_after(text, [repair]) == [TEXT.format(right, right)]
 
 

@@ -39,9 +39,10 @@ def repair(text: str, code: str, title: str) -> Repair:
     return next(one for f in found for one in search.repairs(f) if re.fullmatch(title, one.candidate.title))
 
 
-INSTEAD = "instead of the conflict: `NOT Speak`"
-SHORTER = "instead of the conflict: `Rise` and `NOT Speak`; rule `a`, in 1 of 2 situations in which `Bell` occurs: "
-REMOVED = "instead of the conflict: `NOT Speak`; 1 other conflict is resolved; rule `a`, in 1 of 4 situations in which "
+HERE = "in the situation of the conflict, the rules then require"
+INSTEAD = f"{HERE} `NOT Speak`"
+SHORTER = f"{HERE} `Rise` and `NOT Speak`; rule `a`, in 1 of 2 situations in which `Bell` occurs: "
+REMOVED = f"{HERE} `NOT Speak`; 1 other conflict is resolved; rule `a`, in 1 of 4 situations in which "
 
 
 @pytest.mark.parametrize(
